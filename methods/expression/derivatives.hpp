@@ -1,0 +1,17 @@
+#pragma once
+
+#include "methods/expression/vectors.hpp"
+
+namespace dmocbench {
+
+/// ∂f/∂x_i for every entry of `x`, which must be inputs. Reverse mode on the graph: the result is again a graph.
+/// Throws `Error` if an entry of `x` is not an input.
+[[nodiscard]] ExpressionVector gradient(const Expression& f, const ExpressionVector& x);
+
+/// ∂f_i/∂x_j, rows × x.size(). Entries that are the constant 0 are structural zeros.
+[[nodiscard]] ExpressionMatrix jacobian(const ExpressionVector& f, const ExpressionVector& x);
+
+/// ∂²f/∂x_i∂x_j, symmetric; entry (i, j) and (j, i) are the same node.
+[[nodiscard]] ExpressionMatrix hessian(const Expression& f, const ExpressionVector& x);
+
+}  // namespace dmocbench

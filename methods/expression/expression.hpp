@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "methods/expression/operation.hpp"
+
+namespace dmocbench {
+
+namespace detail {
+class Node;
+void retain(Node* node) noexcept;
+void release(Node* node) noexcept;
+}  // namespace detail
+
+/// A traced real number: a value type that records how it was computed instead of what it is.
+///
+/// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same node),
+/// and what can be known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric factors,
+/// signs, and a factor that meets its own reciprocal. A structural zero therefore never costs anything, and "NaN
+/// passes" holds for the inputs that the folded graph still reads.
+///
+/// A graph belongs to the thread that traces it. Two threads may trace at the same time; mixing expressions of two
+/// threads throws `Error`. Memory is returned when the last expression that reads a node is gone.
+///
+/// Expressions cannot be compared: a traced formula that branches on a value would be traced on one side only.
+class Expression {
+ public:
+  /// The constant 0.
+  Expression();
+  /// The constant `value`.
+  Expression(double value);  // NOLINT(google-explicit-constructor,hicpp-explicit-conversions): 2.0 * x must read so
+  Expression(const Expression& other) noexcept : node_(other.node_) { detail::retain(node_); }
+  Expression(Expression&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
+  Expression& operator=(Expression other) noexcept {
+    std::swap(node_, other.node_);
+    return *this;
+  }
+  ~Expression() { detail::release(node_); }
+
+  /// The independent variable number `index`: the same number is the same variable in every formula of a thread.
+  [[nodiscard]] static Expression input(std::size_t index);
+
+  /// The value if this is a constant.
+  [[nodiscard]] std::optional<double> constant_value() const noexcept;
+  /// True if this is the constant 0: a structural zero.
+  [[nodiscard]] bool is_zero() const noexcept { return constant_value() == 0.0; }
+  /// True if both are the very same node, hence the same formula.
+  [[nodiscard]] bool is_same(const Expression& other) const noexcept { return node_ == other.node_; }
+
+  Expression& operator+=(const Expression& right);
+  Expression& operator-=(const Expression& right);
+  Expression& operator*=(const Expression& right);
+  Expression& operator/=(const Expression& right);
+
+  /// The graph's node; for the algorithms of this folder.
+  [[nodiscard]] detail::Node* node() const noexcept { return node_; }
+  /// Wraps a node; for the algorithms of this folder.
+  explicit Expression(detail::Node* node) noexcept : node_(node) { detail::retain(node_); }
+
+ private:
+  detail::Node* node_;
+};
+
+[[nodiscard]] Expression operator+(const Expression& left, const Expression& right);
+[[nodiscard]] Expression operator-(const Expression& left, const Expression& right);
+[[nodiscard]] Expression operator*(const Expression& left, const Expression& right);
+[[nodiscard]] Expression operator/(const Expression& left, const Expression& right);
+[[nodiscard]] Expression operator-(const Expression& operand);
+[[nodiscard]] Expression operator+(const Expression& operand);
+
+[[nodiscard]] Expression sqrt(const Expression& x);
+[[nodiscard]] Expression exp(const Expression& x);
+[[nodiscard]] Expression log(const Expression& x);
+[[nodiscard]] Expression sin(const Expression& x);
+[[nodiscard]] Expression cos(const Expression& x);
+[[nodiscard]] Expression tan(const Expression& x);
+[[nodiscard]] Expression asin(const Expression& x);
+[[nodiscard]] Expression acos(const Expression& x);
+[[nodiscard]] Expression atan(const Expression& x);
+/// The angle of the point (x, y), as std::atan2.
+[[nodiscard]] Expression atan2(const Expression& y, const Expression& x);
+[[nodiscard]] Expression sinh(const Expression& x);
+[[nodiscard]] Expression cosh(const Expression& x);
+[[nodiscard]] Expression tanh(const Expression& x);
+/// x to a constant exponent. Integers up to 16 in magnitude are products, ±1/2 is a square root.
+[[nodiscard]] Expression pow(const Expression& x, double exponent);
+
+// A traced formula cannot branch on a value: these do not compile.
+bool operator==(const Expression&, const Expression&) = delete;
+bool operator!=(const Expression&, const Expression&) = delete;
+bool operator<(const Expression&, const Expression&) = delete;
+bool operator<=(const Expression&, const Expression&) = delete;
+bool operator>(const Expression&, const Expression&) = delete;
+bool operator>=(const Expression&, const Expression&) = delete;
+
+/// Number of nodes alive on this thread, constants and inputs among them.
+[[nodiscard]] std::size_t live_nodes() noexcept;
+
+}  // namespace dmocbench

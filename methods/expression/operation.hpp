@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace dmocbench {
+
+/// What a node of a traced formula does with its operands.
+///
+/// A quotient a / b is recorded as a · (1 / b), so that every formula that divides by b shares one division; `Schedule`
+/// writes it as a quotient again where the reciprocal has a single reader.
+enum class Operation : std::uint8_t {
+  constant,
+  input,
+  add,
+  subtract,
+  multiply,
+  divide,
+  negate,
+  reciprocal,
+  square_root,
+  exponential,
+  logarithm,
+  sine,
+  cosine,
+  tangent,
+  arc_sine,
+  arc_cosine,
+  arc_tangent,
+  arc_tangent2,
+  hyperbolic_sine,
+  hyperbolic_cosine,
+  hyperbolic_tangent,
+  power,
+};
+
+/// Number of operands: 0 for constants and inputs, 1 or 2 otherwise. `power` has 1; its exponent is part of the node.
+[[nodiscard]] constexpr std::size_t operand_count(Operation operation) noexcept {
+  switch (operation) {
+    case Operation::constant:
+    case Operation::input:
+      return 0;
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+    case Operation::divide:
+    case Operation::arc_tangent2:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+/// The operation's name as a formula spells it ("+", "sin", ...).
+[[nodiscard]] std::string_view name_of(Operation operation) noexcept;
+
+}  // namespace dmocbench

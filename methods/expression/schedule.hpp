@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/expression/vectors.hpp"
+
+namespace dmocbench {
+
+/// The operations needed for given outputs, in an order in which they can be carried out.
+///
+/// Plain data, free of the graph: it may go to another thread and outlives the expressions it came from. `replay` runs
+/// it on any scalar, `Tape` on many intervals at once.
+class Schedule {
+ public:
+  /// One value of the schedule. `left` and `right` are positions of earlier steps.
+  struct Step {
+    Operation operation = Operation::constant;
+    std::uint32_t left = 0;
+    std::uint32_t right = 0;
+    double value = 0.0;           ///< of a constant, or the exponent of a power
+    std::size_t input_index = 0;  ///< of an input
+  };
+
+  Schedule() = default;
+  explicit Schedule(std::span<const Expression> outputs);
+  explicit Schedule(const ExpressionVector& outputs);
+
+  [[nodiscard]] const std::vector<Step>& steps() const noexcept { return steps_; }
+  /// Positions of the outputs among the steps, in the order they were asked for.
+  [[nodiscard]] const std::vector<std::uint32_t>& outputs() const noexcept { return outputs_; }
+  /// One more than the largest number of an input that is read; 0 if none is.
+  [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }
+  /// Steps that compute: all but constants and inputs.
+  [[nodiscard]] std::size_t operation_count() const noexcept;
+
+ private:
+  std::vector<Step> steps_;
+  std::vector<std::uint32_t> outputs_;
+  std::size_t input_count_ = 0;
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "methods/expression/instruction_set.hpp"
+#include "methods/expression/schedule.hpp"
+#include "methods/expression/tape_kernel.hpp"
+
+namespace dmocbench {
+
+/// A schedule made ready to be evaluated over all intervals of a grid.
+///
+/// The same straight-line code is carried out for a block of intervals at a time: every instruction is a loop over
+/// `block_width` numbers that become vector instructions. Values live in slots that are reused as soon as a value is
+/// dead, so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with a
+/// `Workspace` of its own.
+class Tape {
+ public:
+  /// Intervals evaluated together.
+  static constexpr std::size_t block_width = tape_block_width;
+
+  /// Where an input's values are: entry k for interval k, or one value for all intervals.
+  struct Input {
+    const double* data = nullptr;
+    bool same_for_all = false;
+  };
+
+  /// The memory of one evaluation: slots, constants and the table of columns. Not to be shared between threads.
+  class Workspace {
+   public:
+    explicit Workspace(const Tape& tape);
+
+   private:
+    friend class Tape;
+    std::vector<double> slots_;
+    std::vector<double*> columns_;
+  };
+
+  Tape() = default;
+  explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set());
+
+  /// Evaluates intervals 0 .. count - 1.
+  ///
+  /// `inputs[i]` is read where the schedule reads input i, at entries below `count` only; inputs the schedule does not
+  /// read may be null. `outputs[j]` receives `count` values. Outputs must not overlap inputs or each other. Allocates
+  /// nothing. Throws `Error` if there are too few inputs or outputs or the workspace is another tape's.
+  void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
+                Workspace& workspace) const;
+
+  [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }
+  [[nodiscard]] std::size_t output_count() const noexcept { return output_count_; }
+  /// Instructions per interval that compute (copies of inputs or constants to outputs are not counted).
+  [[nodiscard]] std::size_t operation_count() const noexcept { return operation_count_; }
+  /// Columns of `block_width` numbers that intermediate values need.
+  [[nodiscard]] std::size_t slot_count() const noexcept { return slot_count_; }
+  [[nodiscard]] InstructionSet instruction_set() const noexcept { return set_; }
+
+ private:
+  struct ReadInput {
+    std::uint32_t column;  // its place in the table of columns
+    std::size_t index;     // its number among the inputs
+  };
+
+  void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
+                      Workspace& workspace) const;
+
+  // The table of columns: first the slots, then the constants, then the inputs that are read, then the outputs.
+  std::vector<TapeInstruction> instructions_;
+  std::vector<double> constants_;
+  std::vector<ReadInput> read_inputs_;
+  std::size_t slot_count_ = 0;
+  std::size_t input_count_ = 0;
+  std::size_t output_count_ = 0;
+  std::size_t operation_count_ = 0;
+  InstructionSet set_ = InstructionSet::baseline;
+};
+
+}  // namespace dmocbench

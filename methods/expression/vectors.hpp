@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "methods/expression/expression.hpp"
+
+/// What Eigen has to know of a traced number.
+template <>
+struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocbench::Expression> {
+  using Real = dmocbench::Expression;
+  using NonInteger = dmocbench::Expression;
+  using Nested = dmocbench::Expression;
+  using Literal = double;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 3,
+    MulCost = 3
+  };
+};
+
+namespace dmocbench {
+
+/// A column of traced numbers.
+using ExpressionVector = Eigen::Matrix<Expression, Eigen::Dynamic, 1>;
+/// A table of traced numbers; an entry that is the constant 0 is a structural zero.
+using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// `count` consecutive inputs, the first with number `first`.
+[[nodiscard]] inline ExpressionVector input_vector(std::size_t first, Eigen::Index count) {
+  ExpressionVector inputs(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    inputs[i] = Expression::input(first + static_cast<std::size_t>(i));
+  }
+  return inputs;
+}
+
+}  // namespace dmocbench
