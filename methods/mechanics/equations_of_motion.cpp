@@ -1,0 +1,31 @@
+#include "methods/mechanics/equations_of_motion.hpp"
+
+#include <Eigen/LU>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+EquationsOfMotion::EquationsOfMotion(const TracedProblem& problem)
+    : n_(problem.configuration_size()),
+      function_(n_, problem.control_size(),
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = problem.at(x);
+                  ExpressionVector right_hand_side = values.generalised_force - values.momentum_by_time;
+                  right_hand_side -= values.momentum_by_configuration * x.v;
+                  ExpressionVector outputs(n_ + n_ * n_);
+                  outputs << right_hand_side, values.mass.reshaped();
+                  return outputs;
+                }),
+      values_(function_.output_count()) {}
+
+Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                                const Eigen::Ref<const Eigen::VectorXd>& v,
+                                                const Eigen::Ref<const Eigen::VectorXd>& u, double t) {
+  function_.evaluate(q, v, u, t, values_);
+  const Eigen::FullPivLU<Eigen::MatrixXd> mass(values_.tail(n_ * n_).reshaped(n_, n_));
+  if (!mass.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+  return mass.solve(values_.head(n_));
+}
+
+}  // namespace dmocbench

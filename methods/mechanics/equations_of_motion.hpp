@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+/// The forced Euler-Lagrange equations (eq:varmech_FEL), solved for the acceleration:
+/// L_vv q̈ = L_q + f - L_vq q̇ - L_vt.
+class EquationsOfMotion {
+ public:
+  explicit EquationsOfMotion(const TracedProblem& problem);
+
+  /// q̈ at (q, v) under the control u at time t, n entries. Throws `Error` if L_vv is singular there.
+  [[nodiscard]] Eigen::VectorXd acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                             const Eigen::Ref<const Eigen::VectorXd>& v,
+                                             const Eigen::Ref<const Eigen::VectorXd>& u, double t);
+
+ private:
+  Eigen::Index n_;
+  PointFunction function_;  // outputs: the right-hand side, then L_vv column by column
+  Eigen::VectorXd values_;
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,57 @@
+#include "methods/mechanics/legendre_transform.hpp"
+
+#include <Eigen/LU>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+LegendreTransform::LegendreTransform(const TracedProblem& problem)
+    : n_(problem.configuration_size()),
+      function_(n_, problem.control_size(),
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = problem.at(x);
+                  ExpressionVector outputs(n_ + 2 * n_ * n_);
+                  outputs << values.momentum, values.mass.reshaped(), values.momentum_by_configuration.reshaped();
+                  return outputs;
+                }),
+      values_(function_.output_count()) {}
+
+void LegendreTransform::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+  function_.evaluate(q, v, Eigen::VectorXd(), t, values_);
+}
+
+Eigen::VectorXd LegendreTransform::momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+  evaluate(q, v, t);
+  return values_.head(n_);
+}
+
+Eigen::MatrixXd LegendreTransform::mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+  evaluate(q, v, t);
+  return values_.segment(n_, n_ * n_).reshaped(n_, n_);
+}
+
+Eigen::MatrixXd LegendreTransform::momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                             double t) {
+  evaluate(q, v, t);
+  return values_.tail(n_ * n_).reshaped(n_, n_);
+}
+
+Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
+                                            const Eigen::VectorXd& start) {
+  constexpr int most_steps = 50;
+  constexpr double tolerance = 1e-14;
+  Eigen::VectorXd v = start;
+  for (int step = 0; step < most_steps; ++step) {
+    evaluate(q, v, t);
+    const Eigen::VectorXd residual = p - values_.head(n_);
+    const Eigen::FullPivLU<Eigen::MatrixXd> mass(values_.segment(n_, n_ * n_).reshaped(n_, n_));
+    if (!mass.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    const Eigen::VectorXd correction = mass.solve(residual);
+    v += correction;
+    if (correction.norm() <= tolerance * (1.0 + v.norm())) return v;
+  }
+  throw Error("the inverse Legendre transform did not converge; is the Lagrangian convex in the velocity?");
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,48 @@
+#include "methods/mechanics/point_function.hpp"
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+Tape trace(Eigen::Index n, Eigen::Index m, const std::function<ExpressionVector(const ControlledState&)>& formulas) {
+  const auto first_velocity = static_cast<std::size_t>(n);
+  const auto first_control = 2 * first_velocity;
+  const auto time = first_control + static_cast<std::size_t>(m);
+  return Tape(Schedule(formulas({input_vector(0, n), input_vector(first_velocity, n), input_vector(first_control, m),
+                                 Expression::input(time)})));
+}
+
+}  // namespace
+
+PointFunction::PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
+                             const std::function<ExpressionVector(const ControlledState&)>& formulas)
+    : n_(configuration_size),
+      m_(control_size),
+      tape_(trace(n_, m_, formulas)),
+      workspace_(tape_),
+      point_(2 * n_ + m_ + 1),
+      outputs_(tape_.output_count()) {
+  for (const double& entry : point_) inputs_.push_back({&entry, false});
+}
+
+void PointFunction::evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
+                             const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                             Eigen::Ref<Eigen::VectorXd> result) {
+  if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || result.size() != output_count()) {
+    throw Error("a point function got vectors of the wrong size");
+  }
+  point_.head(n_) = q;
+  point_.segment(n_, n_) = v;
+  if (u.size() == 0) {
+    point_.segment(2 * n_, m_).setZero();
+  } else {
+    point_.segment(2 * n_, m_) = u;
+  }
+  point_[2 * n_ + m_] = t;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = result.data() + i;
+  tape_.evaluate(1, inputs_, outputs_, workspace_);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "methods/expression/tape.hpp"
+#include "methods/mechanics/state.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+/// Formulas of a point (q, v, u, t) of the motion, evaluated on numbers, one point at a time.
+class PointFunction {
+ public:
+  /// `formulas` is called once with the traced point; the entries of what it returns are the outputs.
+  PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
+                const std::function<ExpressionVector(const ControlledState&)>& formulas);
+  // The tape's inputs point into this object.
+  PointFunction(const PointFunction&) = delete;
+  PointFunction& operator=(const PointFunction&) = delete;
+  PointFunction(PointFunction&&) = delete;
+  PointFunction& operator=(PointFunction&&) = delete;
+  ~PointFunction() = default;
+
+  /// The outputs at a point; `result` has `output_count()` entries. An empty `u` stands for u = 0.
+  void evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
+                const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result);
+
+  [[nodiscard]] Eigen::Index output_count() const noexcept { return static_cast<Eigen::Index>(outputs_.size()); }
+
+ private:
+  Eigen::Index n_;
+  Eigen::Index m_;
+  Tape tape_;
+  Tape::Workspace workspace_;
+  Eigen::VectorXd point_;
+  std::vector<Tape::Input> inputs_;
+  std::vector<double*> outputs_;
+};
+
+}  // namespace dmocbench

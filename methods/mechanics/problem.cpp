@@ -1,0 +1,65 @@
+#include "methods/mechanics/problem.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
+  for (const Parameter& parameter : parameters_) parameter.check(parameter.value);
+}
+
+Eigen::Index Problem::configuration_size() const {
+  return static_cast<Eigen::Index>(configuration_names().size());
+}
+
+Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(control_names().size()); }
+
+std::optional<ExpressionVector> Problem::symmetry(const ExpressionVector& /*q*/) const { return std::nullopt; }
+
+MotionPoint Problem::guess(double t) const {
+  const BoundaryState first = initial_state();
+  const BoundaryState last = final_state();
+  const double relative = t / horizon();
+  return {.q = first.q + relative * (last.q - first.q),
+          .v = (last.q - first.q) / horizon(),
+          .u = Eigen::VectorXd::Zero(control_size())};
+}
+
+std::string Problem::guess_description() const {
+  return "q on the straight line from q(0) to q(T), v its slope, u = 0";
+}
+
+std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
+  std::vector<PictureQuantity> quantities;
+  const auto add = [&](const std::vector<std::string>& names, const ExpressionVector& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      quantities.push_back({names[i], "", values[static_cast<Eigen::Index>(i)]});
+    }
+  };
+  add(configuration_names(), x.q);
+  add(control_names(), x.u);
+  return quantities;
+}
+
+std::size_t Problem::parameter_index(std::string_view name) const {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& parameter) { return parameter.name == name; });
+  if (found != parameters_.end()) return static_cast<std::size_t>(found - parameters_.begin());
+  std::string known;
+  for (const Parameter& parameter : parameters_) known += (known.empty() ? "" : ", ") + parameter.name;
+  throw Error(this->name() + " has no parameter \"" + std::string(name) + "\"; it has " +
+              (known.empty() ? "none" : known));
+}
+
+double Problem::parameter(std::string_view name) const { return parameters_[parameter_index(name)].value; }
+
+void Problem::set_parameter(std::string_view name, double value) {
+  Parameter& parameter = parameters_[parameter_index(name)];
+  parameter.check(value);
+  parameter.value = value;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/expression/vectors.hpp"
+
+namespace dmocbench {
+
+/// A point of the tangent space at a time, as traced numbers: what a Lagrangian is a function of.
+struct State {
+  ExpressionVector q;  ///< configuration, n entries
+  ExpressionVector v;  ///< velocity q̇, n entries
+  Expression t;        ///< time
+};
+
+/// A state and the control acting there: what forces and running costs are functions of.
+struct ControlledState {
+  ExpressionVector q;  ///< configuration, n entries
+  ExpressionVector v;  ///< velocity q̇, n entries
+  ExpressionVector u;  ///< control, m entries
+  Expression t;        ///< time
+
+  [[nodiscard]] State state() const { return {q, v, t}; }
+};
+
+/// Configuration and velocity at an end of the horizon, as numbers.
+struct BoundaryState {
+  Eigen::VectorXd q;  ///< n entries
+  Eigen::VectorXd v;  ///< n entries
+};
+
+/// A point of a motion, as numbers.
+struct MotionPoint {
+  Eigen::VectorXd q;  ///< configuration, n entries
+  Eigen::VectorXd v;  ///< velocity, n entries
+  Eigen::VectorXd u;  ///< control, m entries
+};
+
+}  // namespace dmocbench

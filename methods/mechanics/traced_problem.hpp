@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "methods/expression/schedule.hpp"
+#include "methods/expression/vectors.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/state.hpp"
+
+namespace dmocbench {
+
+/// A problem's formulas, traced once, with the derivatives that equations of motion are made of.
+///
+/// Every formula is a function of one point (q, v, u, t); `at` substitutes the formulas of an element for the point.
+class TracedProblem {
+ public:
+  /// The formulas at one point.
+  struct Values {
+    ExpressionVector momentum;       ///< p = L_v, n entries (Legendre transform)
+    ExpressionVector generalised_force;  ///< L_q + f, n entries: what ṗ is equal to
+    ExpressionVector configuration_force;  ///< L_q, n entries
+    ExpressionVector control_force;  ///< f, n entries
+    Expression running_cost;         ///< C
+    ExpressionMatrix mass;           ///< L_vv, n × n
+    ExpressionMatrix momentum_by_configuration;  ///< L_vq, n × n: ∂(L_v)_i/∂q_j
+    ExpressionVector momentum_by_time;           ///< L_vt, n entries
+    ExpressionVector symmetry;           ///< ξ(q), n entries, empty without symmetry
+    ExpressionMatrix symmetry_jacobian;  ///< Dξ(q), n × n, empty without symmetry
+  };
+
+  /// Calls each formula of the problem once. Throws `Error` that names the formula if a dimension is wrong or the
+  /// Lagrangian does not depend on a velocity.
+  explicit TracedProblem(const Problem& problem);
+
+  [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }
+  [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }
+  [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
+
+  /// All formulas with the given point substituted.
+  [[nodiscard]] Values at(const ControlledState& point) const;
+  /// The same at a state where no control acts on what is asked for (momentum, mass, symmetry): u = 0.
+  [[nodiscard]] Values at(const State& point) const;
+
+ private:
+  Eigen::Index n_;
+  Eigen::Index m_;
+  bool has_symmetry_ = false;
+  Schedule schedule_;
+};
+
+}  // namespace dmocbench

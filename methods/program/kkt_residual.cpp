@@ -1,0 +1,82 @@
+#include "methods/program/kkt_residual.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void require_size(Eigen::Index actual, std::size_t wanted, const char* what) {
+  if (static_cast<std::size_t>(actual) != wanted) {
+    throw Error(std::string("the residual needs ") + std::to_string(wanted) + " " + what + ", got " +
+                std::to_string(actual));
+  }
+}
+
+/// The larger of both; NaN wins, so that it cannot hide.
+double largest(double a, double b) { return std::isnan(b) ? b : std::max(a, b); }
+
+double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    worst = largest(worst, std::max(lower[i] - x[i], x[i] - upper[i]));
+    if (std::isnan(x[i])) return x[i];
+  }
+  return worst;
+}
+
+/// How far x is from being a minimiser of `slope` · x within its bounds: the projected gradient.
+double projected(double slope, double x, double lower, double upper) {
+  return std::abs(x - std::clamp(x - slope, lower, upper));
+}
+
+/// Stationarity of row i: an equality's multiplier is free; an inequality's pushes away from the bound it is at.
+double row_stationarity(double multiplier, double row, double lower, double upper) {
+  return lower == upper ? 0.0 : projected(-multiplier, std::clamp(row, lower, upper), lower, upper);
+}
+
+}  // namespace
+
+KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  require_size(multipliers.size(), program.constraint_count(), "multipliers");
+  KktResidual residual;
+  residual.constraint_violation = constraint_violation(program, primal);
+
+  Eigen::VectorXd slope(primal.size());
+  program.gradient(primal, slope);
+  const SparsityPattern& pattern = program.jacobian_structure();
+  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(pattern.size()));
+  program.jacobian(primal, jacobian);
+  for (std::size_t e = 0; e < pattern.size(); ++e) {
+    slope[pattern.columns[e]] += jacobian[static_cast<Eigen::Index>(e)] * multipliers[pattern.rows[e]];
+  }
+  for (Eigen::Index i = 0; i < primal.size(); ++i) {
+    const double lower = program.variable_lower()[i];
+    const double upper = program.variable_upper()[i];
+    if (lower == upper) continue;
+    residual.stationarity =
+        largest(residual.stationarity, projected(slope[i], std::clamp(primal[i], lower, upper), lower, upper));
+  }
+  Eigen::VectorXd rows(multipliers.size());
+  program.constraints(primal, rows);
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    residual.stationarity =
+        largest(residual.stationarity, row_stationarity(multipliers[i], rows[i], program.constraint_lower()[i],
+                                                        program.constraint_upper()[i]));
+  }
+  return residual;
+}
+
+double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
+  program.constraints(primal, rows);
+  return largest(outside(rows, program.constraint_lower(), program.constraint_upper()),
+                 outside(primal, program.variable_lower(), program.variable_upper()));
+}
+
+}  // namespace dmocbench

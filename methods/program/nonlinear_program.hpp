@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "methods/program/interval_structure.hpp"
+
+namespace dmocbench {
+
+/// "No bound" on one side.
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Where the entries of a sparse matrix are; entry e stands at (rows[e], columns[e]). No position occurs twice.
+struct SparsityPattern {
+  std::vector<int> rows;
+  std::vector<int> columns;
+  [[nodiscard]] std::size_t size() const noexcept { return rows.size(); }
+};
+
+/// A nonlinear program, (NLP) of the paper with constants in the bounds:
+///
+///   minimise φ(ξ)  such that  a⁻ <= a(ξ) <= a⁺,  ξ⁻ <= ξ <= ξ⁺.
+///
+/// An equality is a row whose two bounds are equal; a variable whose two bounds are equal is fixed. The Lagrangian is
+/// σφ + λᵀa: multipliers carry the sign that makes ∇φ + (∂a/∂ξ)ᵀλ vanish in the directions of the free variables.
+///
+/// Sizes, bounds and structures never change. Evaluations allocate nothing; they are not to be called from two threads at
+/// once.
+class NonlinearProgram {
+ public:
+  virtual ~NonlinearProgram() = default;
+  NonlinearProgram(const NonlinearProgram&) = delete;
+  NonlinearProgram& operator=(const NonlinearProgram&) = delete;
+  NonlinearProgram(NonlinearProgram&&) = delete;
+  NonlinearProgram& operator=(NonlinearProgram&&) = delete;
+
+  [[nodiscard]] virtual std::size_t variable_count() const = 0;
+  [[nodiscard]] virtual std::size_t constraint_count() const = 0;
+
+  // variable_count() and constraint_count() entries.
+  [[nodiscard]] virtual const Eigen::VectorXd& variable_lower() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& variable_upper() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& constraint_lower() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& constraint_upper() const = 0;
+
+  /// ∂a_i/∂ξ_j.
+  [[nodiscard]] virtual const SparsityPattern& jacobian_structure() const = 0;
+  /// Lower triangle (row >= column) of the Hessian of the Lagrangian.
+  [[nodiscard]] virtual const SparsityPattern& hessian_structure() const = 0;
+
+  [[nodiscard]] virtual double objective(std::span<const double> x) = 0;
+  /// `result`: variable_count() entries.
+  virtual void gradient(std::span<const double> x, std::span<double> result) = 0;
+  /// `result`: constraint_count() entries.
+  virtual void constraints(std::span<const double> x, std::span<double> result) = 0;
+  /// `values`: one per entry of jacobian_structure().
+  virtual void jacobian(std::span<const double> x, std::span<double> values) = 0;
+  /// Hessian of objective_factor · φ + λᵀa; `values`: one per entry of hessian_structure().
+  virtual void hessian(std::span<const double> x, double objective_factor, std::span<const double> multipliers,
+                       std::span<double> values) = 0;
+
+  /// The size below which residuals of this program are rounding: about ε · (size of the terms of a row).
+  [[nodiscard]] virtual double rounding_floor() const { return 0.0; }
+
+  /// How unknowns and rows belong to the intervals of a grid; null if the program has no such structure.
+  [[nodiscard]] virtual const IntervalStructure* interval_structure() const { return nullptr; }
+
+ protected:
+  NonlinearProgram() = default;
+};
+
+/// Number of variables whose two bounds differ.
+[[nodiscard]] inline std::size_t free_variable_count(const NonlinearProgram& program) {
+  return static_cast<std::size_t>(
+      (program.variable_lower().array() != program.variable_upper().array()).count());
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "methods/program/status.hpp"
+
+namespace dmocbench {
+
+/// What a solver returns, whether or not it succeeded.
+struct Solution {
+  Status status = Status::not_run;
+  std::string message;          ///< one sentence: what happened
+  Eigen::VectorXd primal;       ///< ξ, variable_count() entries; empty if the solver never started
+  Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if the solver gives none
+  double objective = 0.0;       ///< φ at `primal`, as the solver saw it (scaled)
+
+  // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
+  std::optional<double> kkt_residual;          ///< none without multipliers
+  std::optional<double> constraint_violation;  ///< none if the solver never started
+
+  // Counts; none where a solver does not tell them.
+  std::optional<int> major_iterations;
+  std::optional<int> minor_iterations;
+  std::optional<int> evaluations;
+
+  double seconds = 0.0;             ///< wall clock of the solver call alone
+  double evaluation_seconds = 0.0;  ///< the part of it spent in the program's evaluations
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,56 @@
+#include "methods/program/status.hpp"
+
+#include <array>
+
+namespace dmocbench {
+
+namespace {
+
+struct Entry {
+  Status status;
+  std::string_view name;
+  std::string_view sentence;
+};
+
+constexpr std::array entries{
+    Entry{Status::not_run, "not run", "No solver has been called."},
+    Entry{Status::solved, "solved", "KKT residual and constraint violation are below the tolerance."},
+    Entry{Status::acceptable, "acceptable",
+          "The solver could not reach the tolerance, but came within a hundred times of it."},
+    Entry{Status::infeasible, "infeasible",
+          "The solver converged to a point where the constraints cannot be met any better."},
+    Entry{Status::diverged, "diverged", "The iterates grew without bound."},
+    Entry{Status::step_failed, "step failed", "The solver could not find a further step."},
+    Entry{Status::evaluation_failed, "evaluation failed", "A formula gave NaN or infinity."},
+    Entry{Status::iteration_limit, "iteration limit", "The largest allowed number of iterations was reached."},
+    Entry{Status::time_limit, "time limit", "The allowed time was used up."},
+    Entry{Status::interrupted, "interrupted", "The solve was stopped from outside."},
+    Entry{Status::too_large, "too large", "The solver refuses a program of this size."},
+    Entry{Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
+    Entry{Status::out_of_memory, "out of memory", "The solver could not allocate what it needs."},
+    Entry{Status::solver_error, "solver error", "The solver reported an internal error."},
+    Entry{Status::not_confirmed, "not confirmed",
+          "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
+};
+
+constexpr const Entry& entry_of(Status status) {
+  for (const Entry& entry : entries) {
+    if (entry.status == status) return entry;
+  }
+  return entries[0];
+}
+
+}  // namespace
+
+std::string_view name_of(Status status) noexcept { return entry_of(status).name; }
+
+std::string_view sentence_of(Status status) noexcept { return entry_of(status).sentence; }
+
+Status status_named(std::string_view name) noexcept {
+  for (const Entry& entry : entries) {
+    if (entry.name == name) return entry.status;
+  }
+  return Status::not_run;
+}
+
+}  // namespace dmocbench

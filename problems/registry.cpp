@@ -1,0 +1,44 @@
+#include "problems/registry.hpp"
+
+#include <array>
+
+#include "methods/error.hpp"
+#include "problems/orbital_transfer.hpp"
+#include "problems/two_link_manipulator.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+template <class Type>
+std::unique_ptr<Problem> make() {
+  return std::make_unique<Type>();
+}
+
+using Maker = std::unique_ptr<Problem> (*)();
+
+// One line per problem.
+constexpr std::array registry{
+    Maker{make<OrbitalTransfer>},
+    Maker{make<TwoLinkManipulator>},
+};
+
+}  // namespace
+
+std::vector<std::string> problem_names() {
+  std::vector<std::string> names;
+  for (const Maker create : registry) names.push_back(create()->name());
+  return names;
+}
+
+std::unique_ptr<Problem> make_problem(std::string_view name) {
+  std::string known;
+  for (const Maker create : registry) {
+    auto problem = create();
+    if (problem->name() == name) return problem;
+    known += (known.empty() ? "" : ", ") + problem->name();
+  }
+  throw Error("there is no problem \"" + std::string(name) + "\"; choose one of " + known);
+}
+
+}  // namespace dmocbench
