@@ -44,12 +44,12 @@ std::vector<Node*> active_nodes(const Expression& f, const std::unordered_set<No
 
 /// ∂(node)/∂(operand number `which`), as a graph of the node and its operands.
 Expression partial_derivative(Node* node, std::size_t which) {
-  const Expression result(node);
-  const Expression x(node->operand(0));
+  const Expression result = Expression::of_node(node);
+  const Expression x = Expression::of_node(node->operand(0));
   switch (node->operation()) {
     case Operation::add: return 1.0;
     case Operation::subtract: return which == 0 ? 1.0 : -1.0;
-    case Operation::multiply: return Expression(node->operand(1 - which));
+    case Operation::multiply: return Expression::of_node(node->operand(1 - which));
     case Operation::negate: return -1.0;
     case Operation::reciprocal: return -(result * result);
     case Operation::square_root: return 0.5 / result;
@@ -62,7 +62,7 @@ Expression partial_derivative(Node* node, std::size_t which) {
     case Operation::arc_cosine: return -1.0 / sqrt(1.0 - x * x);
     case Operation::arc_tangent: return 1.0 / (1.0 + x * x);
     case Operation::arc_tangent2: {
-      const Expression other(node->operand(1));  // atan2(x, other)
+      const Expression other = Expression::of_node(node->operand(1));  // atan2(x, other)
       const Expression squared_radius = x * x + other * other;
       return which == 0 ? other / squared_radius : -x / squared_radius;
     }

@@ -16,7 +16,7 @@ using detail::NodeKey;
 using detail::NodeTable;
 
 Expression make(const NodeKey& key) {
-  return Expression(NodeTable::of_this_thread().find_or_create(key));
+  return Expression::of_node(NodeTable::of_this_thread().find_or_create(key));
 }
 
 Expression make(Operation operation, const Expression& x) {
@@ -30,7 +30,7 @@ Expression make(Operation operation, const Expression& left, const Expression& r
 bool is(const Expression& x, Operation operation) { return x.node()->operation() == operation; }
 
 Expression operand(const Expression& x, std::size_t which = 0) {
-  return Expression(x.node()->operand(which));
+  return Expression::of_node(x.node()->operand(which));
 }
 
 bool created_before(const Expression& a, const Expression& b) {

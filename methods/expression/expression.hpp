@@ -57,10 +57,12 @@ class Expression {
 
   /// The graph's node; for the algorithms of this folder.
   [[nodiscard]] detail::Node* node() const noexcept { return node_; }
-  /// Wraps a node; for the algorithms of this folder.
-  explicit Expression(detail::Node* node) noexcept : node_(node) { detail::retain(node_); }
+  /// The expression that a node stands for; for the algorithms of this folder.
+  [[nodiscard]] static Expression of_node(detail::Node* node) noexcept { return {node, Wrap{}}; }
 
  private:
+  struct Wrap {};
+  Expression(detail::Node* node, Wrap /*tag*/) noexcept : node_(node) { detail::retain(node_); }
   detail::Node* node_;
 };
 

@@ -30,6 +30,12 @@ using ExpressionVector = Eigen::Matrix<Expression, Eigen::Dynamic, 1>;
 /// A table of traced numbers; an entry that is the constant 0 is a structural zero.
 using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynamic>;
 
+/// Matrix times vector. (Eigen's own product compares numbers, which traced numbers cannot.) Other products of matrices of
+/// expressions: `a.lazyProduct(b)`.
+[[nodiscard]] inline ExpressionVector operator*(const ExpressionMatrix& a, const ExpressionVector& x) {
+  return a.lazyProduct(x);
+}
+
 /// `count` consecutive inputs, the first with number `first`.
 [[nodiscard]] inline ExpressionVector input_vector(std::size_t first, Eigen::Index count) {
   ExpressionVector inputs(count);

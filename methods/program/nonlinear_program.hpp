@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "methods/program/interval_structure.hpp"
@@ -11,6 +10,10 @@ namespace dmocbench {
 
 /// "No bound" on one side.
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// A vector that is read, or written, in place: an Eigen vector or a map of someone else's memory.
+using VectorIn = Eigen::Ref<const Eigen::VectorXd>;
+using VectorOut = Eigen::Ref<Eigen::VectorXd>;
 
 /// Where the entries of a sparse matrix are; entry e stands at (rows[e], columns[e]). No position occurs twice.
 struct SparsityPattern {
@@ -50,16 +53,16 @@ class NonlinearProgram {
   /// Lower triangle (row >= column) of the Hessian of the Lagrangian.
   [[nodiscard]] virtual const SparsityPattern& hessian_structure() const = 0;
 
-  [[nodiscard]] virtual double objective(std::span<const double> x) = 0;
+  [[nodiscard]] virtual double objective(const VectorIn& x) = 0;
   /// `result`: variable_count() entries.
-  virtual void gradient(std::span<const double> x, std::span<double> result) = 0;
+  virtual void gradient(const VectorIn& x, VectorOut result) = 0;
   /// `result`: constraint_count() entries.
-  virtual void constraints(std::span<const double> x, std::span<double> result) = 0;
+  virtual void constraints(const VectorIn& x, VectorOut result) = 0;
   /// `values`: one per entry of jacobian_structure().
-  virtual void jacobian(std::span<const double> x, std::span<double> values) = 0;
+  virtual void jacobian(const VectorIn& x, VectorOut values) = 0;
   /// Hessian of objective_factor · φ + λᵀa; `values`: one per entry of hessian_structure().
-  virtual void hessian(std::span<const double> x, double objective_factor, std::span<const double> multipliers,
-                       std::span<double> values) = 0;
+  virtual void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
+                       VectorOut values) = 0;
 
   /// The size below which residuals of this program are rounding: about ε · (size of the terms of a row).
   [[nodiscard]] virtual double rounding_floor() const { return 0.0; }

@@ -101,10 +101,8 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
  private:
-  static std::span<const double> point(const Number* values, Index size) {
-    return {values, static_cast<std::size_t>(size)};
-  }
-  static std::span<double> array(Number* values, Index size) { return {values, static_cast<std::size_t>(size)}; }
+  static Eigen::Map<const Eigen::VectorXd> point(const Number* values, Index size) { return {values, size}; }
+  static Eigen::Map<Eigen::VectorXd> array(Number* values, Index size) { return {values, size}; }
 
   static bool copy(const SparsityPattern& pattern, Index* rows, Index* columns) {
     std::copy(pattern.rows.begin(), pattern.rows.end(), rows);

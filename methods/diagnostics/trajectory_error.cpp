@@ -1,0 +1,48 @@
+#include "methods/diagnostics/trajectory_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The node of `times` at time t, if there is one.
+std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
+  const double span = times[times.size() - 1] - times[0];
+  constexpr double coincidence = 1e-12;
+  const auto above = std::lower_bound(times.begin(), times.end(), t - coincidence * span);
+  if (above == times.end() || std::abs(*above - t) > coincidence * span) return std::nullopt;
+  return above - times.begin();
+}
+
+}  // namespace
+
+TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference) {
+  TrajectoryError error;
+  const bool compare_costates = trajectory.has_costates() && reference.has_costates();
+  if (compare_costates) error.costate = 0.0;
+  for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
+    const double t = trajectory.node_times[k];
+    const auto node = node_at(reference.node_times, t);
+    const Eigen::VectorXd q = node ? Eigen::VectorXd(reference.q.row(*node).transpose()) : configuration_at(reference, t);
+    error.state = std::max(error.state, (trajectory.q.row(k).transpose() - q).norm());
+    if (!node) continue;
+    error.momentum = std::max(error.momentum, (trajectory.p.row(k) - reference.p.row(*node)).norm());
+    if (compare_costates) {
+      const double difference = std::hypot((trajectory.psi_q.row(k) - reference.psi_q.row(*node)).norm(),
+                                           (trajectory.psi_p.row(k) - reference.psi_p.row(*node)).norm());
+      error.costate = std::max(*error.costate, difference);
+    }
+  }
+  for (Eigen::Index i = 0; i < trajectory.stage_times.size(); ++i) {
+    const Eigen::VectorXd u = control_at(reference, trajectory.stage_times[i]);
+    error.control = std::max(error.control, (trajectory.stage_u.row(i).transpose() - u).norm());
+  }
+  error.objective = std::abs(trajectory.cost - reference.cost);
+  return error;
+}
+
+}  // namespace dmocbench

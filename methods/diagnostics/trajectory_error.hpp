@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// Largest differences between a trajectory and a reference, Euclidean norm as in section 4.2 of the paper.
+struct TrajectoryError {
+  double state = 0.0;     ///< max over the nodes of |q(t_k) - q_ref(t_k)|
+  double momentum = 0.0;  ///< max over the nodes of |p(t_k) - p_ref(t_k)|; nodes that the reference lacks are left out
+  double control = 0.0;   ///< max over the stages of |u - u_ref| at the stage times
+  std::optional<double> costate;  ///< max over the nodes of |ψ - ψ_ref|, ψ = (ψ_q, ψ_p); none without multipliers
+  double objective = 0.0;         ///< |J - J_ref|
+};
+
+/// Errors against a reference on a finer grid. Controls are compared at the coarse grid's stage times, the reference's
+/// taken by `control_at`; configurations at nodes that the reference lacks by `configuration_at`.
+[[nodiscard]] TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference);
+
+}  // namespace dmocbench

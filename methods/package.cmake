@@ -1,0 +1,20 @@
+# Installation: headers as they are spelled in the tree, one target per folder, find_package(dmocbench).
+include(CMakePackageConfigHelpers)
+
+set(DMOCBENCH_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/dmocbench)
+get_property(dmocbench_targets GLOBAL PROPERTY DMOCBENCH_TARGETS)
+install(
+  TARGETS ${dmocbench_targets}
+  EXPORT dmocbenchTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
+install(
+  EXPORT dmocbenchTargets
+  NAMESPACE dmocbench::
+  DESTINATION ${DMOCBENCH_CMAKE_DIR})
+configure_package_config_file(methods/dmocbenchConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfig.cmake
+                              INSTALL_DESTINATION ${DMOCBENCH_CMAKE_DIR})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVersion.cmake DESTINATION ${DMOCBENCH_CMAKE_DIR})

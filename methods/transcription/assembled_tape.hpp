@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "methods/expression/tape.hpp"
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// A tape whose outputs are parts of one long array: output e of interval k belongs to entry firsts[e] + k.
+///
+/// Where two outputs meet (the right end of one interval is the left end of the next, so one's `first` is one more than
+/// the other's) their values are added. Entries that no output reaches are set to 0.
+class AssembledTape {
+ public:
+  /// `size` is the length of the array, `intervals` the number of intervals.
+  AssembledTape(const Schedule& schedule, const std::vector<std::size_t>& firsts, std::size_t size,
+                std::size_t intervals);
+
+  /// Writes all `size` entries of `result`. Allocates nothing.
+  void evaluate(std::span<const Tape::Input> inputs, VectorOut result);
+
+  [[nodiscard]] const Tape& tape() const noexcept { return tape_; }
+
+ private:
+  struct Addition {
+    std::size_t output;   // its values go to a scratch column first
+    std::size_t scratch;  // where that column begins
+    std::size_t first;    // and are added from this entry on
+  };
+
+  Tape tape_;
+  Tape::Workspace workspace_;
+  std::size_t size_;
+  std::size_t intervals_;
+  std::vector<std::size_t> firsts_;
+  std::vector<Addition> additions_;
+  std::vector<std::size_t> zeros_;
+  std::vector<double> scratch_;
+  std::vector<double*> outputs_;
+};
+
+/// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
+struct AssembledPattern {
+  SparsityPattern pattern;
+  std::vector<std::size_t> firsts;  ///< per local entry, as AssembledTape wants it
+};
+
+/// Merges the local entries of all intervals: entry e of interval k stands at (row_firsts[e] + k, column_firsts[e] + k).
+[[nodiscard]] AssembledPattern assemble_pattern(const std::vector<std::size_t>& row_firsts,
+                                                const std::vector<std::size_t>& column_firsts, std::size_t intervals);
+
+}  // namespace dmocbench

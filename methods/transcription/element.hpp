@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/expression/vectors.hpp"
+#include "methods/mechanics/state.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+/// What a node carries besides its configuration q_k.
+enum class NodeState : std::uint8_t {
+  configuration,  ///< nothing: x_k = q_k
+  momentum,       ///< x_k = (q_k, p_k)
+  velocity,       ///< x_k = (q_k, v_k)
+};
+
+/// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
+struct IntervalUnknowns {
+  ExpressionVector left_q;   ///< q_k, n entries
+  ExpressionVector left_y;   ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;  ///< q_{k+1}
+  ExpressionVector right_y;  ///< p_{k+1} or v_{k+1}
+  std::vector<ExpressionVector> slopes_q;  ///< Q̇_1 .. Q̇_{s-1}; the last slope is eliminated
+  std::vector<ExpressionVector> slopes_y;  ///< Ṗ_j or V̇_j, j = 1 .. s-1
+  std::vector<ExpressionVector> controls;  ///< U_1 .. U_s, m entries each
+  Expression h;                            ///< the step
+  Expression t;                            ///< t_k
+};
+
+/// What an element says about its interval.
+struct IntervalTrace {
+  ExpressionVector left_rows;     ///< added to the rows of node k; n entries or none
+  ExpressionVector right_rows;    ///< added to the rows of node k + 1
+  ExpressionVector private_rows;  ///< rows of this interval alone, each equal to 0
+  Expression cost;                ///< h Σ b_i C(Q_i, Q̇_i, U_i)
+  std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
+  ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
+  ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
+};
+
+/// One interval of a direct transcription, for any Butcher tableau.
+///
+/// An element is a rule, not data: handed the formulas of a problem and traced unknowns it returns formulas. Numbering,
+/// sparsity, derivatives, boundary rows and costates are generic (`Transcription`). What every element satisfies:
+///   - on a solution of the private rows the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
+///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn rows for DMOC, 2sn + sm and 2sn for
+///     collocation.
+class Element {
+ public:
+  virtual ~Element() = default;
+  Element(const Element&) = delete;
+  Element& operator=(const Element&) = delete;
+  Element(Element&&) = delete;
+  Element& operator=(Element&&) = delete;
+
+  /// As on the command line.
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// One line.
+  [[nodiscard]] virtual std::string description() const = 0;
+  [[nodiscard]] virtual NodeState node_state() const = 0;
+  [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
+                                            const IntervalUnknowns& unknowns) const = 0;
+
+ protected:
+  Element() = default;
+};
+
+/// Names of all families of elements.
+[[nodiscard]] std::vector<std::string> element_names();
+
+/// The family of that name. Throws `Error` that lists the names if there is none.
+[[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
+
+// What the families share.
+
+/// All s slopes: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
+[[nodiscard]] std::vector<ExpressionVector> all_slopes(const ExpressionVector& left, const ExpressionVector& right,
+                                                       const std::vector<ExpressionVector>& interior,
+                                                       const Eigen::VectorXd& b, const Expression& h);
+
+/// The stages X_i = x_k + h Σ_j a_ij K_j.
+[[nodiscard]] std::vector<ExpressionVector> stage_values(const ExpressionVector& left,
+                                                         const std::vector<ExpressionVector>& slopes,
+                                                         const Eigen::MatrixXd& a, const Expression& h);
+
+/// h Σ b_i C(stage i).
+[[nodiscard]] Expression quadrature_of_cost(const std::vector<TracedProblem::Values>& stages, const Eigen::VectorXd& b,
+                                            const Expression& h);
+
+}  // namespace dmocbench

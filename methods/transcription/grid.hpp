@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace dmocbench {
+
+/// The nodes 0 = τ_0 < τ_1 < ... < τ_N = 1 of a horizon, relative to its length T: t_k = T τ_k, h_k = T (τ_{k+1} - τ_k).
+class Grid {
+ public:
+  /// The largest number of intervals that is accepted.
+  static constexpr long long most_intervals = 1LL << 24;
+
+  /// N intervals of equal length. Throws `Error` unless 1 <= intervals <= most_intervals.
+  [[nodiscard]] static Grid uniform(long long intervals);
+  /// Any relative node times. Throws `Error` unless they ascend strictly from 0 to 1.
+  [[nodiscard]] static Grid from_nodes(Eigen::VectorXd relative_times);
+
+  [[nodiscard]] std::size_t intervals() const noexcept { return static_cast<std::size_t>(nodes_.size() - 1); }
+  /// τ_0 .. τ_N.
+  [[nodiscard]] const Eigen::VectorXd& relative_times() const noexcept { return nodes_; }
+  /// τ_{k+1} - τ_k for k = 0 .. N - 1; exactly 1/N on a uniform grid.
+  [[nodiscard]] const Eigen::VectorXd& relative_widths() const noexcept { return widths_; }
+
+ private:
+  Grid(Eigen::VectorXd nodes, Eigen::VectorXd widths);
+  Eigen::VectorXd nodes_;
+  Eigen::VectorXd widths_;
+};
+
+}  // namespace dmocbench

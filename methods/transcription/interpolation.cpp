@@ -1,0 +1,92 @@
+#include "methods/transcription/interpolation.hpp"
+
+#include <algorithm>
+#include <boost/math/interpolators/cubic_hermite.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dmocbench {
+
+namespace {
+
+/// The interval that contains t; the nearest one outside the horizon.
+Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
+  const auto above = std::upper_bound(times.begin(), times.end(), t);
+  return std::clamp<Eigen::Index>(above - times.begin() - 1, 0, times.size() - 2);
+}
+
+/// The Lagrange polynomials of the nodes c at τ.
+Eigen::VectorXd lagrange(const Eigen::VectorXd& c, double tau) {
+  Eigen::VectorXd values = Eigen::VectorXd::Ones(c.size());
+  for (Eigen::Index j = 0; j < c.size(); ++j) {
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      if (i != j) values[j] *= (tau - c[i]) / (c[j] - c[i]);
+    }
+  }
+  return values;
+}
+
+/// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
+Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
+  const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
+  Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
+  for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
+    integral += tau * quadrature.b[i] * lagrange(c, tau * quadrature.c[i]);
+  }
+  return integral;
+}
+
+}  // namespace
+
+Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {
+  const Eigen::Index k = interval_of(trajectory.node_times, t);
+  const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
+  const double tau = std::clamp((t - trajectory.node_times[k]) / h, 0.0, 1.0);
+  if (tau == 0.0) return trajectory.q.row(k).transpose();
+  if (tau == 1.0) return trajectory.q.row(k + 1).transpose();
+  const Eigen::Index s = trajectory.stages();
+  const auto slopes = trajectory.stage_v.middleRows(k * s, s);
+  return trajectory.q.row(k).transpose() + h * slopes.transpose() * lagrange_integral(trajectory.tableau.c, tau);
+}
+
+Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
+  const Eigen::Index s = trajectory.stages();
+  const double left = trajectory.node_times[interval];
+  const double tau = (t - left) / (trajectory.node_times[interval + 1] - left);
+  return trajectory.stage_u.middleRows(interval * s, s).transpose() * lagrange(trajectory.tableau.c, tau);
+}
+
+Eigen::VectorXd control_at(const Trajectory& trajectory, double t) {
+  if (trajectory.stages() > 1) {
+    return control_on_interval(trajectory, interval_of(trajectory.node_times, t), t);
+  }
+  if (trajectory.intervals() == 1) return trajectory.stage_u.row(0).transpose();
+  const Eigen::Index k = interval_of(trajectory.stage_times, t);
+  const double left = trajectory.stage_times[k];
+  const double weight = (t - left) / (trajectory.stage_times[k + 1] - left);
+  return (1.0 - weight) * trajectory.stage_u.row(k).transpose() + weight * trajectory.stage_u.row(k + 1).transpose();
+}
+
+Motion smooth_motion(const Trajectory& trajectory) {
+  using Interpolator = boost::math::interpolators::cubic_hermite<std::vector<double>>;
+  const auto column = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
+  const auto curves = std::make_shared<std::vector<Interpolator>>();
+  for (Eigen::Index i = 0; i < trajectory.q.cols(); ++i) {
+    curves->emplace_back(column(trajectory.node_times), column(trajectory.q.col(i)), column(trajectory.v.col(i)));
+  }
+  return [curves, trajectory](double t) {
+    const double inside =
+        std::clamp(t, trajectory.node_times[0], trajectory.node_times[trajectory.node_times.size() - 1]);
+    const auto n = static_cast<Eigen::Index>(curves->size());
+    MotionPoint point{Eigen::VectorXd(n), Eigen::VectorXd(n), control_at(trajectory, inside)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Interpolator& curve = (*curves)[static_cast<std::size_t>(i)];
+      point.q[i] = curve(inside);
+      point.v[i] = curve.prime(inside);
+    }
+    return point;
+  };
+}
+
+}  // namespace dmocbench

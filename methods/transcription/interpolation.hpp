@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+
+#include "methods/mechanics/state.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// A motion given for every time 0 <= t <= T: where starts are sampled from.
+using Motion = std::function<MotionPoint(double t)>;
+
+/// The element's own polynomial of the configuration at time t: q(t_k + τh) = q_k + h Σ_j Q̇_j ∫₀^τ ℓ_j, n entries.
+/// Times outside the horizon are moved to its ends.
+[[nodiscard]] Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t);
+
+/// The control at time t, m entries: with one stage, linear between the two nearest stage times (order 2; beyond the
+/// first and last of them the same line goes on); with several, the polynomial through the stages of the interval.
+[[nodiscard]] Eigen::VectorXd control_at(const Trajectory& trajectory, double t);
+
+/// The control as the discrete system feels it: the polynomial through the stages of the interval [t_k, t_{k+1}] that
+/// `interval` names, constant for one stage.
+[[nodiscard]] Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
+
+/// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as control.
+[[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);
+
+}  // namespace dmocbench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmocbench {
+
+/// A Butcher tableau (A, b, c) and its conjugate Ã, which makes the pair symplectic (eq:DMOC_RK_symp):
+/// b_i ã_ij + b_j a_ji = b_i b_j. Configurations use A, momenta Ã.
+struct Tableau {
+  std::string family;           ///< "gauss"
+  Eigen::MatrixXd a;            ///< A, s × s
+  Eigen::MatrixXd a_conjugate;  ///< Ã, s × s
+  Eigen::VectorXd b;            ///< weights, s entries, all > 0
+  Eigen::VectorXd c;            ///< stage times relative to the interval, s entries in [0, 1]
+  int order = 0;                ///< classical order of the pair
+
+  [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
+};
+
+/// The collocation tableau whose stages are the given nodes (distinct, in [0, 1]):
+/// a_ij = ∫₀^{c_i} ℓ_j, b_j = ∫₀¹ ℓ_j with ℓ_j the Lagrange polynomials; Ã is computed from (eq:DMOC_RK_symp).
+/// Throws `Error` if nodes coincide or a weight is not positive.
+[[nodiscard]] Tableau collocation_tableau(std::string family, const std::vector<long double>& nodes, int order);
+
+/// Gauss-Legendre, order 2s. s = 1 is the midpoint rule.
+[[nodiscard]] Tableau gauss_tableau(int stages);
+
+/// Names of the tableau families.
+[[nodiscard]] std::vector<std::string> tableau_names();
+
+/// The numbers of stages that a family is offered with. Throws `Error` if there is no such family.
+[[nodiscard]] std::vector<int> tableau_stages(std::string_view family);
+
+/// Throws `Error` that lists what there is if the family or the number of stages is unknown.
+[[nodiscard]] Tableau make_tableau(std::string_view family, int stages);
+
+}  // namespace dmocbench

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+/// A discrete motion, the same for every method: what diagnostics, tables and figures are made of.
+///
+/// Units are those of the problem as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
+/// stage i of interval k.
+struct Trajectory {
+  Tableau tableau;
+
+  Eigen::VectorXd node_times;  ///< t_0 .. t_N
+  Eigen::MatrixXd q;           ///< (N + 1) × n
+  Eigen::MatrixXd p;           ///< (N + 1) × n, by the forced discrete Legendre transform (eq:varmech_dlegf) for DMOC
+  Eigen::MatrixXd v;           ///< (N + 1) × n, with p = L_v(q, v)
+
+  Eigen::VectorXd stage_times;  ///< t_k + c_i h_k, N s entries
+  Eigen::MatrixXd stage_q;      ///< Q_i, N s × n
+  Eigen::MatrixXd stage_v;      ///< Q̇_i (V_i for tangent-space collocation, equal to it), N s × n
+  Eigen::MatrixXd stage_u;      ///< U_i, N s × m
+
+  /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
+  Eigen::MatrixXd psi_q;
+  Eigen::MatrixXd psi_p;
+
+  double cost = 0.0;  ///< the true cost, not the scaled one
+
+  [[nodiscard]] Eigen::Index intervals() const noexcept { return node_times.size() - 1; }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }
+  [[nodiscard]] bool has_costates() const noexcept { return psi_q.size() > 0; }
+};
+
+}  // namespace dmocbench

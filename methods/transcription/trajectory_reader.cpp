@@ -1,0 +1,93 @@
+#include "methods/transcription/trajectory_reader.hpp"
+
+#include "methods/error.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/columns.hpp"
+#include "methods/transcription/costates.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The forced discrete Legendre transforms at all nodes.
+Eigen::MatrixXd read_momenta(Transcription& transcription, const Eigen::VectorXd& primal, Eigen::Index n) {
+  const Eigen::MatrixXd sides = evaluate_columns(transcription.functions().momenta, transcription.layout().intervals(),
+                                                 transcription.bind(primal, Eigen::VectorXd(), 1.0));
+  Eigen::MatrixXd p(sides.rows() + 1, n);
+  p.topRows(sides.rows()) = sides.leftCols(n);
+  p.row(sides.rows()) = sides.row(sides.rows() - 1).rightCols(n);
+  return p;
+}
+
+void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Trajectory& trajectory) {
+  const Layout& layout = transcription.layout();
+  const Eigen::Index n = transcription.traced_problem().configuration_size();
+  const Eigen::Index m = transcription.traced_problem().control_size();
+  const Eigen::Index s = layout.stages();
+  const Eigen::MatrixXd table = evaluate_columns(transcription.functions().stages, layout.intervals(),
+                                                 transcription.bind(primal, Eigen::VectorXd(), 1.0));
+  const Eigen::Index rows = table.rows() * s;
+  trajectory.stage_times.resize(rows);
+  trajectory.stage_q.resize(rows, n);
+  trajectory.stage_v.resize(rows, n);
+  trajectory.stage_u.resize(rows, m);
+  const Eigen::Index width = 2 * n + 1;
+  for (Eigen::Index k = 0; k < table.rows(); ++k) {
+    for (Eigen::Index i = 0; i < s; ++i) {
+      const Eigen::Index row = k * s + i;
+      trajectory.stage_q.row(row) = table.row(k).segment(i * width, n);
+      trajectory.stage_v.row(row) = table.row(k).segment(i * width + n, n);
+      trajectory.stage_times[row] = table(k, i * width + 2 * n);
+      for (Eigen::Index c = 0; c < m; ++c) {
+        trajectory.stage_u(row, c) = primal[static_cast<Eigen::Index>(layout.control_column(i, c)) + k];
+      }
+    }
+  }
+}
+
+/// v_k with L_v(q_k, v_k) = p_k; each solve starts at a velocity nearby.
+Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& trajectory) {
+  LegendreTransform legendre(problem);
+  Eigen::MatrixXd v(trajectory.q.rows(), trajectory.q.cols());
+  const Eigen::Index last_stage = trajectory.stage_v.rows() - 1;
+  for (Eigen::Index k = 0; k < v.rows(); ++k) {
+    const Eigen::Index nearby = std::min(k * trajectory.stages(), last_stage);
+    v.row(k) = legendre
+                   .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(),
+                             trajectory.node_times[k], trajectory.stage_v.row(nearby).transpose())
+                   .transpose();
+  }
+  return v;
+}
+
+}  // namespace
+
+Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
+                           const Eigen::VectorXd& multipliers) {
+  if (static_cast<std::size_t>(primal.size()) != transcription.variable_count()) {
+    throw Error("a trajectory needs " + std::to_string(transcription.variable_count()) + " variables, got " +
+                std::to_string(primal.size()));
+  }
+  const Layout& layout = transcription.layout();
+  const Eigen::Index n = transcription.traced_problem().configuration_size();
+  Trajectory trajectory;
+  trajectory.tableau = transcription.tableau();
+  trajectory.node_times = transcription.node_times();
+  trajectory.q.resize(trajectory.node_times.size(), n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    trajectory.q.col(i) =
+        primal.segment(static_cast<Eigen::Index>(layout.configuration_column(i)), trajectory.node_times.size());
+  }
+  trajectory.p = read_momenta(transcription, primal, n);
+  read_stages(transcription, primal, trajectory);
+  trajectory.v = velocities(transcription.traced_problem(), trajectory);
+  trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
+  if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
+    Costates psi = costates(transcription, primal, multipliers, trajectory.v);
+    trajectory.psi_q = std::move(psi.psi_q);
+    trajectory.psi_p = std::move(psi.psi_p);
+  }
+  return trajectory;
+}
+
+}  // namespace dmocbench
