@@ -1,0 +1,112 @@
+// Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/interval_list.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/summary/equal_accuracy.hpp"
+#include "bench/summary/slopes.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/diagnostics/trajectory_error.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+class Convergence final : public Experiment {
+ public:
+  [[nodiscard]] std::string name() const override { return "convergence"; }
+  [[nodiscard]] std::string description() const override {
+    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method, with fitted slopes "
+           "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).";
+  }
+  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
+  [[nodiscard]] std::vector<std::string> own_columns() const override {
+    return {"state_error", "control_error", "momentum_error", "costate_error", "objective_error", "replay_error"};
+  }
+  void add_options(CLI::App& app) override {
+    app.add_option("--reference", reference_, "N of the reference grid; default: the finest one of each curve");
+    app.add_option("--fit", fit_,
+                   "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
+                   "the reference");
+  }
+
+  void check(const std::vector<Case>& cases) override {
+    if (reference_ < 0) throw Error(fmt::format("--reference must be a number of intervals, got {}", reference_));
+    if (!fit_.empty()) {
+      const std::vector<long long> range = parse_intervals(fit_);
+      fit_range_ = {range.front(), range.back()};
+    }
+    if (reference_ == 0) return;
+    const bool present = std::any_of(cases.begin(), cases.end(), [&](const Case& what) {
+      return static_cast<long long>(what.intervals()) == reference_;
+    });
+    if (!present) throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+  }
+
+  [[nodiscard]] std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const override {
+    std::vector<std::size_t> order{curve.size() - 1};
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      if (static_cast<long long>(curve[i].intervals()) == reference_) order[0] = i;
+    }
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      if (i != order[0]) order.push_back(i);
+    }
+    return order;
+  }
+
+  void complete(SolvedCase& solved) override {
+    const bool is_first = !curve_ || !curve_->same_curve(solved.what);
+    if (is_first) {
+      curve_ = solved.what;
+      reference_trajectory_.reset();
+    }
+    if (!solved.trajectory) return;
+    try {
+      solved.row.set("replay_error", replay_error(*solved.what.problem, *solved.trajectory).norm());
+    } catch (const Error& error) {
+      solved.row.set("message", solved.row.text("message") + " " + error.what());
+    }
+    const bool usable = is_usable(solved.row);
+    if (is_first) {
+      if (usable) reference_trajectory_ = *solved.trajectory;
+      return;
+    }
+    if (!usable || !reference_trajectory_) return;
+    const TrajectoryError error = trajectory_error(*solved.trajectory, *reference_trajectory_);
+    solved.row.set("state_error", error.state);
+    solved.row.set("control_error", error.control);
+    solved.row.set("momentum_error", error.momentum);
+    solved.row.set("costate_error", error.costate);
+    solved.row.set("objective_error", error.objective);
+  }
+
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    const SlopeTable slopes = fit_slopes(table, fit_range_, reference_);
+    write_file(prefix.string() + "_slopes.csv", slopes.table.csv());
+    write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
+    for (const std::string& note : slopes.notes) {
+      metadata["notes"].push_back(note);
+      fmt::print("convergence: {}\n", note);
+    }
+  }
+
+ private:
+  long long reference_ = 0;
+  std::string fit_;
+  std::optional<FitRange> fit_range_;
+  std::optional<Case> curve_;
+  std::optional<Trajectory> reference_trajectory_;
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::Convergence experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
+}

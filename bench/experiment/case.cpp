@@ -1,0 +1,20 @@
+#include "bench/experiment/case.hpp"
+
+#include <fmt/format.h>
+
+namespace dmocbench {
+
+std::string Case::label() const {
+  return fmt::format("{} {} {} {} {} N = {}", problem->name(), method, tableau, stages, solver, intervals());
+}
+
+std::string Case::file_label() const {
+  return fmt::format("{}_{}_{}{}_{}", problem->name(), method, tableau, stages, intervals());
+}
+
+bool Case::same_curve(const Case& other) const {
+  return problem == other.problem && method == other.method && tableau == other.tableau && stages == other.stages &&
+         solver == other.solver;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,178 @@
+#include "bench/experiment/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include "bench/experiment/interrupt.hpp"
+#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/progress.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/start_source.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr int exit_solved = 0;
+constexpr int exit_some_failed = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_interrupted = 130;
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+int report_error(const CLI::App& app, const std::string& sentence) {
+  fmt::print(stderr, "{}: {}\n", app.get_name(), one_line(sentence));
+  return exit_bad_input;
+}
+
+/// One run of an experiment: its cases, its table, its files.
+class Run {
+ public:
+  Run(Experiment& experiment, const ExperimentOptions& options, std::vector<std::string> command_line)
+      : experiment_(experiment),
+        options_(options),
+        solver_options_(solver_options(options)),
+        cases_(expand_cases(options)),
+        starts_(options.start, with_interrupt(solver_options_)),
+        rows_(cases_.size()),
+        prefix_(options.out / options.name),
+        metadata_(describe_run(command_line)) {
+    experiment_.check(cases_);
+    starts_.check(cases_);
+    solver_options_ = with_interrupt(solver_options_);
+    for (const std::string& solver : options.solvers) static_cast<void>(make_solver(solver, solver_options_));
+  }
+
+  int run() {
+    prepare_folder(options_.out);
+    listen_for_interrupt();
+    Progress progress(cases_.size());
+    starts_.on_progress = [&](const std::string& what) { progress.show(what); };
+    for (std::size_t first = 0; first < cases_.size() && !interrupt_requested();) {
+      std::size_t last = first + 1;
+      while (last < cases_.size() && cases_[last].same_curve(cases_[first])) ++last;
+      solve_curve(first, last, progress);
+      first = last;
+    }
+    const bool complete = !interrupt_requested();
+    if (complete) experiment_.finish(table(), prefix_, metadata_);
+    write_metadata(complete);
+    if (!complete) return exit_interrupted;
+    return failures_ > 0 ? exit_some_failed : exit_solved;
+  }
+
+  [[nodiscard]] std::string summary() const {
+    const std::size_t done = static_cast<std::size_t>(
+        std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.has_value(); }));
+    return fmt::format("{} rows, {} not solved, {} on another branch: {}.csv", done, failures_, other_branch_,
+                       prefix_.string());
+  }
+
+ private:
+  static SolverOptions with_interrupt(SolverOptions options) {
+    options.stop_requested = interrupt_requested;
+    return options;
+  }
+
+  void solve_curve(std::size_t first, std::size_t last, Progress& progress) {
+    const auto begin = cases_.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector<Case> curve(begin, cases_.begin() + static_cast<std::ptrdiff_t>(last));
+    for (const std::size_t position : experiment_.solving_order(curve)) {
+      const Case& what = curve[position];
+      if (interrupt_requested()) return;
+      SolvedCase solved = solve(what, progress);
+      if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // half a solve is no row
+      experiment_.complete(solved);
+      if (!is_solved(solved.solution.status)) ++failures_;
+      if (solved.row.text("branch") == "other") ++other_branch_;
+      rows_[first + position] = std::move(solved.row);
+      write_file(prefix_.string() + ".csv", table().csv());
+      progress.advance();
+    }
+  }
+
+  /// The solved case; without a start its row says so, and the run goes on.
+  SolvedCase solve(const Case& what, const Progress& progress) {
+    try {
+      const Motion start = starts_.motion_for(what);
+      progress.show(what.label());
+      return solve_case(what, start, solver_options_, options_.repeats);
+    } catch (const NoStart& reason) {
+      return unsolved_case(what, reason.what());
+    }
+  }
+
+  [[nodiscard]] Table table() const {
+    std::vector<std::string> columns = core_columns();
+    for (const std::string& column : experiment_.own_columns()) columns.push_back(column);
+    Table table(columns);
+    for (const auto& row : rows_) {
+      if (row) table.append(*row);
+    }
+    return table;
+  }
+
+  void write_metadata(bool complete) {
+    metadata_["complete"] = complete;
+    metadata_["rows"] = table().rows().size();
+    metadata_["not_solved"] = failures_;
+    metadata_["on_another_branch"] = other_branch_;
+    write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
+  }
+
+  Experiment& experiment_;
+  const ExperimentOptions& options_;
+  SolverOptions solver_options_;
+  std::vector<Case> cases_;
+  StartSource starts_;
+  std::vector<std::optional<Row>> rows_;
+  std::filesystem::path prefix_;
+  nlohmann::ordered_json metadata_;
+  std::size_t failures_ = 0;
+  std::size_t other_branch_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::size_t> Experiment::solving_order(const std::vector<Case>& curve) const {
+  std::vector<std::size_t> order(curve.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  return order;
+}
+
+int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+  try {
+    app.parse(argc, argv);
+    return body();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help
+    return report_error(app, std::string(error.what()) + "; --help lists the options");
+  } catch (const std::exception& error) {
+    return report_error(app, error.what());
+  }
+}
+
+int run_experiment(Experiment& experiment, int argc, char** argv) {
+  CLI::App app(experiment.description(), experiment.name());
+  ExperimentOptions options;
+  options.intervals = experiment.default_intervals();
+  options.name = experiment.name();
+  add_options(app, options);
+  experiment.add_options(app);
+  return run_program(app, argc, argv, [&] {
+    Run run(experiment, options, std::vector<std::string>(argv, argv + argc));
+    const int code = run.run();
+    fmt::print("{}: {}\n", experiment.name(), run.summary());
+    return code;
+  });
+}
+
+}  // namespace dmocbench

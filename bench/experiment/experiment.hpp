@@ -1,0 +1,59 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/experiment/options.hpp"
+#include "bench/experiment/solve_case.hpp"
+
+namespace dmocbench {
+
+/// An experiment: many solves, a row for each, and what its author makes of them.
+///
+/// `run_experiment` reads the command line, solves case after case and keeps the table on disk up to date; an experiment
+/// adds its own columns and files.
+class Experiment {
+ public:
+  virtual ~Experiment() = default;
+  Experiment(const Experiment&) = delete;
+  Experiment& operator=(const Experiment&) = delete;
+  Experiment(Experiment&&) = delete;
+  Experiment& operator=(Experiment&&) = delete;
+
+  /// The binary's name; the table's, unless the user gives another.
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// What `--help` says.
+  [[nodiscard]] virtual std::string description() const = 0;
+  [[nodiscard]] virtual std::string default_intervals() const = 0;
+  /// Columns behind the core ones.
+  [[nodiscard]] virtual std::vector<std::string> own_columns() const = 0;
+
+  /// Options behind the common ones.
+  virtual void add_options(CLI::App& /*app*/) {}
+  /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
+  virtual void check(const std::vector<Case>& /*cases*/) {}
+  /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.
+  [[nodiscard]] virtual std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const;
+  /// Fills in the own columns of a solved case. Called in the order of solving.
+  virtual void complete(SolvedCase& solved) = 0;
+  /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the table.
+  virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
+                      nlohmann::ordered_json& /*metadata*/) {}
+
+ protected:
+  Experiment() = default;
+};
+
+/// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it keeps
+/// its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted (finished rows
+/// are kept).
+int run_experiment(Experiment& experiment, int argc, char** argv);
+
+/// Parses a command line and runs `body`; every error becomes one line on standard error and exit code 2.
+int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+}  // namespace dmocbench

@@ -1,0 +1,144 @@
+#include "bench/experiment/options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "bench/experiment/interval_list.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "methods/error.hpp"
+#include "methods/transcription/element.hpp"
+#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/transcription.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The chosen names in the order of `known`, each once; all if none is chosen. Throws `Error` on one that is not known.
+std::vector<std::string> in_order(const char* what, const std::vector<std::string>& chosen,
+                                  const std::vector<std::string>& known) {
+  for (const std::string& name : chosen) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw Error(fmt::format("there is no {} \"{}\"; choose one of {}", what, name, fmt::join(known, ", ")));
+    }
+  }
+  std::vector<std::string> result;
+  for (const std::string& name : known) {
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end()) result.push_back(name);
+  }
+  return result;
+}
+
+std::vector<Grid> make_grids(const ExperimentOptions& options) {
+  std::vector<Grid> grids;
+  if (!options.grid_file.empty()) {
+    const std::vector<double> times = parse_node_times(read_file(options.grid_file));
+    grids.push_back(Grid::from_nodes(
+        Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
+    return grids;
+  }
+  for (const long long count : parse_intervals(options.intervals)) grids.push_back(Grid::uniform(count));
+  return grids;
+}
+
+std::vector<int> sorted_stages(std::vector<int> stages, const std::string& tableau) {
+  std::sort(stages.begin(), stages.end());
+  stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
+  const std::vector<int> known = tableau_stages(tableau);
+  for (const int s : stages) {
+    if (std::find(known.begin(), known.end(), s) == known.end()) {
+      throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", tableau, fmt::join(known, ", "), s));
+    }
+  }
+  return stages;
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, ExperimentOptions& options) {
+  app.add_option("--problem", options.problems, "problems, as `list` names them; default: all")->delimiter(',');
+  app.add_option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all")->delimiter(',');
+  app.add_option("--tableau", options.tableaus, "families of Butcher tableaus")->delimiter(',')->capture_default_str();
+  app.add_option("--stages", options.stages, "numbers of stages s")->delimiter(',')->capture_default_str();
+  app.add_option("--solver", options.solvers, "solvers, as `list` names them")->delimiter(',')->capture_default_str();
+  app.add_option("--intervals", options.intervals,
+                 "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed")
+      ->capture_default_str();
+  app.add_option("--grid", options.grid_file,
+                 "file with relative node times from 0 to 1, one per line; replaces --intervals");
+  app.add_option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  app.add_option("--start", options.start,
+                 "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
+                 "X_nodes.csv written by solve")
+      ->capture_default_str();
+  app.add_option("--tolerance", options.tolerance, "for the KKT residual of the scaled program")->capture_default_str();
+  app.add_option("--iterations", options.most_iterations, "largest number of iterations of a solver")
+      ->capture_default_str();
+  app.add_option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
+  app.add_option("--repeats", options.repeats, "solves per row; times are medians")->capture_default_str();
+  app.add_option("--out", options.out, "folder for the results")->capture_default_str();
+  app.add_option("--name", options.name, "name of the table and the files beside it")->capture_default_str();
+  app.add_flag("--verbose", options.verbose, "show the solver's own output");
+}
+
+SolverOptions solver_options(const ExperimentOptions& options) {
+  SolverOptions result;
+  result.tolerance = options.tolerance;
+  result.most_iterations = options.most_iterations;
+  result.verbose = options.verbose;
+  for (const std::string& text : options.passed_on) {
+    const auto [name, value] = parse_assignment("--option", text);
+    result.passed_on.emplace(name, value);
+  }
+  result.validate();
+  return result;
+}
+
+std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
+                                                              const std::vector<std::string>& settings) {
+  std::vector<std::shared_ptr<Problem>> problems;
+  for (const std::string& name : in_order("problem", names, problem_names())) problems.push_back(make_problem(name));
+  for (const std::string& setting : settings) {
+    const auto [name, text] = parse_assignment("--set", setting);
+    const double value = parse_number(fmt::format("--set {}", name), text);
+    bool known = false;
+    for (const auto& problem : problems) {
+      const auto& parameters = problem->parameters();
+      const bool has = std::any_of(parameters.begin(), parameters.end(),
+                                   [wanted = name](const Parameter& parameter) { return parameter.name == wanted; });
+      if (has) problem->set_parameter(name, value);
+      known = known || has;
+    }
+    if (!known) problems.back()->set_parameter(name, value);  // throws with the names there are
+  }
+  return {problems.begin(), problems.end()};
+}
+
+std::vector<Case> expand_cases(const ExperimentOptions& options) {
+  const auto methods = in_order("method", options.methods, element_names());
+  const auto tableaus = in_order("tableau", options.tableaus, tableau_names());
+  const auto solvers = in_order("solver", options.solvers, solver_names());
+  if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
+  const std::vector<Grid> grids = make_grids(options);
+  std::vector<Case> cases;
+  for (const auto& problem : selected_problems(options.problems, options.settings)) {
+    for (const std::string& method : methods) {
+      for (const std::string& tableau : tableaus) {
+        for (const int stages : sorted_stages(options.stages, tableau)) {
+          // The coarsest grid tells whether there are enough intervals.
+          static_cast<void>(
+              Transcription(*problem, *make_element(method), make_tableau(tableau, stages), grids.front()));
+          for (const std::string& solver : solvers) {
+            for (const Grid& grid : grids) cases.push_back({problem, method, tableau, stages, solver, grid});
+          }
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,137 @@
+#include "bench/experiment/solve_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "methods/error.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+/// Solves several times from the same start; the answer is the first one's, the times are medians.
+Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& start, const Case& what,
+                          const SolverOptions& options, int repeats) {
+  const auto solver = make_solver(what.solver, options);
+  Solution solution = solver->solve(transcription, start);
+  std::vector<double> seconds{solution.seconds};
+  std::vector<double> evaluation_seconds{solution.evaluation_seconds};
+  for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
+    const Solution again = solver->solve(transcription, start);
+    if (again.status == Status::interrupted) break;
+    seconds.push_back(again.seconds);
+    evaluation_seconds.push_back(again.evaluation_seconds);
+  }
+  solution.seconds = median(seconds);
+  solution.evaluation_seconds = median(evaluation_seconds);
+  return solution;
+}
+
+/// "same" if no node is farther from the start's motion than a tenth of the range of q, else "other".
+const char* branch_of(const Trajectory& trajectory, const Motion& start) {
+  constexpr double share = 0.1;
+  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  double distance = 0.0;
+  for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
+    const Eigen::VectorXd difference = trajectory.q.row(k).transpose() - start(trajectory.node_times[k]).q;
+    distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
+  }
+  return distance < share * range.maxCoeff() ? "same" : "other";
+}
+
+/// What is known of a row without solving, and how the solve ended.
+void describe(SolvedCase& solved) {
+  Row& row = solved.row;
+  row.set("problem", solved.what.problem->name());
+  row.set("method", solved.what.method);
+  row.set("tableau", solved.what.tableau);
+  row.set("stages", static_cast<long long>(solved.what.stages));
+  row.set("solver", solved.what.solver);
+  row.set("derivatives", "tape");
+  row.set("intervals", static_cast<long long>(solved.what.intervals()));
+  row.set("status", std::string(name_of(solved.solution.status)));
+  row.set("message", solved.solution.message);
+}
+
+}  // namespace
+
+const std::vector<std::string>& core_columns() {
+  static const std::vector<std::string> columns = {
+      "problem",           "method",
+      "tableau",           "stages",
+      "solver",            "derivatives",
+      "intervals",         "step",
+      "variables",         "free_variables",
+      "constraints",       "jacobian_nonzeros",
+      "hessian_nonzeros",  "status",
+      "branch",            "objective",
+      "kkt_residual",      "constraint_violation",
+      "major_iterations",  "minor_iterations",
+      "setup_seconds",     "evaluation_seconds",
+      "seconds",           "message",
+  };
+  return columns;
+}
+
+SolvedCase unsolved_case(const Case& what, const std::string& reason) {
+  SolvedCase result{.what = what, .solution = {}, .trajectory = {}, .row = {}};
+  result.solution.message = reason;
+  describe(result);
+  return result;
+}
+
+SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions& options, int repeats) {
+  SolvedCase result{.what = what, .solution = {}, .trajectory = {}, .row = {}};
+  const auto setup_start = Clock::now();
+  Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
+                              what.grid);
+  const double setup_seconds = seconds_since(setup_start);
+  const Eigen::VectorXd start_point = sample(transcription, start);
+  result.solution = solve_repeatedly(transcription, start_point, what, options, repeats);
+  Solution& solution = result.solution;
+
+  if (solution.primal.allFinite() && solution.primal.size() > 0) {
+    try {
+      result.trajectory = read_trajectory(transcription, solution.primal, solution.multipliers);
+    } catch (const Error& error) {
+      solution.message += std::string(" Its trajectory cannot be read: ") + error.what() + ".";
+    }
+  }
+
+  describe(result);
+  Row& row = result.row;
+  row.set("step", transcription.steps().maxCoeff() * what.problem->time_unit().factor);
+  row.set("variables", static_cast<long long>(transcription.variable_count()));
+  row.set("free_variables", static_cast<long long>(free_variable_count(transcription)));
+  row.set("constraints", static_cast<long long>(transcription.constraint_count()));
+  row.set("jacobian_nonzeros", static_cast<long long>(transcription.jacobian_structure().size()));
+  row.set("hessian_nonzeros", static_cast<long long>(transcription.hessian_structure().size()));
+  row.set("kkt_residual", solution.kkt_residual);
+  row.set("constraint_violation", solution.constraint_violation);
+  row.set("major_iterations", solution.major_iterations);
+  row.set("minor_iterations", solution.minor_iterations);
+  row.set("setup_seconds", setup_seconds);
+  row.set("evaluation_seconds", solution.evaluation_seconds);
+  row.set("seconds", solution.seconds);
+  if (result.trajectory) {
+    row.set("branch", branch_of(*result.trajectory, start));
+    row.set("objective", result.trajectory->cost);
+  }
+  return result;
+}
+
+bool is_usable(const Row& row) { return row.text("status") == "solved" && row.text("branch") == "same"; }
+
+}  // namespace dmocbench

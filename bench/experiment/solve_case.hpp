@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/experiment/case.hpp"
+#include "bench/experiment/table.hpp"
+#include "methods/program/solution.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// Everything an experiment may want to know of one solve.
+struct SolvedCase {
+  Case what;
+  Solution solution;
+  std::optional<Trajectory> trajectory;  ///< none if the solver gave no point, or one where momenta make no sense
+  Row row;                               ///< the core columns
+};
+
+/// The columns that begin every experiment's table, in this order.
+[[nodiscard]] const std::vector<std::string>& core_columns();
+
+/// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is part
+/// of the result. Throws `Error` on misuse only.
+[[nodiscard]] SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions& options, int repeats);
+
+/// The row of a case that could not even start, with status "not run" and the reason as its message.
+[[nodiscard]] SolvedCase unsolved_case(const Case& what, const std::string& reason);
+
+/// The rows of solves that were answered on the wanted branch: what curves, slopes and claims are made of.
+[[nodiscard]] bool is_usable(const Row& row);
+
+}  // namespace dmocbench

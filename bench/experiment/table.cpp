@@ -1,0 +1,108 @@
+#include "bench/experiment/table.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+std::string written(const Cell& cell) {
+  struct Writer {
+    std::string operator()(std::monostate /*empty*/) const { return {}; }
+    std::string operator()(long long value) const { return fmt::format("{}", value); }
+    std::string operator()(double value) const { return fmt::format("{:.17g}", value); }
+    std::string operator()(const std::string& value) const { return value; }
+  };
+  return std::visit(Writer{}, cell);
+}
+
+std::string quoted(const std::string& field) {
+  if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
+  std::string result = "\"";
+  for (const char c : field) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// Reads one record and moves `rest` behind it.
+std::vector<std::string> take_record(std::string_view& rest) {
+  std::vector<std::string> fields(1);
+  bool inside_quotes = false;
+  std::size_t i = 0;
+  for (; i < rest.size(); ++i) {
+    const char c = rest[i];
+    if (inside_quotes) {
+      if (c != '"') {
+        fields.back() += c;
+      } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
+        fields.back() += c;
+        ++i;
+      } else {
+        inside_quotes = false;
+      }
+    } else if (c == '"') {
+      inside_quotes = true;
+    } else if (c == ',') {
+      fields.emplace_back();
+    } else if (c == '\n') {
+      ++i;
+      break;
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  rest.remove_prefix(i);
+  return fields;
+}
+
+}  // namespace
+
+std::string Row::text(std::string_view column) const {
+  const auto found = cells_.find(column);
+  return found == cells_.end() ? std::string() : written(found->second);
+}
+
+std::optional<double> Row::number(std::string_view column) const {
+  const std::string field = text(column);
+  double value = 0.0;
+  const char* end = field.data() + field.size();
+  const auto [stop, error] = std::from_chars(field.data(), end, value);
+  if (error != std::errc() || stop != end || field.empty()) return std::nullopt;
+  return value;
+}
+
+std::string Table::csv() const {
+  std::string text;
+  for (std::size_t i = 0; i < columns_.size(); ++i) text += (i == 0 ? "" : ",") + quoted(columns_[i]);
+  text += '\n';
+  for (const Row& row : rows_) {
+    for (std::size_t i = 0; i < columns_.size(); ++i) text += (i == 0 ? "" : ",") + quoted(row.text(columns_[i]));
+    text += '\n';
+  }
+  return text;
+}
+
+Table Table::from_csv(std::string_view text) {
+  Table table(take_record(text));
+  for (std::size_t line = 2; !text.empty(); ++line) {
+    const std::vector<std::string> fields = take_record(text);
+    if (fields.size() != table.columns_.size()) {
+      throw Error(fmt::format("record {} has {} fields, the header has {}", line, fields.size(),
+                              table.columns_.size()));
+    }
+    Row row;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!fields[i].empty()) row.set(table.columns_[i], Cell(fields[i]));
+    }
+    table.append(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,67 @@
+// One or more solutions, written out as motions: nodes, stages and what a picture shows.
+#include <fmt/format.h>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/motion_file.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+class Solve final : public Experiment {
+ public:
+  [[nodiscard]] std::string name() const override { return "solve"; }
+  [[nodiscard]] std::string description() const override {
+    return "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and NAME_picture.csv; "
+           "with several cases each NAME carries the case's label.";
+  }
+  [[nodiscard]] std::string default_intervals() const override { return "128"; }
+  [[nodiscard]] std::vector<std::string> own_columns() const override { return {"replay_error"}; }
+  void check(const std::vector<Case>& cases) override { single_ = cases.size() == 1; }
+
+  void complete(SolvedCase& solved) override {
+    if (!solved.trajectory) return;
+    try {
+      solved.row.set("replay_error", replay_error(*solved.what.problem, *solved.trajectory).norm());
+    } catch (const Error& error) {
+      solved.row.set("message", solved.row.text("message") + " " + error.what());
+    }
+    if (is_solved(solved.solution.status)) motions_.push_back({solved.what, *solved.trajectory});
+  }
+
+  void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    for (const auto& [what, trajectory] : motions_) {
+      const std::string file = single_ ? prefix.string() : prefix.string() + "_" + what.file_label();
+      write_file(file + "_stages.csv", stage_table(*what.problem, trajectory).csv());
+      write_file(file + "_picture.csv", picture_table(*what.problem, trajectory).csv());
+      write_file(file + "_nodes.csv", node_table(*what.problem, trajectory).csv());
+      metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
+                                     {"problem", what.problem->name()},
+                                     {"method", what.method},
+                                     {"tableau", what.tableau},
+                                     {"stages", what.stages},
+                                     {"intervals", what.intervals()}});
+      fmt::print("solve: {}: {}_nodes.csv\n", what.label(), file);
+    }
+  }
+
+ private:
+  struct SolvedMotion {
+    Case what;
+    Trajectory trajectory;
+  };
+  bool single_ = true;
+  std::vector<SolvedMotion> motions_;
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::Solve experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
+}
