@@ -1,7 +1,6 @@
 // Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b) of the paper.
-#include "methods/diagnostics/momentum_consistency.hpp"
-
 #include "bench/experiment/experiment.hpp"
+#include "methods/diagnostics/momentum_consistency.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 

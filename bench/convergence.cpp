@@ -1,7 +1,7 @@
 // Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/interval_list.hpp"
@@ -20,7 +20,8 @@ class Convergence final : public Experiment {
  public:
   [[nodiscard]] std::string name() const override { return "convergence"; }
   [[nodiscard]] std::string description() const override {
-    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method, with fitted slopes "
+    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method, with fitted "
+           "slopes "
            "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).";
   }
   [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
@@ -29,9 +30,10 @@ class Convergence final : public Experiment {
   }
   void add_options(CLI::App& app) override {
     app.add_option("--reference", reference_, "N of the reference grid; default: the finest one of each curve");
-    app.add_option("--fit", fit_,
-                   "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
-                   "the reference");
+    app.add_option(
+        "--fit", fit_,
+        "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
+        "the reference");
   }
 
   void check(const std::vector<Case>& cases) override {

@@ -50,7 +50,8 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
   fmt::print("\nSolvers (--solver)\n\n");
   for (const std::string& name : solver_names()) fmt::print("{:<12} {}\n", name, make_solver(name)->description());
   fmt::print("\nDerivatives\n\n");
-  fmt::print("{:<12} {}\n", "tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all");
+  fmt::print("{:<12} {}\n", "tape",
+             "exact: the formulas of one interval differentiated symbolically, evaluated for all");
   return 0;
 }
 
@@ -59,7 +60,8 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
 }  // namespace dmocbench
 
 int main(int argc, char** argv) {
-  CLI::App app("What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", "list");
+  CLI::App app("What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.",
+               "list");
   std::vector<std::string> problems;
   std::vector<std::string> settings;
   app.add_option("--problem", problems, "only these problems")->delimiter(',');

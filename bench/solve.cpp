@@ -15,7 +15,8 @@ class Solve final : public Experiment {
  public:
   [[nodiscard]] std::string name() const override { return "solve"; }
   [[nodiscard]] std::string description() const override {
-    return "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and NAME_picture.csv; "
+    return "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
+           "NAME_picture.csv; "
            "with several cases each NAME carries the case's label.";
   }
   [[nodiscard]] std::string default_intervals() const override { return "128"; }

@@ -12,8 +12,7 @@ namespace dmocbench {
 /// A solve that does not converge is not an error; it is a `Status`.
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& sentence,
-                 std::source_location where = std::source_location::current())
+  explicit Error(const std::string& sentence, std::source_location where = std::source_location::current())
       : std::runtime_error(sentence), where_(where) {}
 
   /// The source line that threw.

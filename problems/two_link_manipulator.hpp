@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
@@ -9,25 +11,107 @@ namespace dmocbench {
 /// q = (θ₁, θ₂), the orientations of the links measured counterclockwise from the horizontal;
 ///   K = ⅛(m₁ + 4m₂)l₁²θ̇₁² + ⅛m₂l₂²θ̇₂² + ½m₂l₁l₂cos(θ₁ - θ₂)θ̇₁θ̇₂ + ½J₁θ̇₁² + ½J₂θ̇₂²,
 ///   V = ½m₁gl₁sin θ₁ + m₂gl₁sin θ₁ + ½m₂gl₂sin θ₂   (the paper prints θ₂ for sin θ₂ in the last term),
-/// f = (τ₁ - τ₂, τ₂), C = ½(τ₁² + τ₂²), from hanging at rest to upright at rest.
+/// f = (τ₁ - τ₂, τ₂), C = ½(τ₁² + τ₂²), from hanging at rest to upright at rest. The paper gives no values; uniform
+/// rods of unit mass and length on the Earth are natural.
 class TwoLinkManipulator final : public Problem {
  public:
-  TwoLinkManipulator();
+  TwoLinkManipulator()
+      : Problem({
+            {.name = "mass_1", .value = 1.0, .unit = "kg", .meaning = "mass of link 1", .lower = 1e-3, .upper = 1e3},
+            {.name = "mass_2", .value = 1.0, .unit = "kg", .meaning = "mass of link 2", .lower = 1e-3, .upper = 1e3},
+            {.name = "length_1", .value = 1.0, .unit = "m", .meaning = "length of link 1", .lower = 1e-3, .upper = 1e3},
+            {.name = "length_2", .value = 1.0, .unit = "m", .meaning = "length of link 2", .lower = 1e-3, .upper = 1e3},
+            {.name = "inertia_1",
+             .value = 1.0 / 12.0,
+             .unit = "kg m^2",
+             .meaning = "inertia of link 1 about its centre",
+             .lower = 1e-6,
+             .upper = 1e6},
+            {.name = "inertia_2",
+             .value = 1.0 / 12.0,
+             .unit = "kg m^2",
+             .meaning = "inertia of link 2 about its centre",
+             .lower = 1e-6,
+             .upper = 1e6},
+            {.name = "gravity",
+             .value = 9.81,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 0.0,
+             .upper = 1e3},
+            {.name = "horizon",
+             .value = 1.0,
+             .unit = "s",
+             .meaning = "duration T of the swing-up",
+             .lower = 1e-3,
+             .upper = 1e3},
+        }) {}
 
   [[nodiscard]] std::string name() const override { return "two_link_manipulator"; }
-  [[nodiscard]] std::string description() const override;
-  [[nodiscard]] std::string source() const override;
+  [[nodiscard]] std::string description() const override {
+    return "swing-up of a planar two-link arm in fixed time, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2";
+  }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta_1", "theta_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau_1", "tau_2"}; }
-  [[nodiscard]] Expression lagrangian(const State& x) const override;
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override;
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override;
-  [[nodiscard]] BoundaryState initial_state() const override;
-  [[nodiscard]] BoundaryState final_state() const override;
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const double m1 = parameter("mass_1");
+    const double m2 = parameter("mass_2");
+    const double l1 = parameter("length_1");
+    const double l2 = parameter("length_2");
+    const double g = parameter("gravity");
+    const Expression& theta_1 = x.q[0];
+    const Expression& theta_2 = x.q[1];
+    const Expression& omega_1 = x.v[0];
+    const Expression& omega_2 = x.v[1];
+    const Expression kinetic =
+        0.125 * (m1 + 4.0 * m2) * l1 * l1 * omega_1 * omega_1 + 0.125 * m2 * l2 * l2 * omega_2 * omega_2 +
+        0.5 * m2 * l1 * l2 * cos(theta_1 - theta_2) * omega_1 * omega_2 +
+        0.5 * parameter("inertia_1") * omega_1 * omega_1 + 0.5 * parameter("inertia_2") * omega_2 * omega_2;
+    const Expression potential = (0.5 * m1 + m2) * g * l1 * sin(theta_1) + 0.5 * m2 * g * l2 * sin(theta_2);
+    return kinetic - potential;
+  }
+
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    ExpressionVector f(2);
+    f << x.u[0] - x.u[1], x.u[1];
+    return f;
+  }
+
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * (x.u[0] * x.u[0] + x.u[1] * x.u[1]);
+  }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::Vector2d::Constant(-std::numbers::pi / 2.0), .v = Eigen::Vector2d::Zero()};
+  }
+
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector2d::Constant(std::numbers::pi / 2.0), .v = Eigen::Vector2d::Zero()};
+  }
+
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+
   /// Rotations of the whole arm: ξ = (1, 1). Gravity breaks the symmetry, so its torque counts among the forces.
-  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override;
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override;
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    ExpressionVector generator(2);
+    generator << 1.0, 1.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const Expression elbow_x = parameter("length_1") * cos(x.q[0]);
+    const Expression elbow_y = parameter("length_1") * sin(x.q[0]);
+    return {{"elbow_x", "m", elbow_x},
+            {"elbow_y", "m", elbow_y},
+            {"tip_x", "m", elbow_x + parameter("length_2") * cos(x.q[1])},
+            {"tip_y", "m", elbow_y + parameter("length_2") * sin(x.q[1])},
+            {"tau_1", "N m", x.u[0]},
+            {"tau_2", "N m", x.u[1]}};
+  }
 };
 
 }  // namespace dmocbench

@@ -1,11 +1,11 @@
 #include "bench/experiment/experiment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/solve_case.hpp"
@@ -14,8 +15,8 @@ namespace dmocbench {
 
 /// An experiment: many solves, a row for each, and what its author makes of them.
 ///
-/// `run_experiment` reads the command line, solves case after case and keeps the table on disk up to date; an experiment
-/// adds its own columns and files.
+/// `run_experiment` reads the command line, solves case after case and keeps the table on disk up to date; an
+/// experiment adds its own columns and files.
 class Experiment {
  public:
   virtual ~Experiment() = default;
@@ -40,7 +41,8 @@ class Experiment {
   [[nodiscard]] virtual std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const;
   /// Fills in the own columns of a solved case. Called in the order of solving.
   virtual void complete(SolvedCase& solved) = 0;
-  /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the table.
+  /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
+  /// table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
                       nlohmann::ordered_json& /*metadata*/) {}
 
@@ -48,9 +50,9 @@ class Experiment {
   Experiment() = default;
 };
 
-/// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it keeps
-/// its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted (finished rows
-/// are kept).
+/// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
+/// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
+/// (finished rows are kept).
 int run_experiment(Experiment& experiment, int argc, char** argv);
 
 /// Parses a command line and runs `body`; every error becomes one line on standard error and exit code 2.

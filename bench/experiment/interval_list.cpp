@@ -1,10 +1,10 @@
 #include "bench/experiment/interval_list.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <set>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/transcription/grid.hpp"
@@ -19,8 +19,7 @@ long long parse_count(std::string_view text) {
   const auto [stop, error] = std::from_chars(text.data(), end, count);
   const bool is_whole_number = error == std::errc() && stop == end;
   if (!is_whole_number || count < 1 || count > Grid::most_intervals) {
-    throw Error(fmt::format("--intervals: \"{}\" is not a whole number between 1 and {}", text,
-                            Grid::most_intervals));
+    throw Error(fmt::format("--intervals: \"{}\" is not a whole number between 1 and {}", text, Grid::most_intervals));
   }
   return count;
 }

@@ -5,8 +5,8 @@
 
 namespace dmocbench {
 
-/// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end), or a
-/// mixture; ascending, each once. Throws `Error` that quotes the entry if one is not a whole number between 1 and
+/// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end),
+/// or a mixture; ascending, each once. Throws `Error` that quotes the entry if one is not a whole number between 1 and
 /// Grid::most_intervals, or a range ends below its start.
 [[nodiscard]] std::vector<long long> parse_intervals(std::string_view text);
 

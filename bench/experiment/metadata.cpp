@@ -1,5 +1,11 @@
 #include "bench/experiment/metadata.hpp"
 
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <memory>
+
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <boost/version.hpp>
@@ -7,12 +13,6 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
-
-#include <array>
-#include <cstdio>
-#include <ctime>
-#include <fstream>
-#include <memory>
 
 #include "methods/expression/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"

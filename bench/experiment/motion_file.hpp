@@ -9,19 +9,20 @@
 
 namespace dmocbench {
 
-/// The nodes of a trajectory: `t`, then per configuration NAME, `v_NAME`, `p_NAME`, and `psi_q_NAME`, `psi_p_NAME` where
-/// there are costates (empty fields otherwise). Units of the problem as solved.
+/// The nodes of a trajectory: `t`, then per configuration NAME, `v_NAME`, `p_NAME`, and `psi_q_NAME`, `psi_p_NAME`
+/// where there are costates (empty fields otherwise). Units of the problem as solved.
 [[nodiscard]] Table node_table(const Problem& problem, const Trajectory& trajectory);
 
 /// The stages: `t` and the controls by their names.
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
-/// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of `Problem::picture`, each
-/// named NAME_[UNIT]. The control at a node is that of `control_at`.
+/// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of `Problem::picture`,
+/// each named NAME_[UNIT]. The control at a node is that of `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
 
 /// Reads a motion back from FILE, a node table, and the stage table beside it (X_nodes.csv and X_stages.csv): piecewise
-/// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what is missing.
+/// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what is
+/// missing.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
 
 }  // namespace dmocbench

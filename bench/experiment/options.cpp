@@ -1,9 +1,9 @@
 #include "bench/experiment/options.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
 
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -36,8 +36,8 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
   std::vector<Grid> grids;
   if (!options.grid_file.empty()) {
     const std::vector<double> times = parse_node_times(read_file(options.grid_file));
-    grids.push_back(Grid::from_nodes(
-        Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
+    grids.push_back(
+        Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
     return grids;
   }
   for (const long long count : parse_intervals(options.intervals)) grids.push_back(Grid::uniform(count));
@@ -50,7 +50,8 @@ std::vector<int> sorted_stages(std::vector<int> stages, const std::string& table
   const std::vector<int> known = tableau_stages(tableau);
   for (const int s : stages) {
     if (std::find(known.begin(), known.end(), s) == known.end()) {
-      throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", tableau, fmt::join(known, ", "), s));
+      throw Error(
+          fmt::format("--stages: {} is offered with {} stages, not with {}", tableau, fmt::join(known, ", "), s));
     }
   }
   return stages;
@@ -70,9 +71,10 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
   app.add_option("--grid", options.grid_file,
                  "file with relative node times from 0 to 1, one per line; replaces --intervals");
   app.add_option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
-  app.add_option("--start", options.start,
-                 "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
-                 "X_nodes.csv written by solve")
+  app.add_option(
+         "--start", options.start,
+         "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
+         "X_nodes.csv written by solve")
       ->capture_default_str();
   app.add_option("--tolerance", options.tolerance, "for the KKT residual of the scaled program")->capture_default_str();
   app.add_option("--iterations", options.most_iterations, "largest number of iterations of a solver")

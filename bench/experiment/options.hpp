@@ -1,9 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "bench/experiment/case.hpp"
 #include "methods/solvers/solver.hpp"
@@ -18,8 +19,8 @@ struct ExperimentOptions {
   std::vector<int> stages{1};
   std::vector<std::string> solvers{"ipopt"};
   std::string intervals;
-  std::string grid_file;              ///< relative node times; replaces `intervals`
-  std::vector<std::string> settings;  ///< "parameter=value"
+  std::string grid_file;               ///< relative node times; replaces `intervals`
+  std::vector<std::string> settings;   ///< "parameter=value"
   std::vector<std::string> passed_on;  ///< "option=value" for the solver
   std::string start = "common";        ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
@@ -36,8 +37,8 @@ void add_options(CLI::App& app, ExperimentOptions& options);
 /// The solver options among them. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
 
-/// All cases in the order of rows: problem, method, tableau, stages, solver, intervals ascending. Problems of equal name
-/// are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by then.
+/// All cases in the order of rows: problem, method, tableau, stages, solver, intervals ascending. Problems of equal
+/// name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by then.
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
 /// Problems with the settings applied, in the order of the registry. A setting must belong to at least one of them.

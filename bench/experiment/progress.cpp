@@ -1,9 +1,9 @@
 #include "bench/experiment/progress.hpp"
 
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <cstdio>
 
 namespace dmocbench {
 

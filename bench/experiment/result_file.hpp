@@ -9,8 +9,8 @@ namespace dmocbench {
 /// Makes the folder, parents included, and checks that files can be written there. Throws `Error` if not.
 void prepare_folder(const std::filesystem::path& folder);
 
-/// Writes a file whole or not at all: to a temporary name in the same folder, then renamed. Throws `Error` (and removes the
-/// temporary file) if the disk is full or the folder cannot be written.
+/// Writes a file whole or not at all: to a temporary name in the same folder, then renamed. Throws `Error` (and removes
+/// the temporary file) if the disk is full or the folder cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The content of a file. Throws `Error` that names it if it cannot be read.

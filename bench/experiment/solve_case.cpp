@@ -69,18 +69,18 @@ void describe(SolvedCase& solved) {
 
 const std::vector<std::string>& core_columns() {
   static const std::vector<std::string> columns = {
-      "problem",           "method",
-      "tableau",           "stages",
-      "solver",            "derivatives",
-      "intervals",         "step",
-      "variables",         "free_variables",
-      "constraints",       "jacobian_nonzeros",
-      "hessian_nonzeros",  "status",
-      "branch",            "objective",
-      "kkt_residual",      "constraint_violation",
-      "major_iterations",  "minor_iterations",
-      "setup_seconds",     "evaluation_seconds",
-      "seconds",           "message",
+      "problem",          "method",
+      "tableau",          "stages",
+      "solver",           "derivatives",
+      "intervals",        "step",
+      "variables",        "free_variables",
+      "constraints",      "jacobian_nonzeros",
+      "hessian_nonzeros", "status",
+      "branch",           "objective",
+      "kkt_residual",     "constraint_violation",
+      "major_iterations", "minor_iterations",
+      "setup_seconds",    "evaluation_seconds",
+      "seconds",          "message",
   };
   return columns;
 }

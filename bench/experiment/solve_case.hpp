@@ -24,8 +24,8 @@ struct SolvedCase {
 /// The columns that begin every experiment's table, in this order.
 [[nodiscard]] const std::vector<std::string>& core_columns();
 
-/// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is part
-/// of the result. Throws `Error` on misuse only.
+/// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
+/// part of the result. Throws `Error` on misuse only.
 [[nodiscard]] SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions& options, int repeats);
 
 /// The row of a case that could not even start, with status "not run" and the reason as its message.

@@ -1,12 +1,12 @@
 #include "bench/experiment/start_source.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -48,7 +48,8 @@ bool falls_as_predicted(double coarse, double fine, int order) {
   return fine < solver_floor || fine <= coarse * std::pow(2.0, 0.5 - order);
 }
 
-/// The method that a node file is the answer of and on which grid, as the metadata beside it tells; none if it does not.
+/// The method that a node file is the answer of and on which grid, as the metadata beside it tells; none if it does
+/// not.
 bool is_own_answer(const std::filesystem::path& nodes_file, const Case& solved_case) {
   const std::string name = nodes_file.filename().string();
   for (const auto& entry : std::filesystem::directory_iterator(
@@ -58,8 +59,8 @@ bool is_own_answer(const std::filesystem::path& nodes_file, const Case& solved_c
     if (!metadata.is_object() || !metadata.contains("motions")) continue;
     for (const auto& motion : metadata["motions"]) {
       if (motion.value("nodes", "") != name) continue;
-      return motion.value("method", "") == solved_case.method &&
-             motion.value("tableau", "") == solved_case.tableau && motion.value("stages", 0) == solved_case.stages &&
+      return motion.value("method", "") == solved_case.method && motion.value("tableau", "") == solved_case.tableau &&
+             motion.value("stages", 0) == solved_case.stages &&
              motion.value("intervals", 0LL) == static_cast<long long>(solved_case.intervals());
     }
   }
@@ -68,7 +69,8 @@ bool is_own_answer(const std::filesystem::path& nodes_file, const Case& solved_c
 
 }  // namespace
 
-StartSource::StartSource(std::string kind, SolverOptions options) : kind_(std::move(kind)), options_(std::move(options)) {
+StartSource::StartSource(std::string kind, SolverOptions options)
+    : kind_(std::move(kind)), options_(std::move(options)) {
   options_.verbose = false;
   options_.passed_on.clear();  // the start must not depend on how a row is solved
   options_.tolerance = std::min(options_.tolerance, SolverOptions{}.tolerance);
@@ -89,7 +91,7 @@ Motion StartSource::motion_for(const Case& solved_case) {
   if (kind_ != "common") {
     if (is_own_answer(kind_, solved_case)) {
       throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
-                              kind_, solved_case.label()));
+                                kind_, solved_case.label()));
     }
     return read_motion(*solved_case.problem, kind_);
   }
@@ -132,17 +134,18 @@ StartSource::CommonStart StartSource::find_common_start(const Case& solved_case)
             [](const Candidate& a, const Candidate& b) { return a.trajectory.cost < b.trajectory.cost; });
   for (const Candidate& candidate : candidates) {
     if (stopped()) throw NoStart("interrupted");
-    const auto finer = solve(solved_case, candidate.method, 2 * final_intervals, smooth_motion(candidate.trajectory),
-                             options_);
+    const auto finer =
+        solve(solved_case, candidate.method, 2 * final_intervals, smooth_motion(candidate.trajectory), options_);
     if (!finer) continue;
     if (falls_as_predicted(replayed(problem, candidate.trajectory), replayed(problem, *finer),
                            candidate.trajectory.tableau.order)) {
       return {candidate.method, smooth_motion(candidate.trajectory), smooth_motion(*finer)};
     }
   }
-  throw NoStart(fmt::format("{} has no common start: from its guess no method finds a motion on {} intervals that a replay "
-                          "confirms; try --start guess, or a file written by solve",
-                          problem.name(), final_intervals));
+  throw NoStart(
+      fmt::format("{} has no common start: from its guess no method finds a motion on {} intervals that a replay "
+                  "confirms; try --start guess, or a file written by solve",
+                  problem.name(), final_intervals));
 }
 
 }  // namespace dmocbench

@@ -22,10 +22,10 @@ class NoStart : public Error {
 
 /// Where solves start: the common start, the problem's guess or a file.
 ///
-/// From the same guess the methods fall into different local minima, and coarse grids have spurious ones. The common start
-/// of a problem and tableau is one motion for all methods and grids: each method solves from the guess at N = 48, 96 and
-/// 144, each answer is solved again at 144 and at 288, and of those that converge and whose replay error falls from 144 to
-/// 288 as the order predicts the one with the lowest objective is taken.
+/// From the same guess the methods fall into different local minima, and coarse grids have spurious ones. The common
+/// start of a problem and tableau is one motion for all methods and grids: each method solves from the guess at N = 48,
+/// 96 and 144, each answer is solved again at 144 and at 288, and of those that converge and whose replay error falls
+/// from 144 to 288 as the order predicts the one with the lowest objective is taken.
 class StartSource {
  public:
   /// `kind` is "common", "guess" or the name of a node file.
@@ -34,9 +34,9 @@ class StartSource {
   /// Throws `Error` if a file does not fit one of the problems.
   void check(const std::vector<Case>& cases) const;
 
-  /// The motion to start this case from. No case starts at its own answer: where the common start is the case's own method
-  /// on the same grid, the same branch on the finer grid serves; a file that is the case's own answer is refused. Throws
-  /// `NoStart` then, and if no common start can be found.
+  /// The motion to start this case from. No case starts at its own answer: where the common start is the case's own
+  /// method on the same grid, the same branch on the finer grid serves; a file that is the case's own answer is
+  /// refused. Throws `NoStart` then, and if no common start can be found.
   [[nodiscard]] Motion motion_for(const Case& solved_case);
 
   /// Solves needed until the common start of this case is known; tells progress.
@@ -45,8 +45,8 @@ class StartSource {
  private:
   struct CommonStart {
     std::string method;
-    Motion motion;       // solved on coarse_intervals
-    Motion finer;        // the same branch on twice as many
+    Motion motion;  // solved on coarse_intervals
+    Motion finer;   // the same branch on twice as many
   };
   using Key = std::tuple<std::string, std::string, int>;
 

@@ -1,8 +1,8 @@
 #include "bench/experiment/table.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
+
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 
@@ -93,8 +93,8 @@ Table Table::from_csv(std::string_view text) {
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::vector<std::string> fields = take_record(text);
     if (fields.size() != table.columns_.size()) {
-      throw Error(fmt::format("record {} has {} fields, the header has {}", line, fields.size(),
-                              table.columns_.size()));
+      throw Error(
+          fmt::format("record {} has {} fields, the header has {}", line, fields.size(), table.columns_.size()));
     }
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) {

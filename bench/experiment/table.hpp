@@ -20,7 +20,8 @@ class Row {
   void set(std::string_view column, const char* value) { set(column, Cell(std::string(value))); }
   template <class Number>
   void set(std::string_view column, const std::optional<Number>& value) {
-    if (value) set(column, Cell(static_cast<std::conditional_t<std::is_integral_v<Number>, long long, double>>(*value)));
+    if (value)
+      set(column, Cell(static_cast<std::conditional_t<std::is_integral_v<Number>, long long, double>>(*value)));
   }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] std::string text(std::string_view column) const;
@@ -31,7 +32,8 @@ class Row {
   std::map<std::string, Cell, std::less<>> cells_;
 };
 
-/// A table with named columns. Numbers are written with all their digits (%.17g); what does not exist is an empty field.
+/// A table with named columns. Numbers are written with all their digits (%.17g); what does not exist is an empty
+/// field.
 class Table {
  public:
   Table() = default;

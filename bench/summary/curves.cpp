@@ -7,7 +7,8 @@ namespace dmocbench {
 std::vector<Curve> curves_of(const Table& table) {
   std::vector<Curve> curves;
   for (const Row& row : table.rows()) {
-    Curve curve{row.text("problem"), row.text("method"), row.text("tableau"), row.text("stages"), row.text("solver"), {}};
+    Curve curve{row.text("problem"), row.text("method"), row.text("tableau"),
+                row.text("stages"),  row.text("solver"), {}};
     auto found = std::find_if(curves.begin(), curves.end(), [&](const Curve& known) {
       return known.label() == curve.label() && known.solver == curve.solver;
     });

@@ -1,8 +1,9 @@
 #include "bench/summary/slopes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "bench/experiment/solve_case.hpp"
 #include "bench/summary/curves.hpp"
@@ -15,12 +16,17 @@ namespace {
 constexpr long long asymptotic_from_one_stage = 32;
 constexpr long long asymptotic_from_several_stages = 64;
 constexpr long long reference_factor = 4;
-/// Errors of state and control below this are the solver's tolerance (1e-10) and rounding, not the grid.
+/// Errors below this are the solver's tolerance (1e-10) and rounding, not the grid; relative to the cost for errors of
+/// it.
 constexpr double rounding_level = 1e-11;
 
 constexpr const char* quantities[] = {"state", "control", "momentum", "costate", "objective", "replay"};
 
 double number_of(const Row* row, const std::string& column) { return row->number(column).value_or(0.0); }
+
+double smallest_error(const Row* row, const std::string& quantity) {
+  return quantity == "objective" ? rounding_level * std::abs(number_of(row, "objective")) : rounding_level;
+}
 
 }  // namespace
 
@@ -37,9 +43,10 @@ SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& r
     if (range) {
       fit = *range;
       if (static_cast<double>(fit.finest) * reference_factor > reference_intervals) {
-        result.notes.push_back(fmt::format(
-            "{}: slopes are fitted up to N = {}, less than {} times coarser than the reference N = {}: they are too large",
-            curve.label(), fit.finest, reference_factor, reference_intervals));
+        result.notes.push_back(
+            fmt::format("{}: slopes are fitted up to N = {}, less than {} times coarser than the reference N = {}: "
+                        "they are too large",
+                        curve.label(), fit.finest, reference_factor, reference_intervals));
       }
     } else {
       fit.coarsest = curve.stages == "1" ? asymptotic_from_one_stage : asymptotic_from_several_stages;
@@ -52,8 +59,9 @@ SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& r
       for (const Row* row : curve.rows) {
         const double intervals = number_of(row, "intervals");
         const auto error = row->number(quantity + "_error");
-        const bool in_range = intervals >= static_cast<double>(fit.coarsest) && intervals <= static_cast<double>(fit.finest);
-        if (!is_usable(*row) || !in_range || !error || *error < rounding_level) continue;
+        const bool in_range =
+            intervals >= static_cast<double>(fit.coarsest) && intervals <= static_cast<double>(fit.finest);
+        if (!is_usable(*row) || !in_range || !error || *error < smallest_error(row, quantity)) continue;
         if (coarsest == 0.0) coarsest = intervals;
         finest = intervals;
         points.push_back({number_of(row, "step"), *error});

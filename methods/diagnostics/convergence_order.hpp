@@ -20,8 +20,8 @@ struct FittedOrder {
   int points = 0;
 };
 
-/// Least-squares slope of log(error) over log(step). Points whose error is not positive and finite are left out; none with
-/// fewer than two points left.
+/// Least-squares slope of log(error) over log(step). Points whose error is not positive and finite are left out; none
+/// with fewer than two points left.
 [[nodiscard]] std::optional<FittedOrder> fit_order(const std::vector<GridError>& points);
 
 }  // namespace dmocbench

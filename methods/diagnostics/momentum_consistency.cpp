@@ -19,7 +19,8 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   PointFunction force_along(n, traced.control_size(), [&](const ControlledState& x) {
     const TracedProblem::Values values = traced.at(x);
     const ExpressionVector transport = values.symmetry_jacobian * x.v;
-    return ExpressionVector::Constant(1, values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
+    return ExpressionVector::Constant(1,
+                                      values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
   });
 
   const auto row = [](const Eigen::MatrixXd& table, Eigen::Index k) -> Eigen::VectorXd {

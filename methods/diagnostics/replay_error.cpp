@@ -1,9 +1,10 @@
 #include "methods/diagnostics/replay_error.hpp"
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <boost/numeric/odeint.hpp>
 #include <boost/numeric/odeint/external/eigen/eigen.hpp>
-#include <cmath>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"

@@ -13,10 +13,10 @@ struct ReplayError {
   [[nodiscard]] double norm() const;
 };
 
-/// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰) with the controls of the trajectory (on
-/// every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order 7(8) with the given
-/// tolerance, absolute and relative. Independent of every discretisation. Throws `Error` if the integration fails: the
-/// motion leaves the set where the equations make sense, or the steps vanish.
+/// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰) with the controls of the trajectory
+/// (on every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order 7(8) with the
+/// given tolerance, absolute and relative. Independent of every discretisation. Throws `Error` if the integration
+/// fails: the motion leaves the set where the equations make sense, or the steps vanish.
 [[nodiscard]] ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
 
 }  // namespace dmocbench

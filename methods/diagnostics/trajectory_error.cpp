@@ -27,7 +27,8 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
     const double t = trajectory.node_times[k];
     const auto node = node_at(reference.node_times, t);
-    const Eigen::VectorXd q = node ? Eigen::VectorXd(reference.q.row(*node).transpose()) : configuration_at(reference, t);
+    const Eigen::VectorXd q =
+        node ? Eigen::VectorXd(reference.q.row(*node).transpose()) : configuration_at(reference, t);
     error.state = std::max(error.state, (trajectory.q.row(k).transpose() - q).norm());
     if (!node) continue;
     error.momentum = std::max(error.momentum, (trajectory.p.row(k) - reference.p.row(*node)).norm());

@@ -28,8 +28,7 @@ std::vector<Node*> active_nodes(const Expression& f, const std::unordered_set<No
       if (operand != nullptr) open.push_back(operand);
     }
   }
-  std::sort(reachable.begin(), reachable.end(),
-            [](const Node* a, const Node* b) { return a->serial() < b->serial(); });
+  std::sort(reachable.begin(), reachable.end(), [](const Node* a, const Node* b) { return a->serial() < b->serial(); });
   std::vector<Node*> active;
   std::unordered_set<Node*> is_active;
   for (Node* node : reachable) {
@@ -47,32 +46,51 @@ Expression partial_derivative(Node* node, std::size_t which) {
   const Expression result = Expression::of_node(node);
   const Expression x = Expression::of_node(node->operand(0));
   switch (node->operation()) {
-    case Operation::add: return 1.0;
-    case Operation::subtract: return which == 0 ? 1.0 : -1.0;
-    case Operation::multiply: return Expression::of_node(node->operand(1 - which));
-    case Operation::negate: return -1.0;
-    case Operation::reciprocal: return -(result * result);
-    case Operation::square_root: return 0.5 / result;
-    case Operation::exponential: return result;
-    case Operation::logarithm: return 1.0 / x;
-    case Operation::sine: return cos(x);
-    case Operation::cosine: return -sin(x);
-    case Operation::tangent: return 1.0 + result * result;
-    case Operation::arc_sine: return 1.0 / sqrt(1.0 - x * x);
-    case Operation::arc_cosine: return -1.0 / sqrt(1.0 - x * x);
-    case Operation::arc_tangent: return 1.0 / (1.0 + x * x);
+    case Operation::add:
+      return 1.0;
+    case Operation::subtract:
+      return which == 0 ? 1.0 : -1.0;
+    case Operation::multiply:
+      return Expression::of_node(node->operand(1 - which));
+    case Operation::negate:
+      return -1.0;
+    case Operation::reciprocal:
+      return -(result * result);
+    case Operation::square_root:
+      return 0.5 / result;
+    case Operation::exponential:
+      return result;
+    case Operation::logarithm:
+      return 1.0 / x;
+    case Operation::sine:
+      return cos(x);
+    case Operation::cosine:
+      return -sin(x);
+    case Operation::tangent:
+      return 1.0 + result * result;
+    case Operation::arc_sine:
+      return 1.0 / sqrt(1.0 - x * x);
+    case Operation::arc_cosine:
+      return -1.0 / sqrt(1.0 - x * x);
+    case Operation::arc_tangent:
+      return 1.0 / (1.0 + x * x);
     case Operation::arc_tangent2: {
       const Expression other = Expression::of_node(node->operand(1));  // atan2(x, other)
       const Expression squared_radius = x * x + other * other;
       return which == 0 ? other / squared_radius : -x / squared_radius;
     }
-    case Operation::hyperbolic_sine: return cosh(x);
-    case Operation::hyperbolic_cosine: return sinh(x);
-    case Operation::hyperbolic_tangent: return 1.0 - result * result;
-    case Operation::power: return node->value() * pow(x, node->value() - 1.0);
+    case Operation::hyperbolic_sine:
+      return cosh(x);
+    case Operation::hyperbolic_cosine:
+      return sinh(x);
+    case Operation::hyperbolic_tangent:
+      return 1.0 - result * result;
+    case Operation::power:
+      return node->value() * pow(x, node->value() - 1.0);
     case Operation::constant:
     case Operation::input:
-    case Operation::divide: break;
+    case Operation::divide:
+      break;
   }
   throw Error("no derivative rule for this operation");
 }

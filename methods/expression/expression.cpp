@@ -15,9 +15,7 @@ using detail::Node;
 using detail::NodeKey;
 using detail::NodeTable;
 
-Expression make(const NodeKey& key) {
-  return Expression::of_node(NodeTable::of_this_thread().find_or_create(key));
-}
+Expression make(const NodeKey& key) { return Expression::of_node(NodeTable::of_this_thread().find_or_create(key)); }
 
 Expression make(Operation operation, const Expression& x) {
   return make(NodeKey{.operation = operation, .operands = {x.node(), nullptr}});
@@ -29,13 +27,9 @@ Expression make(Operation operation, const Expression& left, const Expression& r
 
 bool is(const Expression& x, Operation operation) { return x.node()->operation() == operation; }
 
-Expression operand(const Expression& x, std::size_t which = 0) {
-  return Expression::of_node(x.node()->operand(which));
-}
+Expression operand(const Expression& x, std::size_t which = 0) { return Expression::of_node(x.node()->operand(which)); }
 
-bool created_before(const Expression& a, const Expression& b) {
-  return a.node()->serial() < b.node()->serial();
-}
+bool created_before(const Expression& a, const Expression& b) { return a.node()->serial() < b.node()->serial(); }
 
 /// x = factor · rest, where rest carries neither sign nor numeric factor (1 for a constant).
 struct Scaled {
@@ -55,29 +49,30 @@ Scaled split(const Expression& x) {
   return {1.0, x};
 }
 
-Expression negated(const Expression& x) {
-  if (is(x, Operation::subtract)) return make(Operation::subtract, operand(x, 1), operand(x, 0));
-  return make(Operation::negate, x);
-}
-
 /// factor · rest in the one form that shares best: the sign outside, then the magnitude, then the rest.
 Expression scaled(double factor, const Expression& rest) {
   if (factor == 0.0) return {};
   if (const auto value = rest.constant_value()) return {factor * *value};
   if (factor == 1.0) return rest;
-  if (factor == -1.0) return negated(rest);
-  if (factor < 0.0) return negated(scaled(-factor, rest));
+  if (factor == -1.0) return make(Operation::negate, rest);
+  if (factor < 0.0) return make(Operation::negate, scaled(-factor, rest));
   return make(Operation::multiply, Expression(factor), rest);
 }
 
-/// The factors of a product, in no particular order.
-void collect_factors(const Expression& product, std::vector<Expression>& factors) {
-  if (is(product, Operation::multiply)) {
-    collect_factors(operand(product, 0), factors);
-    collect_factors(operand(product, 1), factors);
-  } else {
-    factors.push_back(product);
+/// The factors of a product, in no particular order. What is nested deeper than the limit stays one factor: a product
+/// of a million factors, or a power by repeated squaring, must not be spread out at every multiplication.
+std::vector<Expression> factors_of(const Expression& product) {
+  constexpr std::size_t limit = 32;
+  std::vector<Expression> factors{product};
+  for (std::size_t i = 0; i < factors.size() && factors.size() < limit;) {
+    if (!is(factors[i], Operation::multiply)) {
+      ++i;
+      continue;
+    }
+    factors.push_back(operand(factors[i], 1));
+    factors[i] = operand(factors[i], 0);
   }
+  return factors;
 }
 
 bool are_reciprocal(const Expression& a, const Expression& b) {
@@ -89,9 +84,8 @@ bool are_reciprocal(const Expression& a, const Expression& b) {
 bool cancel(std::vector<Expression>& left, std::vector<Expression>& right) {
   bool cancelled = false;
   for (std::size_t i = 0; i < left.size();) {
-    const auto partner = std::find_if(right.begin(), right.end(), [&](const Expression& factor) {
-      return are_reciprocal(left[i], factor);
-    });
+    const auto partner = std::find_if(right.begin(), right.end(),
+                                      [&](const Expression& factor) { return are_reciprocal(left[i], factor); });
     if (partner == right.end()) {
       ++i;
       continue;
@@ -107,10 +101,8 @@ bool cancel(std::vector<Expression>& left, std::vector<Expression>& right) {
 Expression product(const Expression& left, const Expression& right) {
   if (left.constant_value() == 1.0) return right;
   if (right.constant_value() == 1.0) return left;
-  std::vector<Expression> left_factors;
-  std::vector<Expression> right_factors;
-  collect_factors(left, left_factors);
-  collect_factors(right, right_factors);
+  std::vector<Expression> left_factors = factors_of(left);
+  std::vector<Expression> right_factors = factors_of(right);
   if (cancel(left_factors, right_factors)) {
     Expression result(1.0);
     for (const auto* factors : {&left_factors, &right_factors}) {
@@ -118,8 +110,7 @@ Expression product(const Expression& left, const Expression& right) {
     }
     return result;
   }
-  return created_before(right, left) ? make(Operation::multiply, right, left)
-                                     : make(Operation::multiply, left, right);
+  return created_before(right, left) ? make(Operation::multiply, right, left) : make(Operation::multiply, left, right);
 }
 
 /// left + sign · right for two rests with |sign| = 1.
@@ -154,12 +145,9 @@ Expression integer_power(const Expression& x, unsigned exponent) {
 
 Expression::Expression() : Expression(0.0) {}
 
-Expression::Expression(double value)
-    : Expression(make(NodeKey{.operation = Operation::constant, .value = value})) {}
+Expression::Expression(double value) : Expression(make(NodeKey{.operation = Operation::constant, .value = value})) {}
 
-Expression Expression::input(std::size_t index) {
-  return make(NodeKey{.operation = Operation::input, .index = index});
-}
+Expression Expression::input(std::size_t index) { return make(NodeKey{.operation = Operation::input, .index = index}); }
 
 std::optional<double> Expression::constant_value() const noexcept {
   if (node_->operation() != Operation::constant) return std::nullopt;
@@ -182,7 +170,8 @@ Expression operator+(const Expression& left, const Expression& right) {
   if (x.rest.is_same(y.rest)) return scaled(x.factor + y.factor, x.rest);
   const bool both_vary = !a && !b;
   if (both_vary && std::abs(x.factor) == std::abs(y.factor)) {
-    return scaled(x.factor, Expression(1.0)) * sum(x.rest, y.rest, y.factor / x.factor);
+    const double sign = x.factor == y.factor ? 1.0 : -1.0;  // not a quotient: the factors may be infinite
+    return scaled(x.factor, Expression(1.0)) * sum(x.rest, y.rest, sign);
   }
   const Expression magnitude_x = scaled(std::abs(x.factor), x.rest);
   const Expression magnitude_y = scaled(std::abs(y.factor), y.rest);
@@ -210,7 +199,7 @@ Expression operator/(const Expression& left, const Expression& right) {
   }
   if (divisor == 0.0) return left * Expression(1.0 / *divisor);
   const Scaled y = split(right);
-  const Expression inverse = y.rest.constant_value()           ? Expression(1.0)
+  const Expression inverse = y.rest.constant_value()             ? Expression(1.0)
                              : is(y.rest, Operation::reciprocal) ? operand(y.rest)
                                                                  : make(Operation::reciprocal, y.rest);
   return left * inverse * Expression(1.0 / y.factor);
@@ -299,9 +288,7 @@ Expression pow(const Expression& x, double exponent) {
     const Expression magnitude = integer_power(x, static_cast<unsigned>(std::abs(exponent)));
     return exponent < 0.0 ? 1.0 / magnitude : magnitude;
   }
-  return make(NodeKey{.operation = Operation::power,
-                      .value = exponent,
-                      .operands = {x.node(), nullptr}});
+  return make(NodeKey{.operation = Operation::power, .value = exponent, .operands = {x.node(), nullptr}});
 }
 
 }  // namespace dmocbench

@@ -17,10 +17,10 @@ void release(Node* node) noexcept;
 
 /// A traced real number: a value type that records how it was computed instead of what it is.
 ///
-/// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same node),
-/// and what can be known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric factors,
-/// signs, and a factor that meets its own reciprocal. A structural zero therefore never costs anything, and "NaN
-/// passes" holds for the inputs that the folded graph still reads.
+/// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same
+/// node), and what can be known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric
+/// factors, signs, and a factor that meets its own reciprocal. A structural zero therefore never costs anything, and
+/// "NaN passes" holds for the inputs that the folded graph still reads.
 ///
 /// A graph belongs to the thread that traces it. Two threads may trace at the same time; mixing expressions of two
 /// threads throws `Error`. Memory is returned when the last expression that reads a node is gone.

@@ -15,8 +15,8 @@ class NodeTable;
 /// What makes two nodes the same formula.
 struct NodeKey {
   Operation operation = Operation::constant;
-  double value = 0.0;             // of a constant, or the exponent of a power
-  std::size_t index = 0;          // of an input
+  double value = 0.0;     // of a constant, or the exponent of a power
+  std::size_t index = 0;  // of an input
   std::array<Node*, 2> operands{nullptr, nullptr};
 
   /// Bitwise on `value`: 0 and -0 are different constants, and NaN equals itself.

@@ -19,28 +19,49 @@ Scalar replay_operation(const Schedule::Step& step, const std::vector<Scalar>& v
   const Scalar& x = values[step.left];
   const Scalar& y = values[step.right];
   switch (step.operation) {
-    case Operation::add: return Scalar(x + y);
-    case Operation::subtract: return Scalar(x - y);
-    case Operation::multiply: return Scalar(x * y);
-    case Operation::divide: return Scalar(x / y);
-    case Operation::negate: return Scalar(-x);
-    case Operation::reciprocal: return Scalar(1.0 / x);
-    case Operation::square_root: return Scalar(sqrt(x));
-    case Operation::exponential: return Scalar(exp(x));
-    case Operation::logarithm: return Scalar(log(x));
-    case Operation::sine: return Scalar(sin(x));
-    case Operation::cosine: return Scalar(cos(x));
-    case Operation::tangent: return Scalar(tan(x));
-    case Operation::arc_sine: return Scalar(asin(x));
-    case Operation::arc_cosine: return Scalar(acos(x));
-    case Operation::arc_tangent: return Scalar(atan(x));
-    case Operation::arc_tangent2: return Scalar(atan2(x, y));
-    case Operation::hyperbolic_sine: return Scalar(sinh(x));
-    case Operation::hyperbolic_cosine: return Scalar(cosh(x));
-    case Operation::hyperbolic_tangent: return Scalar(tanh(x));
-    case Operation::power: return Scalar(pow(x, step.value));
+    case Operation::add:
+      return Scalar(x + y);
+    case Operation::subtract:
+      return Scalar(x - y);
+    case Operation::multiply:
+      return Scalar(x * y);
+    case Operation::divide:
+      return Scalar(x / y);
+    case Operation::negate:
+      return Scalar(-x);
+    case Operation::reciprocal:
+      return Scalar(1.0 / x);
+    case Operation::square_root:
+      return Scalar(sqrt(x));
+    case Operation::exponential:
+      return Scalar(exp(x));
+    case Operation::logarithm:
+      return Scalar(log(x));
+    case Operation::sine:
+      return Scalar(sin(x));
+    case Operation::cosine:
+      return Scalar(cos(x));
+    case Operation::tangent:
+      return Scalar(tan(x));
+    case Operation::arc_sine:
+      return Scalar(asin(x));
+    case Operation::arc_cosine:
+      return Scalar(acos(x));
+    case Operation::arc_tangent:
+      return Scalar(atan(x));
+    case Operation::arc_tangent2:
+      return Scalar(atan2(x, y));
+    case Operation::hyperbolic_sine:
+      return Scalar(sinh(x));
+    case Operation::hyperbolic_cosine:
+      return Scalar(cosh(x));
+    case Operation::hyperbolic_tangent:
+      return Scalar(tanh(x));
+    case Operation::power:
+      return Scalar(pow(x, step.value));
     case Operation::constant:
-    case Operation::input: break;
+    case Operation::input:
+      break;
   }
   throw Error("a constant or an input is not an operation");
 }

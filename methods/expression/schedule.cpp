@@ -1,6 +1,7 @@
 #include "methods/expression/schedule.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <unordered_map>
 
 #include "methods/expression/node.hpp"
@@ -64,7 +65,7 @@ class Writer {
     Operation operation;
     std::array<Node*, 2> operands;
     double value;
-    bool negate_constant = false;
+    bool has_constant_left = false;  // `value` stands for the left operand
   };
 
   [[nodiscard]] bool is_single(Node* node, Operation operation) const {
@@ -83,15 +84,23 @@ class Writer {
     if (node->operation() == Operation::negate && is_single(node->operand(0), Operation::multiply) &&
         node->operand(0)->operand(0)->operation() == Operation::constant) {
       const Node* product = node->operand(0);
-      return {Operation::multiply, product->key().operands, 0.0, true};
+      return {Operation::multiply, {nullptr, product->operand(1)}, -product->operand(0)->value(), true};
+    }
+    if (node->operation() == Operation::negate && is_single(node->operand(0), Operation::subtract)) {
+      const Node* difference = node->operand(0);
+      return {Operation::subtract, {difference->operand(1), difference->operand(0)}, 0.0};
     }
     return form;
   }
 
   void write(Node* node, const Form& form) {
+    if (form.operation == Operation::constant) {
+      positions_[node] = constant(form.value);
+      return;
+    }
     Schedule::Step step{.operation = form.operation, .value = form.value, .input_index = node->index()};
-    if (form.negate_constant) {
-      step.left = constant(-form.operands[0]->value());
+    if (form.has_constant_left) {
+      step.left = constant(form.value);
     } else if (form.operands[0] != nullptr) {
       step.left = positions_.at(form.operands[0]);
     }
@@ -100,10 +109,9 @@ class Writer {
   }
 
   std::uint32_t constant(double value) {
-    for (std::uint32_t i = 0; i < steps_.size(); ++i) {
-      if (steps_[i].operation == Operation::constant && steps_[i].value == value) return i;
-    }
-    return append({.operation = Operation::constant, .value = value});
+    const auto key = std::bit_cast<std::uint64_t>(value);  // 0 and -0 are different constants
+    if (const auto found = constants_.find(key); found != constants_.end()) return found->second;
+    return constants_[key] = append({.operation = Operation::constant, .value = value});
   }
 
   std::uint32_t append(const Schedule::Step& step) {
@@ -113,6 +121,7 @@ class Writer {
 
   std::unordered_map<Node*, std::size_t> readers_;
   std::unordered_map<Node*, std::uint32_t> positions_;
+  std::unordered_map<std::uint64_t, std::uint32_t> constants_;
   std::vector<Schedule::Step> steps_;
 };
 
@@ -133,9 +142,8 @@ Schedule::Schedule(const ExpressionVector& outputs)
     : Schedule(std::span<const Expression>(outputs.data(), static_cast<std::size_t>(outputs.size()))) {}
 
 std::size_t Schedule::operation_count() const noexcept {
-  return static_cast<std::size_t>(std::count_if(steps_.begin(), steps_.end(), [](const Step& step) {
-    return operand_count(step.operation) > 0;
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(steps_.begin(), steps_.end(), [](const Step& step) { return operand_count(step.operation) > 0; }));
 }
 
 }  // namespace dmocbench

@@ -1,6 +1,7 @@
 #include "methods/expression/tape.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <string>
 
@@ -52,10 +53,18 @@ class SlotPool {
   std::uint32_t count_ = 0;
 };
 
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
 Tape::Tape(const Schedule& schedule, InstructionSet set)
-    : input_count_(schedule.input_count()), output_count_(schedule.outputs().size()), set_(set) {
+    : input_count_(schedule.input_count()),
+      output_count_(schedule.outputs().size()),
+      serial_(next_serial()),
+      set_(set) {
   const auto& available = available_instruction_sets();
   if (std::find(available.begin(), available.end(), set) == available.end()) {
     throw Error("this processor lacks the instruction set " + std::string(name_of(set)));
@@ -108,10 +117,14 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
   const auto first_output = static_cast<std::uint32_t>(first_input + read_inputs_.size());
   const auto place = [&](const Column& column) {
     switch (column.kind) {
-      case Kind::slot: return column.number;
-      case Kind::constant: return first_constant + column.number;
-      case Kind::input: return first_input + column.number;
-      case Kind::output: return first_output + column.number;
+      case Kind::slot:
+        return column.number;
+      case Kind::constant:
+        return first_constant + column.number;
+      case Kind::input:
+        return first_input + column.number;
+      case Kind::output:
+        return first_output + column.number;
     }
     return none;
   };
@@ -132,7 +145,8 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
 }
 
 Tape::Workspace::Workspace(const Tape& tape)
-    : slots_((tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()) * block_width),
+    : serial_(tape.serial_),
+      slots_((tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()) * block_width),
       columns_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size() + tape.output_count_) {
   for (std::size_t i = 0; i < tape.slot_count_ + tape.constants_.size(); ++i) {
     columns_[i] = slots_.data() + i * block_width;
@@ -148,10 +162,10 @@ void Tape::evaluate(std::size_t count, std::span<const Input> inputs, std::span<
     throw Error("a tape with " + std::to_string(input_count_) + " inputs and " + std::to_string(output_count_) +
                 " outputs got " + std::to_string(inputs.size()) + " and " + std::to_string(outputs.size()));
   }
-  if (workspace.columns_.size() !=
-      slot_count_ + constants_.size() + read_inputs_.size() + output_count_) {
+  if (workspace.serial_ != serial_) {
     throw Error("this workspace was made for another tape");
   }
+  if (count == 0) return;
   // Inputs that are the same for all intervals are spread over a column of the workspace once.
   for (const ReadInput& input : read_inputs_) {
     if (!inputs[input.index].same_for_all) continue;
@@ -162,8 +176,7 @@ void Tape::evaluate(std::size_t count, std::span<const Input> inputs, std::span<
   const TapeKernel kernel = kernel_of(set_);
   for (std::size_t first = 0; first < count; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
-    kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(),
-           std::min(block_width, count - first));
+    kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(), std::min(block_width, count - first));
   }
 }
 

@@ -32,9 +32,16 @@ class Tape {
   class Workspace {
    public:
     explicit Workspace(const Tape& tape);
+    // The table of columns points into this workspace's own slots; a move keeps them where they are.
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+    Workspace(Workspace&&) noexcept = default;
+    Workspace& operator=(Workspace&&) noexcept = default;
+    ~Workspace() = default;
 
    private:
     friend class Tape;
+    std::uint64_t serial_;  // of the tape
     std::vector<double> slots_;
     std::vector<double*> columns_;
   };
@@ -75,6 +82,7 @@ class Tape {
   std::size_t input_count_ = 0;
   std::size_t output_count_ = 0;
   std::size_t operation_count_ = 0;
+  std::uint64_t serial_ = 0;  // tells tapes apart; a copy is the same tape
   InstructionSet set_ = InstructionSet::baseline;
 };
 

@@ -28,7 +28,6 @@ using TapeKernel = void (*)(const TapeInstruction* instructions, std::size_t cou
 void run_tape_baseline(const TapeInstruction* instructions, std::size_t count, double* const* columns,
                        std::size_t width);
 void run_tape_avx2(const TapeInstruction* instructions, std::size_t count, double* const* columns, std::size_t width);
-void run_tape_avx512(const TapeInstruction* instructions, std::size_t count, double* const* columns,
-                     std::size_t width);
+void run_tape_avx512(const TapeInstruction* instructions, std::size_t count, double* const* columns, std::size_t width);
 
 }  // namespace dmocbench

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
+
+#include <Eigen/Core>
 
 #include "methods/expression/expression.hpp"
 
@@ -30,8 +31,8 @@ using ExpressionVector = Eigen::Matrix<Expression, Eigen::Dynamic, 1>;
 /// A table of traced numbers; an entry that is the constant 0 is a structural zero.
 using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Matrix times vector. (Eigen's own product compares numbers, which traced numbers cannot.) Other products of matrices of
-/// expressions: `a.lazyProduct(b)`.
+/// Matrix times vector. (Eigen's own product compares numbers, which traced numbers cannot.) Other products of matrices
+/// of expressions: `a.lazyProduct(b)`.
 [[nodiscard]] inline ExpressionVector operator*(const ExpressionMatrix& a, const ExpressionVector& x) {
   return a.lazyProduct(x);
 }

@@ -24,8 +24,7 @@ class LegendreTransform {
   [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
 
   /// ∂p/∂q = L_vq(q, v, t), n × n, at fixed v.
-  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                          double t);
+  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
 
  private:
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);

@@ -10,8 +10,8 @@ Tape trace(Eigen::Index n, Eigen::Index m, const std::function<ExpressionVector(
   const auto first_velocity = static_cast<std::size_t>(n);
   const auto first_control = 2 * first_velocity;
   const auto time = first_control + static_cast<std::size_t>(m);
-  return Tape(Schedule(formulas({input_vector(0, n), input_vector(first_velocity, n), input_vector(first_control, m),
-                                 Expression::input(time)})));
+  return Tape(Schedule(formulas(
+      {input_vector(0, n), input_vector(first_velocity, n), input_vector(first_control, m), Expression::input(time)})));
 }
 
 }  // namespace
@@ -28,8 +28,7 @@ PointFunction::PointFunction(Eigen::Index configuration_size, Eigen::Index contr
 }
 
 void PointFunction::evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
-                             const Eigen::Ref<const Eigen::VectorXd>& u, double t,
-                             Eigen::Ref<Eigen::VectorXd> result) {
+                             const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result) {
   if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || result.size() != output_count()) {
     throw Error("a point function got vectors of the wrong size");
   }

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/expression/tape.hpp"
 #include "methods/mechanics/state.hpp"

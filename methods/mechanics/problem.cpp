@@ -11,9 +11,7 @@ Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(para
   for (const Parameter& parameter : parameters_) parameter.check(parameter.value);
 }
 
-Eigen::Index Problem::configuration_size() const {
-  return static_cast<Eigen::Index>(configuration_names().size());
-}
+Eigen::Index Problem::configuration_size() const { return static_cast<Eigen::Index>(configuration_names().size()); }
 
 Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(control_names().size()); }
 

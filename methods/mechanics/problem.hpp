@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/mechanics/parameter.hpp"
 #include "methods/mechanics/state.hpp"
@@ -33,8 +34,8 @@ struct PictureQuantity {
 /// it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop and
 /// call functions, but not branch on a traced value.
 ///
-/// n is the number of configuration names, m that of control names. All numbers are in the units in which the problem is
-/// solved.
+/// n is the number of configuration names, m that of control names. All numbers are in the units in which the problem
+/// is solved.
 class Problem {
  public:
   virtual ~Problem() = default;
@@ -75,8 +76,8 @@ class Problem {
   /// kinetic part is invariant under it. n entries; none if the problem has no symmetry to show.
   [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const;
 
-  /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few numbers.
-  /// Default: q on the straight line between the ends, v its slope, u = 0.
+  /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few
+  /// numbers. Default: q on the straight line between the ends, v its slope, u = 0.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
   /// The guess in words.
   [[nodiscard]] virtual std::string guess_description() const;

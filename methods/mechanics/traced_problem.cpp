@@ -54,8 +54,7 @@ class FormulaReader {
 
 }  // namespace
 
-TracedProblem::TracedProblem(const Problem& problem)
-    : n_(problem.configuration_size()), m_(problem.control_size()) {
+TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_size()), m_(problem.control_size()) {
   if (n_ == 0) throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
   const auto n = static_cast<std::size_t>(n_);
   const auto m = static_cast<std::size_t>(m_);

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
+
+#include <Eigen/Core>
 
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/vectors.hpp"
@@ -17,16 +18,16 @@ class TracedProblem {
  public:
   /// The formulas at one point.
   struct Values {
-    ExpressionVector momentum;       ///< p = L_v, n entries (Legendre transform)
-    ExpressionVector generalised_force;  ///< L_q + f, n entries: what ṗ is equal to
-    ExpressionVector configuration_force;  ///< L_q, n entries
-    ExpressionVector control_force;  ///< f, n entries
-    Expression running_cost;         ///< C
-    ExpressionMatrix mass;           ///< L_vv, n × n
+    ExpressionVector momentum;                   ///< p = L_v, n entries (Legendre transform)
+    ExpressionVector generalised_force;          ///< L_q + f, n entries: what ṗ is equal to
+    ExpressionVector configuration_force;        ///< L_q, n entries
+    ExpressionVector control_force;              ///< f, n entries
+    Expression running_cost;                     ///< C
+    ExpressionMatrix mass;                       ///< L_vv, n × n
     ExpressionMatrix momentum_by_configuration;  ///< L_vq, n × n: ∂(L_v)_i/∂q_j
     ExpressionVector momentum_by_time;           ///< L_vt, n entries
-    ExpressionVector symmetry;           ///< ξ(q), n entries, empty without symmetry
-    ExpressionMatrix symmetry_jacobian;  ///< Dξ(q), n × n, empty without symmetry
+    ExpressionVector symmetry;                   ///< ξ(q), n entries, empty without symmetry
+    ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
   };
 
   /// Calls each formula of the problem once. Throws `Error` that names the formula if a dimension is wrong or the

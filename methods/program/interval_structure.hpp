@@ -6,8 +6,8 @@
 
 namespace dmocbench {
 
-/// Where an unknown or a row of a transcribed program belongs: to a node k = 0 .. N, to an interval k = 0 .. N - 1, or to
-/// the border (a quantity of the whole horizon).
+/// Where an unknown or a row of a transcribed program belongs: to a node k = 0 .. N, to an interval k = 0 .. N - 1, or
+/// to the border (a quantity of the whole horizon).
 struct Place {
   enum class Kind : std::uint8_t { node, interval, border };
   Kind kind = Kind::border;

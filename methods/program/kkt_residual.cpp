@@ -64,9 +64,9 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
   Eigen::VectorXd rows(multipliers.size());
   program.constraints(primal, rows);
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    residual.stationarity =
-        largest(residual.stationarity, row_stationarity(multipliers[i], rows[i], program.constraint_lower()[i],
-                                                        program.constraint_upper()[i]));
+    residual.stationarity = largest(
+        residual.stationarity,
+        row_stationarity(multipliers[i], rows[i], program.constraint_lower()[i], program.constraint_upper()[i]));
   }
   return residual;
 }

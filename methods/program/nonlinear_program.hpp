@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
 
@@ -29,8 +30,8 @@ struct SparsityPattern {
 /// An equality is a row whose two bounds are equal; a variable whose two bounds are equal is fixed. The Lagrangian is
 /// σφ + λᵀa: multipliers carry the sign that makes ∇φ + (∂a/∂ξ)ᵀλ vanish in the directions of the free variables.
 ///
-/// Sizes, bounds and structures never change. Evaluations allocate nothing; they are not to be called from two threads at
-/// once.
+/// Sizes, bounds and structures never change. Evaluations allocate nothing; they are not to be called from two threads
+/// at once.
 class NonlinearProgram {
  public:
   virtual ~NonlinearProgram() = default;
@@ -61,8 +62,7 @@ class NonlinearProgram {
   /// `values`: one per entry of jacobian_structure().
   virtual void jacobian(const VectorIn& x, VectorOut values) = 0;
   /// Hessian of objective_factor · φ + λᵀa; `values`: one per entry of hessian_structure().
-  virtual void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
-                       VectorOut values) = 0;
+  virtual void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) = 0;
 
   /// The size below which residuals of this program are rounding: about ε · (size of the terms of a row).
   [[nodiscard]] virtual double rounding_floor() const { return 0.0; }
@@ -76,8 +76,7 @@ class NonlinearProgram {
 
 /// Number of variables whose two bounds differ.
 [[nodiscard]] inline std::size_t free_variable_count(const NonlinearProgram& program) {
-  return static_cast<std::size_t>(
-      (program.variable_lower().array() != program.variable_upper().array()).count());
+  return static_cast<std::size_t>((program.variable_lower().array() != program.variable_upper().array()).count());
 }
 
 }  // namespace dmocbench

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
+
+#include <Eigen/Core>
 
 #include "methods/program/status.hpp"
 

@@ -7,21 +7,21 @@ namespace dmocbench {
 
 /// How a solve ended. Only `solved` is an answer that our own residual confirms.
 enum class Status : std::uint8_t {
-  not_run,               ///< no solver has been called
-  solved,                ///< KKT residual and constraint violation are below the tolerance
-  acceptable,            ///< the solver stopped short of the tolerance, but within a hundred times of it
-  infeasible,            ///< converged to a point of least constraint violation
-  diverged,              ///< iterates grew without bound
-  step_failed,           ///< no further step could be computed (line search, restoration, too small a step)
-  evaluation_failed,     ///< a formula gave NaN or infinity
-  iteration_limit,       ///< the largest allowed number of iterations was reached
-  time_limit,            ///< the allowed time was used up
-  interrupted,           ///< stopped from outside
-  too_large,             ///< the solver refuses a program of this size
-  invalid_program,       ///< the solver refuses the program: too few degrees of freedom, a bad option or number
-  out_of_memory,         ///< the solver could not allocate what it needs
-  solver_error,          ///< the solver reported an internal error
-  not_confirmed,         ///< the solver says it is solved, but our residual does not confirm it
+  not_run,            ///< no solver has been called
+  solved,             ///< KKT residual and constraint violation are below the tolerance
+  acceptable,         ///< the solver stopped short of the tolerance, but within a hundred times of it
+  infeasible,         ///< converged to a point of least constraint violation
+  diverged,           ///< iterates grew without bound
+  step_failed,        ///< no further step could be computed (line search, restoration, too small a step)
+  evaluation_failed,  ///< a formula gave NaN or infinity
+  iteration_limit,    ///< the largest allowed number of iterations was reached
+  time_limit,         ///< the allowed time was used up
+  interrupted,        ///< stopped from outside
+  too_large,          ///< the solver refuses a program of this size
+  invalid_program,    ///< the solver refuses the program: too few degrees of freedom, a bad option or number
+  out_of_memory,      ///< the solver could not allocate what it needs
+  solver_error,       ///< the solver reported an internal error
+  not_confirmed,      ///< the solver says it is solved, but our residual does not confirm it
 };
 
 /// The name that tables use: "solved", "iteration limit", ...

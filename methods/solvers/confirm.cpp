@@ -14,10 +14,11 @@ bool confirms(const NonlinearProgram& program, double tolerance, const Solution&
   if (!solution.kkt_residual) return true;
   constexpr double multiplier_scale = 100.0;
   const bool has_multipliers = solution.multipliers.size() > 0;
-  const double mean = has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
+  const double mean =
+      has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
   const double largest = has_multipliers ? solution.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  const double allowed = confirmation_factor * std::max(tolerance * std::max(1.0, mean / multiplier_scale),
-                                                        floor * std::max(1.0, largest));
+  const double allowed = confirmation_factor *
+                         std::max(tolerance * std::max(1.0, mean / multiplier_scale), floor * std::max(1.0, largest));
   return *solution.kkt_residual <= allowed;
 }
 

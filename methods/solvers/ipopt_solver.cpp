@@ -25,9 +25,7 @@ using Ipopt::Index;
 using Ipopt::Number;
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Ipopt's view of a program; it collects the answer and the time spent in evaluations.
 class ProgramForIpopt final : public Ipopt::TNLP {
@@ -81,9 +79,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool eval_h(Index n, const Number* x, bool /*new_x*/, Number objective_factor, Index m, const Number* lambda,
               bool /*new_lambda*/, Index nonzeros, Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) return copy(program_.hessian_structure(), rows, columns);
-    return timed([&] {
-      program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros));
-    });
+    return timed([&] { program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros)); });
   }
 
   bool intermediate_callback(Ipopt::AlgorithmMode /*mode*/, Index iteration, Number, Number, Number, Number, Number,
@@ -93,9 +89,9 @@ class ProgramForIpopt final : public Ipopt::TNLP {
     return !(options_.stop_requested && options_.stop_requested());
   }
 
-  void finalize_solution(Ipopt::SolverReturn /*status*/, Index n, const Number* x, const Number*, const Number*, Index m,
-                         const Number*, const Number* lambda, Number /*objective*/, const Ipopt::IpoptData* /*data*/,
-                         Ipopt::IpoptCalculatedQuantities* /*quantities*/) override {
+  void finalize_solution(Ipopt::SolverReturn /*status*/, Index n, const Number* x, const Number*, const Number*,
+                         Index m, const Number*, const Number* lambda, Number /*objective*/,
+                         const Ipopt::IpoptData* /*data*/, Ipopt::IpoptCalculatedQuantities* /*quantities*/) override {
     if (x != nullptr) solution_.primal = Eigen::Map<const Eigen::VectorXd>(x, n);
     if (lambda != nullptr) solution_.multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m);
   }
@@ -128,22 +124,34 @@ class ProgramForIpopt final : public Ipopt::TNLP {
 Status status_of(Ipopt::ApplicationReturnStatus status) {
   switch (status) {
     case Ipopt::Solve_Succeeded:
-    case Ipopt::Feasible_Point_Found: return Status::solved;
-    case Ipopt::Solved_To_Acceptable_Level: return Status::acceptable;
-    case Ipopt::Infeasible_Problem_Detected: return Status::infeasible;
+    case Ipopt::Feasible_Point_Found:
+      return Status::solved;
+    case Ipopt::Solved_To_Acceptable_Level:
+      return Status::acceptable;
+    case Ipopt::Infeasible_Problem_Detected:
+      return Status::infeasible;
     case Ipopt::Search_Direction_Becomes_Too_Small:
     case Ipopt::Restoration_Failed:
-    case Ipopt::Error_In_Step_Computation: return Status::step_failed;
-    case Ipopt::Diverging_Iterates: return Status::diverged;
-    case Ipopt::User_Requested_Stop: return Status::interrupted;
-    case Ipopt::Maximum_Iterations_Exceeded: return Status::iteration_limit;
-    case Ipopt::Maximum_CpuTime_Exceeded: return Status::time_limit;
+    case Ipopt::Error_In_Step_Computation:
+      return Status::step_failed;
+    case Ipopt::Diverging_Iterates:
+      return Status::diverged;
+    case Ipopt::User_Requested_Stop:
+      return Status::interrupted;
+    case Ipopt::Maximum_Iterations_Exceeded:
+      return Status::iteration_limit;
+    case Ipopt::Maximum_CpuTime_Exceeded:
+      return Status::time_limit;
     case Ipopt::Not_Enough_Degrees_Of_Freedom:
     case Ipopt::Invalid_Problem_Definition:
-    case Ipopt::Invalid_Option: return Status::invalid_program;
-    case Ipopt::Invalid_Number_Detected: return Status::evaluation_failed;
-    case Ipopt::Insufficient_Memory: return Status::out_of_memory;
-    default: return Status::solver_error;  // exceptions and internal errors; later versions add codes
+    case Ipopt::Invalid_Option:
+      return Status::invalid_program;
+    case Ipopt::Invalid_Number_Detected:
+      return Status::evaluation_failed;
+    case Ipopt::Insufficient_Memory:
+      return Status::out_of_memory;
+    default:
+      return Status::solver_error;  // exceptions and internal errors; later versions add codes
   }
 }
 

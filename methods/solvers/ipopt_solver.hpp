@@ -8,8 +8,8 @@ namespace dmocbench {
 
 /// Ipopt, an interior-point method with a filter line search, on our exact sparse derivatives.
 ///
-/// Our settings: the tolerance as given, nlp_scaling_method none, bound_relax_factor 0, sb yes (no banner). Anything else
-/// is Ipopt's default or comes by `SolverOptions::passed_on`.
+/// Our settings: the tolerance as given, nlp_scaling_method none, bound_relax_factor 0, sb yes (no banner). Anything
+/// else is Ipopt's default or comes by `SolverOptions::passed_on`.
 class IpoptSolver final : public Solver {
  public:
   explicit IpoptSolver(SolverOptions options);

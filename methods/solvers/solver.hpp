@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"

@@ -11,12 +11,7 @@ namespace dmocbench {
 
 AssembledTape::AssembledTape(const Schedule& schedule, const std::vector<std::size_t>& firsts, std::size_t size,
                              std::size_t intervals)
-    : tape_(schedule),
-      workspace_(tape_),
-      size_(size),
-      intervals_(intervals),
-      firsts_(firsts),
-      outputs_(firsts.size()) {
+    : tape_(schedule), workspace_(tape_), size_(size), intervals_(intervals), firsts_(firsts), outputs_(firsts.size()) {
   if (firsts.size() != tape_.output_count()) throw Error("an assembled tape needs one place per output");
   std::vector<std::size_t> order(firsts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -38,7 +33,8 @@ AssembledTape::AssembledTape(const Schedule& schedule, const std::vector<std::si
 }
 
 void AssembledTape::evaluate(std::span<const Tape::Input> inputs, VectorOut result) {
-  if (static_cast<std::size_t>(result.size()) != size_) throw Error("an assembled tape got an array of the wrong length");
+  if (static_cast<std::size_t>(result.size()) != size_)
+    throw Error("an assembled tape got an array of the wrong length");
   for (std::size_t output = 0; output < outputs_.size(); ++output) outputs_[output] = result.data() + firsts_[output];
   for (const Addition& addition : additions_) outputs_[addition.output] = scratch_.data() + addition.scratch;
   tape_.evaluate(intervals_, inputs, outputs_, workspace_);

@@ -48,7 +48,8 @@ struct AssembledPattern {
   std::vector<std::size_t> firsts;  ///< per local entry, as AssembledTape wants it
 };
 
-/// Merges the local entries of all intervals: entry e of interval k stands at (row_firsts[e] + k, column_firsts[e] + k).
+/// Merges the local entries of all intervals: entry e of interval k stands at (row_firsts[e] + k, column_firsts[e] +
+/// k).
 [[nodiscard]] AssembledPattern assemble_pattern(const std::vector<std::size_t>& row_firsts,
                                                 const std::vector<std::size_t>& column_firsts, std::size_t intervals);
 

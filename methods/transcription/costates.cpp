@@ -15,9 +15,8 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   const bool has_second = layout.node_state() != NodeState::configuration;
   const Eigen::Index node_size = has_second ? 2 * n : n;
 
-  const Eigen::MatrixXd adjoint =
-      evaluate_columns(transcription.functions().node_adjoint, layout.intervals(),
-                       transcription.bind(primal, multipliers, 1.0));  // N × 2 node_size
+  const Eigen::MatrixXd adjoint = evaluate_columns(transcription.functions().node_adjoint, layout.intervals(),
+                                                   transcription.bind(primal, multipliers, 1.0));  // N × 2 node_size
   Eigen::MatrixXd at_nodes(intervals + 1, node_size);
   at_nodes.topRows(intervals) = adjoint.leftCols(node_size);
   at_nodes.row(intervals) = -adjoint.row(intervals - 1).rightCols(node_size);
@@ -41,8 +40,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
     }
     const Eigen::VectorXd velocity = v.row(k).transpose();
     const double t = transcription.node_times()[k];
-    const Eigen::VectorXd psi_p =
-        legendre.mass(q, velocity, t).partialPivLu().solve(result.psi_p.row(k).transpose());
+    const Eigen::VectorXd psi_p = legendre.mass(q, velocity, t).partialPivLu().solve(result.psi_p.row(k).transpose());
     result.psi_p.row(k) = psi_p.transpose();
     result.psi_q.row(k) -= (legendre.momentum_by_configuration(q, velocity, t).transpose() * psi_p).transpose();
   }

@@ -6,8 +6,8 @@
 
 namespace dmocbench {
 
-/// DMOC: the discrete Lagrange-d'Alembert principle, (eq:varmech_dldap), with the discrete Lagrangian (eq:DMOC_RK_L) and
-/// the discrete forces (eq:DMOC_RK_f) of a Butcher tableau.
+/// DMOC: the discrete Lagrange-d'Alembert principle, (eq:varmech_dldap), with the discrete Lagrangian (eq:DMOC_RK_L)
+/// and the discrete forces (eq:DMOC_RK_f) of a Butcher tableau.
 ///
 /// Node: q_k. Stages: Q_i = q_k + h Σ_j a_ij Q̇_j. With the action A = h Σ b_i L(Q_i, Q̇_i) and the virtual work
 /// W[δ] = h Σ b_i f(Q_i, Q̇_i, U_i)·δQ_i the rows are

@@ -22,10 +22,10 @@ enum class NodeState : std::uint8_t {
 
 /// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
 struct IntervalUnknowns {
-  ExpressionVector left_q;   ///< q_k, n entries
-  ExpressionVector left_y;   ///< p_k or v_k, n entries; empty where nodes carry q alone
-  ExpressionVector right_q;  ///< q_{k+1}
-  ExpressionVector right_y;  ///< p_{k+1} or v_{k+1}
+  ExpressionVector left_q;                 ///< q_k, n entries
+  ExpressionVector left_y;                 ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;                ///< q_{k+1}
+  ExpressionVector right_y;                ///< p_{k+1} or v_{k+1}
   std::vector<ExpressionVector> slopes_q;  ///< Q̇_1 .. Q̇_{s-1}; the last slope is eliminated
   std::vector<ExpressionVector> slopes_y;  ///< Ṗ_j or V̇_j, j = 1 .. s-1
   std::vector<ExpressionVector> controls;  ///< U_1 .. U_s, m entries each
@@ -35,10 +35,10 @@ struct IntervalUnknowns {
 
 /// What an element says about its interval.
 struct IntervalTrace {
-  ExpressionVector left_rows;     ///< added to the rows of node k; n entries or none
-  ExpressionVector right_rows;    ///< added to the rows of node k + 1
-  ExpressionVector private_rows;  ///< rows of this interval alone, each equal to 0
-  Expression cost;                ///< h Σ b_i C(Q_i, Q̇_i, U_i)
+  ExpressionVector left_rows;           ///< added to the rows of node k; n entries or none
+  ExpressionVector right_rows;          ///< added to the rows of node k + 1
+  ExpressionVector private_rows;        ///< rows of this interval alone, each equal to 0
+  Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
   std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
   ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
   ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries

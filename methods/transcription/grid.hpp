@@ -4,7 +4,8 @@
 
 namespace dmocbench {
 
-/// The nodes 0 = τ_0 < τ_1 < ... < τ_N = 1 of a horizon, relative to its length T: t_k = T τ_k, h_k = T (τ_{k+1} - τ_k).
+/// The nodes 0 = τ_0 < τ_1 < ... < τ_N = 1 of a horizon, relative to its length T: t_k = T τ_k, h_k = T (τ_{k+1} -
+/// τ_k).
 class Grid {
  public:
   /// The largest number of intervals that is accepted.

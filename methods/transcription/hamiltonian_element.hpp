@@ -6,8 +6,8 @@
 
 namespace dmocbench {
 
-/// Collocation of the Hamiltonian system by the symplectic partitioned Runge-Kutta method of a tableau, (eq:dHOCP), written
-/// without a Hamiltonian as in (eq:DMOC_RK).
+/// Collocation of the Hamiltonian system by the symplectic partitioned Runge-Kutta method of a tableau, (eq:dHOCP),
+/// written without a Hamiltonian as in (eq:DMOC_RK).
 ///
 /// Node: (q_k, p_k). Stages: Q_i = q_k + h Σ a_ij Q̇_j, P_i = p_k + h Σ ã_ij Ṗ_j. Private rows, i = 1 .. s:
 ///   P_i - L_v(Q_i, Q̇_i) = 0                          (n rows each, unit: momentum),

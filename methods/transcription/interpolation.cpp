@@ -1,10 +1,11 @@
 #include "methods/transcription/interpolation.hpp"
 
 #include <algorithm>
-#include <boost/math/interpolators/cubic_hermite.hpp>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include <boost/math/interpolators/cubic_hermite.hpp>
 
 namespace dmocbench {
 

@@ -22,7 +22,8 @@ using Motion = std::function<MotionPoint(double t)>;
 /// `interval` names, constant for one stage.
 [[nodiscard]] Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
 
-/// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as control.
+/// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as
+/// control.
 [[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);
 
 }  // namespace dmocbench

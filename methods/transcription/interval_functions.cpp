@@ -84,8 +84,8 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   IntervalFunctions functions;
   IntervalInputs& inputs = functions.inputs;
   const NodeState node_state = element.node_state();
-  const IntervalUnknowns unknowns = make_unknowns(problem.configuration_size(), problem.control_size(), node_state,
-                                                  tableau.stages(), inputs);
+  const IntervalUnknowns unknowns =
+      make_unknowns(problem.configuration_size(), problem.control_size(), node_state, tableau.stages(), inputs);
   const IntervalTrace trace = element.trace(problem, tableau, unknowns);
   functions.node_rows = trace.left_rows.size();
   functions.private_rows = trace.private_rows.size();

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
 #include "methods/transcription/element.hpp"
@@ -12,9 +13,10 @@ namespace dmocbench {
 
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
-/// Vectors are stored column by column: all q_1 of all nodes, all q_2, ..., then p or v, interior slopes, controls. Every
-/// local quantity of an element is therefore contiguous over the intervals: that of interval k stands at `first` + k. For
-/// a quantity of the left node `first` is the head of its column, for the same quantity of the right node one more.
+/// Vectors are stored column by column: all q_1 of all nodes, all q_2, ..., then p or v, interior slopes, controls.
+/// Every local quantity of an element is therefore contiguous over the intervals: that of interval k stands at `first`
+/// + k. For a quantity of the left node `first` is the head of its column, for the same quantity of the right node one
+/// more.
 class Layout {
  public:
   Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::Index control_size, NodeState node_state,

@@ -8,9 +8,9 @@
 
 namespace dmocbench {
 
-/// The program's vector sampled from a motion, the same way for every method: q and v at the nodes, p = L_v(q, v), slopes
-/// of q at the stage times, slopes of p or v as mean slopes of the interval, u at the stage times. Fixed variables take
-/// their values.
+/// The program's vector sampled from a motion, the same way for every method: q and v at the nodes, p = L_v(q, v),
+/// slopes of q at the stage times, slopes of p or v as mean slopes of the interval, u at the stage times. Fixed
+/// variables take their values.
 [[nodiscard]] Eigen::VectorXd sample(Transcription& transcription, const Motion& motion);
 
 /// The problem's own guess as a motion. The problem must outlive it.

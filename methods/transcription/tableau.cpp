@@ -1,9 +1,10 @@
 #include "methods/transcription/tableau.hpp"
 
-#include <Eigen/LU>
 #include <array>
-#include <boost/math/special_functions/legendre.hpp>
 #include <utility>
+
+#include <Eigen/LU>
+#include <boost/math/special_functions/legendre.hpp>
 
 #include "methods/error.hpp"
 

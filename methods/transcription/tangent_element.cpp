@@ -2,9 +2,7 @@
 
 namespace dmocbench {
 
-std::string TangentElement::description() const {
-  return "collocation of the Euler-Lagrange equations on (q, v)";
-}
+std::string TangentElement::description() const { return "collocation of the Euler-Lagrange equations on (q, v)"; }
 
 IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau& tableau,
                                     const IntervalUnknowns& unknowns) const {

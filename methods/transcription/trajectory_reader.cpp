@@ -53,8 +53,8 @@ Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& traje
   for (Eigen::Index k = 0; k < v.rows(); ++k) {
     const Eigen::Index nearby = std::min(k * trajectory.stages(), last_stage);
     v.row(k) = legendre
-                   .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(),
-                             trajectory.node_times[k], trajectory.stage_v.row(nearby).transpose())
+                   .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(), trajectory.node_times[k],
+                             trajectory.stage_v.row(nearby).transpose())
                    .transpose();
   }
   return v;

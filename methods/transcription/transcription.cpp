@@ -81,8 +81,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, con
             grid.intervals()),
       jacobian_(functions_.jacobian.schedule, jacobian_pattern_.firsts, jacobian_pattern_.pattern.size(),
                 grid.intervals()),
-      hessian_(functions_.hessian.schedule, hessian_pattern_.firsts, hessian_pattern_.pattern.size(),
-               grid.intervals()),
+      hessian_(functions_.hessian.schedule, hessian_pattern_.firsts, hessian_pattern_.pattern.size(), grid.intervals()),
       costs_(static_cast<Eigen::Index>(grid.intervals())) {
   if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
   require_enough_intervals(problem, element);
@@ -112,8 +111,8 @@ void Transcription::set_bounds(const Problem& problem) {
   const BoundaryState last = problem.final_state();
   for (const Eigen::VectorXd* part : {&first.q, &first.v, &last.q, &last.v}) {
     if (part->size() != n) {
-      throw Error(problem.name() + ": a boundary state has " + std::to_string(part->size()) +
-                  " entries, expected " + std::to_string(n));
+      throw Error(problem.name() + ": a boundary state has " + std::to_string(part->size()) + " entries, expected " +
+                  std::to_string(n));
     }
     require_finite(*part, problem, "a boundary state");
   }
@@ -182,8 +181,7 @@ void Transcription::jacobian(const VectorIn& x, VectorOut values) {
   jacobian_.evaluate(bind(x, no_multipliers_, 1.0), values);
 }
 
-void Transcription::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
-                            VectorOut values) {
+void Transcription::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
   hessian_.evaluate(bind(x, multipliers, objective_factor), values);
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -20,8 +21,8 @@ namespace dmocbench {
 /// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval.
 ///
 /// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, exact derivatives,
-/// boundary conditions. The cost is multiplied by `Problem::cost_scale`. Boundary conditions: q_0, q_N (and p or v there,
-/// where nodes carry them) are fixed by bounds; for DMOC the rows of nodes 0 and N are p⁰ + (∂A/∂q_0 + W) = 0
+/// boundary conditions. The cost is multiplied by `Problem::cost_scale`. Boundary conditions: q_0, q_N (and p or v
+/// there, where nodes carry them) are fixed by bounds; for DMOC the rows of nodes 0 and N are p⁰ + (∂A/∂q_0 + W) = 0
 /// (eq:gDLOCP3) and -p^T + (∂A/∂q_N + W) = 0 (rem:inifinalvel), with p⁰ = L_v(q⁰, v⁰) in the bounds.
 class Transcription final : public NonlinearProgram {
  public:
@@ -42,8 +43,7 @@ class Transcription final : public NonlinearProgram {
   void gradient(const VectorIn& x, VectorOut result) override;
   void constraints(const VectorIn& x, VectorOut result) override;
   void jacobian(const VectorIn& x, VectorOut values) override;
-  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
-               VectorOut values) override;
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override;
   /// 20 ε max|q| max|L_vv| / min h: rows are differences of momenta, and these are differences of q divided by h. The
   /// maxima are taken over the ends of the motion and the problem's guess.
   [[nodiscard]] double rounding_floor() const override { return rounding_floor_; }

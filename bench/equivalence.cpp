@@ -1,0 +1,98 @@
+// DMOC and Hamiltonian collocation with the same tableau describe the same discrete solutions (th:equi): both are
+// solved separately from the common start and compared, tangent-space collocation beside them as the control.
+#include "bench/experiment/experiment.hpp"
+#include "methods/error.hpp"
+#include "methods/program/kkt_residual.hpp"
+#include "methods/transcription/embedding.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Largest difference of two tables relative to the largest entry of the second.
+double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
+}
+
+/// What `trajectory` leaves in the rows of another method on the same grid.
+double foreign_violation(const Case& what, const std::string& other_method, const Trajectory& trajectory,
+                         double& rounding) {
+  Transcription other(*what.problem, *make_element(other_method), make_tableau(what.tableau, what.stages), what.grid);
+  // The floor is that of a momentum; collocation has rows of force, a difference of momenta divided by the step.
+  const bool has_rows_of_force = other.layout().node_state() != NodeState::configuration;
+  rounding = other.rounding_floor() / (has_rows_of_force ? other.steps().minCoeff() : 1.0);
+  return constraint_violation(other, embed(*what.problem, other, trajectory));
+}
+
+class Equivalence final : public Experiment {
+ public:
+  [[nodiscard]] std::string name() const override { return "equivalence"; }
+  [[nodiscard]] std::string description() const override {
+    return "Solves every method separately and compares with DMOC on the same grid: largest differences relative to "
+           "each "
+           "quantity's largest value, and what each answer leaves in the other's rows.";
+  }
+  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
+  [[nodiscard]] std::vector<std::string> own_columns() const override {
+    return {"configuration_difference", "momentum_difference",    "control_difference",
+            "costate_difference",       "objective_difference",   "violation_in_rows_of_dmoc",
+            "rounding_in_rows_of_dmoc", "violation_of_dmoc_here", "rounding_here"};
+  }
+  void check(const std::vector<Case>& cases) override {
+    for (const Case& what : cases) {
+      if (what.method == "dmoc") return;
+    }
+    throw Error("equivalence compares with dmoc: add it to --method");
+  }
+
+  void complete(SolvedCase& solved) override {
+    if (!solved.trajectory || !is_usable(solved.row)) return;
+    if (solved.what.method == "dmoc") {
+      answers_.push_back({solved.what, *solved.trajectory});
+      return;
+    }
+    for (const Answer& dmoc : answers_) {
+      const bool partner = dmoc.what.problem == solved.what.problem && dmoc.what.tableau == solved.what.tableau &&
+                           dmoc.what.stages == solved.what.stages && dmoc.what.solver == solved.what.solver &&
+                           dmoc.trajectory.node_times == solved.trajectory->node_times;
+      if (partner) compare(dmoc.trajectory, solved);
+    }
+  }
+
+ private:
+  struct Answer {
+    Case what;
+    Trajectory trajectory;
+  };
+
+  static void compare(const Trajectory& dmoc, SolvedCase& solved) {
+    const Trajectory& here = *solved.trajectory;
+    Row& row = solved.row;
+    row.set("configuration_difference", relative_difference(here.q, dmoc.q));
+    row.set("momentum_difference", relative_difference(here.p, dmoc.p));
+    row.set("control_difference", relative_difference(here.stage_u, dmoc.stage_u));
+    if (here.has_costates() && dmoc.has_costates()) {
+      row.set("costate_difference",
+              std::max(relative_difference(here.psi_q, dmoc.psi_q), relative_difference(here.psi_p, dmoc.psi_p)));
+    }
+    row.set("objective_difference", std::abs(here.cost - dmoc.cost) / std::abs(dmoc.cost));
+    double rounding_there = 0.0;
+    double rounding_here = 0.0;
+    row.set("violation_in_rows_of_dmoc", foreign_violation(solved.what, "dmoc", here, rounding_there));
+    row.set("violation_of_dmoc_here", foreign_violation(solved.what, solved.what.method, dmoc, rounding_here));
+    row.set("rounding_in_rows_of_dmoc", rounding_there);
+    row.set("rounding_here", rounding_here);
+  }
+
+  std::vector<Answer> answers_;
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::Equivalence experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
+}

@@ -1,0 +1,136 @@
+// Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/start_source.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+struct Slip {
+  std::string problem;
+  std::string name;
+  std::string where;
+  std::string printed;
+  std::string meant;
+  std::string quantity;  ///< what tells both apart
+  double as_printed;
+  double as_meant;
+  double required;
+};
+
+/// The derivative of the potential's last term with respect to θ₂ where the paper says the arm is in equilibrium.
+Slip potential_without_sine() {
+  const auto problem = make_problem("two_link_manipulator");
+  const double weight =
+      0.5 * problem->parameter("mass_2") * problem->parameter("gravity") * problem->parameter("length_2");
+  const ExpressionVector theta = input_vector(0, 1);
+  const auto torque_upright = [&](const Expression& potential) {
+    const std::vector<double> upright{std::numbers::pi / 2.0};
+    return -replay<double>(Schedule(gradient(potential, theta)), std::span<const double>(upright)).front();
+  };
+  return {.problem = problem->name(),
+          .name = "potential",
+          .where = "section 4.2.2, V(q)",
+          .printed = "last term of V is 1/2 m_2 g l_2 theta_2",
+          .meant = "1/2 m_2 g l_2 sin theta_2",
+          .quantity = "torque on theta_2 at the equilibrium (pi/2, pi/2)",
+          .as_printed = torque_upright(weight * theta[0]),
+          .as_meant = torque_upright(weight * sin(theta[0])),
+          .required = 0.0};
+}
+
+/// The optimal transfer by DMOC: angular momentum at the nodes.
+Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
+  constexpr long long intervals = 128;
+  const Case what{problem, "dmoc", "gauss", 1, "ipopt", Grid::uniform(intervals)};
+  StartSource starts("common", {});
+  SolvedCase solved = solve_case(what, starts.motion_for(what), {}, 1);
+  if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");
+  return std::move(*solved.trajectory);
+}
+
+/// Free variations at t = 0 give ∂L/∂q̇(0) = p⁰; the paper prints p^T there, and p⁰ at T.
+Slip swapped_momenta(const Problem& problem, const Trajectory& motion) {
+  const BoundaryState first = problem.initial_state();
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::Index last = motion.q.rows() - 1;
+  return {.problem = problem.name(),
+          .name = "boundary_momenta",
+          .where = "eq:bounds_impuls1, eq:bounds_impuls2",
+          .printed = "dL/dq' = p^T at t = 0 and p^0 at t = T",
+          .meant = "p^0 at t = 0, p^T at t = T",
+          .quantity = "angular momentum at t = 0 on the optimal transfer",
+          .as_printed = motion.p(last, 1),
+          .as_meant = motion.p(0, 1),
+          .required = legendre.momentum(first.q, first.v, 0.0)[1]};
+}
+
+/// ṗ = -∇_q H + f; the Mayer paragraph writes -∇_p H + f. On the orbit ∇_q H has no φ part and ∇_p H has φ̇: integrated
+/// over the horizon, Δp_φ = ∫ f_φ dt as meant, and ∫ f_φ dt - Δφ as printed.
+Slip mayer_gradient(const Problem& problem, const Trajectory& motion) {
+  const Eigen::Index last = motion.q.rows() - 1;
+  double work = 0.0;
+  for (Eigen::Index k = 0; k < motion.intervals(); ++k) {
+    work += (motion.node_times[k + 1] - motion.node_times[k]) * motion.stage_q(k, 0) * motion.stage_u(k, 0);
+  }
+  return {.problem = problem.name(),
+          .name = "mayer_form",
+          .where = "eq:dHOCP1_mayer and below",
+          .printed = "eta = -grad_p H + f",
+          .meant = "eta = -grad_q H + f",
+          .quantity = "change of angular momentum over the optimal transfer",
+          .as_printed = work - (motion.q(last, 1) - motion.q(0, 1)),
+          .as_meant = work,
+          .required = motion.p(last, 1) - motion.p(0, 1)};
+}
+
+Table slip_table(const std::vector<Slip>& slips) {
+  Table table({"problem", "slip", "where", "printed", "meant", "quantity", "value_as_printed", "value_as_meant",
+               "required_value"});
+  for (const Slip& slip : slips) {
+    Row row;
+    row.set("problem", slip.problem);
+    row.set("slip", slip.name);
+    row.set("where", slip.where);
+    row.set("printed", slip.printed);
+    row.set("meant", slip.meant);
+    row.set("quantity", slip.quantity);
+    row.set("value_as_printed", slip.as_printed);
+    row.set("value_as_meant", slip.as_meant);
+    row.set("required_value", slip.required);
+    table.append(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
+  CLI::App app("Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
+               "slips");
+  std::filesystem::path out = "results";
+  app.add_option("--out", out, "folder for the results")->capture_default_str();
+  return run_program(app, argc, argv, [&] {
+    prepare_folder(out);
+    const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
+    const Trajectory motion = transfer(orbit);
+    const Table table =
+        slip_table({potential_without_sine(), swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion)});
+    write_file(out / "slips.csv", table.csv());
+    fmt::print("slips: {} rows: {}\n", table.rows().size(), (out / "slips.csv").string());
+    return 0;
+  });
+}

@@ -1,0 +1,80 @@
+#include "methods/transcription/embedding.hpp"
+
+#include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/point_function.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void require_same_grid(const Transcription& transcription, const Trajectory& trajectory) {
+  const bool same_size = trajectory.node_times.size() == transcription.node_times().size() &&
+                         trajectory.stages() == transcription.tableau().stages();
+  if (!same_size || trajectory.node_times != transcription.node_times()) {
+    throw Error("a trajectory can only be embedded in a transcription with the same grid and tableau");
+  }
+}
+
+/// Ṗ_i or V̇_i at all stages, as the trajectory's stage tables are ordered.
+Eigen::MatrixXd second_slopes(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
+  EquationsOfMotion motion(traced);
+  PointFunction force(traced.configuration_size(), traced.control_size(),
+                      [&](const ControlledState& x) { return traced.at(x).generalised_force; });
+  Eigen::MatrixXd slopes(trajectory.stage_q.rows(), trajectory.stage_q.cols());
+  Eigen::VectorXd slope(slopes.cols());
+  for (Eigen::Index row = 0; row < slopes.rows(); ++row) {
+    const Eigen::VectorXd q = trajectory.stage_q.row(row).transpose();
+    const Eigen::VectorXd v = trajectory.stage_v.row(row).transpose();
+    const Eigen::VectorXd u = trajectory.stage_u.row(row).transpose();
+    if (node_state == NodeState::momentum) {
+      force.evaluate(q, v, u, trajectory.stage_times[row], slope);
+    } else {
+      slope = motion.acceleration(q, v, u, trajectory.stage_times[row]);
+    }
+    slopes.row(row) = slope.transpose();
+  }
+  return slopes;
+}
+
+}  // namespace
+
+Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription, const Trajectory& trajectory) {
+  require_same_grid(transcription, trajectory);
+  const Layout& layout = transcription.layout();
+  const NodeState node_state = layout.node_state();
+  const Eigen::Index nodes = trajectory.q.rows();
+  const Eigen::Index s = trajectory.stages();
+  Eigen::VectorXd x(static_cast<Eigen::Index>(transcription.variable_count()));
+  const auto set_column = [&](std::size_t column, const auto& values) {
+    x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
+  };
+  /// Column c of a stage table, of stage i alone.
+  const auto stage_column = [&](const Eigen::MatrixXd& table, Eigen::Index i, Eigen::Index c) -> Eigen::VectorXd {
+    return table(Eigen::seqN(i, nodes - 1, s), c);
+  };
+  for (Eigen::Index c = 0; c < trajectory.q.cols(); ++c) {
+    set_column(layout.configuration_column(c), trajectory.q.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set_column(layout.slope_q_column(i, c), stage_column(trajectory.stage_v, i, c));
+    }
+  }
+  for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
+    for (Eigen::Index i = 0; i < s; ++i) {
+      set_column(layout.control_column(i, c), stage_column(trajectory.stage_u, i, c));
+    }
+  }
+  if (node_state == NodeState::configuration) return x;
+  const Eigen::MatrixXd slopes = second_slopes(problem, node_state, trajectory);
+  const Eigen::MatrixXd& second = node_state == NodeState::momentum ? trajectory.p : trajectory.v;
+  for (Eigen::Index c = 0; c < second.cols(); ++c) {
+    set_column(layout.second_column(c), second.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set_column(layout.slope_y_column(i, c), stage_column(slopes, i, c));
+    }
+  }
+  return x;
+}
+
+}  // namespace dmocbench

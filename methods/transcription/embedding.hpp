@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench {
+
+/// A trajectory written in the unknowns of a transcription on the same grid with the same tableau, whichever method it
+/// came from: nodes q with p or v, interior slopes Q̇_j with Ṗ_j = (L_q + f)(stage j) or V̇_j from the equations of
+/// motion, controls. Nothing is moved to meet bounds or rows: what the rows leave there shows how far two methods agree
+/// (th:equi). Throws `Error` if grid or stages differ.
+[[nodiscard]] Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription,
+                                    const Trajectory& trajectory);
+
+}  // namespace dmocbench
