@@ -1,0 +1,27 @@
+# Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b).
+#   gnuplot -e "results='results'" plots/consistency.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("consistency", "problem,method,tableau,stages,solver,status,branch,intervals,momentum_defect_max")
+
+set key top right
+
+do for [where in problems_of("consistency", "momentum_defect_max")] {
+  problem = entry(where, "problem")
+  curves = curves_of("consistency", where, "momentum_defect_max")
+  eval measure("consistency", where, "intervals", "momentum_defect_max")
+  eval intervals_axis
+  eval power_axis("y")
+  eval set_range("x", x_low, x_high, 1.25)
+  set title title_text(problem_label(problem).": DMOC and Hamiltonian collocation keep the",\
+      "momentum balance to rounding, tangent-space collocation does not",\
+      "DMOC's momenta are differences of positions over h: what is left is their rounding and the solver's residual.")
+  set ylabel axis_label("largest momentum defect of an interval", problem, "momentum_unit")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_momentum", 900, 600)
+    plot for [curve in curves] rows("consistency", curve, "momentum_defect_max")\
+         using (column("intervals")):(column("momentum_defect_max"))\
+         with linespoints linetype method_style(entry(curve, "method")) title curve_label("consistency", curve)
+    eval end_figure(kind, problem."_momentum")
+  }
+}

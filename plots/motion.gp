@@ -1,0 +1,36 @@
+# The motion found by DMOC, one figure per problem: a picture of the motion and its controls over time.
+#   gnuplot -e "results='results'" plots/motion.gp
+# Reads motion_PROBLEM_{picture,nodes,stages}.csv of every problem; pictures/PROBLEM.gp draws, or else pictures/any.gp.
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+problems = system("cd '".results."' 2>/dev/null &&\
+    ls motion_*_nodes.csv 2>/dev/null | sed 's/^motion_//; s/_nodes.csv$//'")
+if (strlen(problems) == 0) { print results."/motion_PROBLEM_nodes.csv is missing"; exit status 1 }
+
+# Colours over time: light at the start, dark at the end.
+set palette defined (0 "#9ADBE8", 0.35 "#3FA0CC", 0.7 "#2A5CA8", 1 "#2B1B5E")
+# Every how many of `intervals` something is drawn that is to appear about `count` times; the second prefers a divisor,
+# so that the last instant is drawn too.
+spacing(intervals, count) = intervals > count ? intervals / count : 1
+divisor(intervals, n, limit) = n > limit ? 0 : intervals % n == 0 ? n : divisor(intervals, n + 1, limit)
+first_of(n, otherwise) = n > 0 ? n : otherwise
+even_spacing(intervals, count) = first_of(divisor(intervals, spacing(intervals, count), 2 * spacing(intervals, count)),\
+    spacing(intervals, count))
+
+# To be evaluated: axes as they were, a title over two panels, the square panel on the left, a panel on the right.
+plain_axes = "unset logscale; set autoscale; set xtics autofreq; set ytics autofreq; set format '%g'; unset colorbox;\
+    unset key; set size noratio; unset title; unset lmargin; unset rmargin; unset tmargin; unset bmargin"
+begin_panels(claim) = "set multiplot title '".title_text(claim, "", "")."' offset 0, -0.4"
+left_square = "set lmargin at screen 0.105; set rmargin at screen 0.525; set bmargin at screen 0.13;\
+    set tmargin at screen 0.9; set size ratio -1"
+right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.635; set rmargin at screen 0.98;\
+    set bmargin at screen %g; set tmargin at screen %g; set xtics autofreq; set ytics autofreq", low, high)
+
+do for [problem in problems] {
+  nodes = "motion_".problem."_nodes"
+  stages = "motion_".problem."_stages"
+  picture = "motion_".problem."_picture"
+  drawing = plots."/pictures/".problem.".gp"
+  if (system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
+  do for [kind in kinds] { load drawing }
+}

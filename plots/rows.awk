@@ -1,0 +1,48 @@
+# Picks from a result table what a figure may draw. Columns are known by name; text in double quotes is dropped first.
+#   awk -f rows.awk [-v where=problem=a,method=b] [-v need=column] [-v without=column] TABLE
+#       the header and the rows that were solved on the same branch, meet every condition of `where`, have a value above
+#       zero in `need` and an empty field in `without`
+#   awk -f rows.awk -v distinct=problem,method ... TABLE
+#       of those rows, the distinct values: words such as problem=a,method=b, which serve as `where` again
+#   awk -f rows.awk -v missing=step,state_error TABLE
+#       the first of these columns that the table lacks
+BEGIN {
+  FS = ","
+  conditions = split(where, condition, ",")
+  keys = split(distinct, key, ",")
+}
+
+{ gsub(/"[^"]*"/, "") }
+
+NR == 1 {
+  for (i = 1; i <= NF; ++i) position[$i] = i
+  count = split(missing, wanted, ",")
+  for (i = 1; i <= count; ++i) {
+    if (wanted[i] in position) continue
+    print wanted[i]
+    exit
+  }
+  if (missing != "") exit
+  if (distinct == "") print
+  next
+}
+
+"status" in position && $position["status"] != "solved" { next }
+"branch" in position && $position["branch"] != "same" { next }
+need != "" && !(need in position && $position[need] + 0 > 0) { next }
+without != "" && without in position && $position[without] != "" { next }
+
+{
+  for (i = 1; i <= conditions; ++i) {
+    split(condition[i], side, "=")
+    if (!(side[1] in position) || $position[side[1]] != side[2]) next
+  }
+  if (distinct == "") {
+    print
+    next
+  }
+  word = ""
+  for (i = 1; i <= keys; ++i) word = word (i > 1 ? "," : "") key[i] "=" $position[key[i]]
+  if (!(word in seen)) print word
+  seen[word] = 1
+}

@@ -1,0 +1,128 @@
+# Shared by all figures: input tables, names and units, line styles, output as SVG and PNG.
+# A script sets `plots` (this folder) and loads this file; `results` is the folder of the tables.
+if (!exists("results")) results = "results"
+set encoding utf8
+set datafile separator comma
+set datafile columnheaders
+
+# --- Input tables ----------------------------------------------------------------------------------------------------
+table(name) = results."/".name.".csv"
+exists_table(name) = system("test -s '".table(name)."' && echo 1 || echo 0") + 0
+rows_awk(options, name) = "awk -f '".plots."/rows.awk' ".options." '".table(name)."'"
+
+# To be evaluated: ends the script with one line if the table or one of its columns is missing.
+require(name, columns) = sprintf(\
+    "complaint = exists_table('%s') ? system(rows_awk('-v missing=\"%s\"', '%s')) : '-';\
+     if (complaint eq '-') { print table('%s').' is missing or empty'; exit status 1 };\
+     if (complaint ne '') { print table('%s').' has no column '.complaint; exit status 1 }",\
+    name, columns, name, name, name)
+
+# Rows that may be drawn, as a data file; `where` is problem=a,method=b,..., `need` a column with a value above zero.
+rows(name, where, need) = "< ".rows_awk("-v where='".where."' -v need=".need, name)
+# Distinct values in those rows, as words that serve as `where` again.
+distinct(name, columns, where, need) =\
+    system(rows_awk("-v distinct=".columns." -v where='".where."' -v need=".need, name))
+problems_of(name, need) = distinct(name, "problem", "", need)
+curves_of(name, where, need) = distinct(name, "problem,method,tableau,stages,solver", where, need)
+# The value of one key in such a word: entry("problem=a,method=b", "method") is "b".
+after(text, key) = text[strstrt(text, key."=") + strlen(key) + 1:*]
+up_to_comma(text) = strstrt(text, ",") > 0 ? text[1:strstrt(text, ",") - 1] : text
+entry(where, key) = up_to_comma(after(where, key))
+
+# To be evaluated: x_low, x_high, y_low, y_high of those rows; axes are linear and without range afterwards.
+measure(name, where, x, y) = sprintf("unset logscale; set autoscale;\
+    stats rows('%s', '%s', '%s') using (column('%s')):(column('%s')) name 'S' nooutput;\
+    x_low = S_min_x; x_high = S_max_x; y_low = S_min_y; y_high = S_max_y", name, where, y, x, y)
+
+# Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
+slope_fields(name, where, quantity) = exists_table(name) ? system(rows_awk(sprintf(\
+    "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s'", entry(where, "problem"),\
+    entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity), name).\
+    " | awk -F, 'NR == 2 { print $6, $7 }'") : ""
+slope_text(fields) =\
+    words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", real(word(fields, 1)), real(word(fields, 2)))
+slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity))
+with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
+
+# --- Names and units -------------------------------------------------------------------------------------------------
+described(problem, column) = system(sprintf("awk -F, '\
+    NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"%s\") c = i } $1 == \"%s\" { print $c }' '%s/problems.csv'",\
+    column, problem, plots))
+plain_label(problem) = system("echo '".problem."' | awk '\
+    { gsub(/_/, \" \"); print toupper(substr($0, 1, 1)) substr($0, 2) }'")
+or_else(text, default) = strlen(text) > 0 ? text : default
+problem_label(problem) = or_else(described(problem, "label"), plain_label(problem))
+with_unit(text, unit) = strlen(unit) == 0 ? text\
+    : unit eq "dimensionless" ? text." (dimensionless)" : text." [".unit."]"
+axis_label(text, problem, column) = with_unit(text, described(problem, column))
+
+method_label(method) = method eq "dmoc" ? "DMOC" : method eq "hamiltonian" ? "Hamiltonian collocation"\
+    : method eq "tangent" ? "Tangent-space collocation" : method
+method_style(method) = method eq "dmoc" ? 1 : method eq "hamiltonian" ? 2 : method eq "tangent" ? 3 : 4
+# Tableau, stages and solver are named only where one figure shows several of them.
+several(name, where, column) = words(distinct(name, column, "problem=".entry(where, "problem"), "")) > 1
+curve_label(name, where) = method_label(entry(where, "method"))\
+    .(several(name, where, "tableau") ? ", ".entry(where, "tableau") : "")\
+    .(several(name, where, "stages") ? ", s = ".entry(where, "stages") : "")\
+    .(several(name, where, "solver") ? ", ".entry(where, "solver") : "")
+
+# --- Style -----------------------------------------------------------------------------------------------------------
+# Colours of Okabe and Ito. DMOC and Hamiltonian collocation often coincide: filled discs on a broad line below,
+# large open circles on a dashed line above, so that both stay visible.
+blue = "#0072B2"; vermilion = "#D55E00"; green = "#009E73"; purple = "#CC79A7"; grey = "#707070"
+set linetype 1 linecolor rgb blue linewidth 3.0 dashtype 1 pointtype 7 pointsize 0.6
+set linetype 2 linecolor rgb vermilion linewidth 1.5 dashtype (6, 5) pointtype 6 pointsize 1.15
+set linetype 3 linecolor rgb green linewidth 1.5 dashtype (10, 4, 2, 4) pointtype 9 pointsize 0.85
+set linetype 4 linecolor rgb purple linewidth 1.5 dashtype (2, 3) pointtype 5 pointsize 0.7
+set linetype 8 linecolor rgb grey linewidth 1.2 dashtype (8, 5)
+set linetype 9 linecolor rgb grey linewidth 1.2 dashtype (2, 4)
+
+set border 3 linecolor rgb "#404040" linewidth 1
+set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
+set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
+set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
+set style fill solid 1.0 noborder
+# Title: the claim in bold, in one line or two, and a remark below; empty lines are left out.
+bold(line) = strlen(line) == 0 ? "" : "{/:Bold ".line."}"
+title_text(first, second, remark) = bold(first).(strlen(second) == 0 ? "" : "\n".bold(second))\
+    .(strlen(remark) == 0 ? "" : "\n{/*0.87 ".remark."}")
+
+# Axis of interval numbers: ticks at powers of two, a little room at both ends.
+power_tics = "set xtics ("
+do for [i = 0:20] { power_tics = power_tics.(i == 0 ? "" : ", ").sprintf("%d", 2**i) }
+intervals_axis = "set logscale x 2; ".power_tics."); set format x '%g'; set xlabel 'number of intervals N'"
+# To be evaluated: an axis over powers of ten, and a range with room at both ends.
+power_axis(axes) = "do for [axis in '".spaced(axes)."'] { eval one_power_axis(axis) }"
+spaced(axes) = strlen(axes) == 2 ? axes[1:1]." ".axes[2:2] : axes
+one_power_axis(axis) = sprintf("set logscale %s 10; set %stics autofreq; set format %s '10^{%%T}'; set m%stics 10",\
+    axis, axis, axis, axis)
+plain_axis(axis, high) = sprintf("unset logscale %s; set %stics autofreq; set m%stics default; set format %s '%s'",\
+    axis, axis, axis, axis, abs(high) < 0.01 ? '%.3e' : '%g')
+# The same with labels at 3·10^k too, for axes of few decades.
+finer_tics(axis) = "set ".axis."tics add (".thirds.")"
+thirds = ""
+do for [k = -16:8] { thirds = thirds.(k == -16 ? "" : ", ").sprintf("'3·10^{%d}' 3e%d", k, k) }
+set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, low / factor, high * factor)
+
+error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
+
+# To be evaluated: two panels side by side below one title; `left` is the room for the first panel's labels.
+two_panels(title, left) = sprintf(\
+    "set multiplot layout 1, 2 title '%s' offset 0, -0.4 margins %g, 0.985, 0.13, 0.87 spacing 0.1", title, left)
+
+# --- Output ----------------------------------------------------------------------------------------------------------
+# do for [kind in kinds] { eval begin_figure(kind, name, width, height); plot ...; eval end_figure(kind, name) }
+# A figure is written under a hidden name and renamed when it is complete.
+kinds = "svg png"
+figures = results."/figures"
+hidden(kind, name) = figures."/.".name.".".kind
+terminal(kind, width, height) = kind eq "svg"\
+    ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", width, height)\
+    : sprintf("set terminal pngcairo size %d, %d enhanced font 'sans-serif,15' fontscale 1.5 linewidth 2 pointscale 3\
+        dashlength 1.4", 2 * width, 2 * height)
+begin_figure(kind, name, width, height) = sprintf("system \"mkdir -p '%s'\"; %s; set output \"%s\"",\
+    figures, terminal(kind, width, height), hidden(kind, name))
+end_figure(kind, name) = sprintf("unset output; system \"%s mv '%s' '%s/%s.%s'\"",\
+    kind eq "svg" ? keep_spaces(hidden(kind, name)) : "", hidden(kind, name), figures, name, kind)
+# Without this, viewers of SVG drop spaces beside subscripts.
+keep_spaces(file) = sprintf("sed -i 's/<text>/<text xml:space=%spreserve%s>/' '%s' &&", '\\\"', '\\\"', file)

@@ -1,0 +1,34 @@
+# What accuracy costs: state error over time and over free variables (the paper compares sizes in rem:savings).
+#   gnuplot -e "results='results'" plots/work_precision.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("convergence",\
+    "problem,method,tableau,stages,solver,status,branch,state_error,seconds,free_variables")
+
+panels = "seconds free_variables"
+
+do for [where in problems_of("convergence", "state_error")] {
+  problem = entry(where, "problem")
+  curves = curves_of("convergence", where, "state_error")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_work_precision", 1100, 560)
+    eval two_panels(title_text(\
+        problem_label(problem).": DMOC needs less time and fewer variables for the same accuracy", "", ""), 0.1)
+    set key top right
+    set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
+    do for [i = 1:2] {
+      work = word(panels, i)
+      eval measure("convergence", where, work, "state_error")
+      eval power_axis("xy")
+      eval finer_tics("x")
+      eval set_range("x", x_low, x_high, 1.3)
+      set xlabel (i == 1 ? "time of the solver [s]" : "free variables of the program")
+      if (i == 2) { unset ylabel; unset key }
+      plot for [curve in curves] rows("convergence", curve, "state_error")\
+           using (column(work)):(column("state_error"))\
+           with linespoints linetype method_style(entry(curve, "method")) title curve_label("convergence", curve)
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_work_precision")
+  }
+}
