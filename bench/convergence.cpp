@@ -39,7 +39,7 @@ class Convergence final : public Experiment {
   void check(const std::vector<Case>& cases) override {
     if (reference_ < 0) throw Error(fmt::format("--reference must be a number of intervals, got {}", reference_));
     if (!fit_.empty()) {
-      const std::vector<long long> range = parse_intervals(fit_);
+      const std::vector<long long> range = parse_intervals("--fit", fit_);
       fit_range_ = {range.front(), range.back()};
     }
     if (reference_ == 0) return;

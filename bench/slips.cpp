@@ -54,7 +54,7 @@ Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
   constexpr long long intervals = 128;
   const Case what{problem, "dmoc", "gauss", 1, "ipopt", Grid::uniform(intervals)};
   StartSource starts("common", {});
-  SolvedCase solved = solve_case(what, starts.motion_for(what), {}, 1);
+  SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
   if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");
   return std::move(*solved.trajectory);
 }

@@ -102,7 +102,7 @@ class Run {
   /// The solved case; without a start its row says so, and the run goes on.
   SolvedCase solve(const Case& what, const Progress& progress) {
     try {
-      const Motion start = starts_.motion_for(what);
+      const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
       progress.show(what.label());
       return solve_case(what, start, solver_options_, options_.repeats);
     } catch (const NoStart& reason) {

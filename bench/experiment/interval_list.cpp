@@ -13,13 +13,13 @@ namespace dmocbench {
 
 namespace {
 
-long long parse_count(std::string_view text) {
+long long parse_count(std::string_view option, std::string_view text) {
   long long count = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, count);
   const bool is_whole_number = error == std::errc() && stop == end;
   if (!is_whole_number || count < 1 || count > Grid::most_intervals) {
-    throw Error(fmt::format("--intervals: \"{}\" is not a whole number between 1 and {}", text, Grid::most_intervals));
+    throw Error(fmt::format("{}: \"{}\" is not a whole number between 1 and {}", option, text, Grid::most_intervals));
   }
   return count;
 }
@@ -34,19 +34,19 @@ std::string_view take_part(std::string_view& rest, char separator) {
 
 }  // namespace
 
-std::vector<long long> parse_intervals(std::string_view text) {
+std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
   std::set<long long> counts;
   std::string_view rest = text;
   do {
     std::string_view entry = take_part(rest, ',');
     if (entry.find(':') == std::string_view::npos) {
-      counts.insert(parse_count(entry));
+      counts.insert(parse_count(option, entry));
       continue;
     }
     const std::string whole(entry);
-    const long long first = parse_count(take_part(entry, ':'));
-    const long long last = parse_count(entry);
-    if (last < first) throw Error(fmt::format("--intervals: the range {} ends below its start", whole));
+    const long long first = parse_count(option, take_part(entry, ':'));
+    const long long last = parse_count(option, entry);
+    if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
   } while (!rest.empty());
   return {counts.begin(), counts.end()};

@@ -40,7 +40,7 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
         Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
     return grids;
   }
-  for (const long long count : parse_intervals(options.intervals)) grids.push_back(Grid::uniform(count));
+  for (const long long count : parse_intervals("--intervals", options.intervals)) grids.push_back(Grid::uniform(count));
   return grids;
 }
 
@@ -123,6 +123,10 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
   const auto tableaus = in_order("tableau", options.tableaus, tableau_names());
   const auto solvers = in_order("solver", options.solvers, solver_names());
+  if (options.name.empty() || options.name.find('/') != std::string::npos) {
+    throw Error(
+        fmt::format("--name \"{}\" must be a file's name without a folder; --out names the folder", options.name));
+  }
   if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
   const std::vector<Grid> grids = make_grids(options);
   std::vector<Case> cases;

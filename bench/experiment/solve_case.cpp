@@ -39,13 +39,13 @@ Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& s
   return solution;
 }
 
-/// "same" if no node is farther from the start's motion than a tenth of the range of q, else "other".
-const char* branch_of(const Trajectory& trajectory, const Motion& start) {
+/// "same" if no node is farther from the wanted motion than a tenth of the range of q, else "other".
+const char* branch_of(const Trajectory& trajectory, const Motion& wanted) {
   constexpr double share = 0.1;
   const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
   double distance = 0.0;
   for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd difference = trajectory.q.row(k).transpose() - start(trajectory.node_times[k]).q;
+    const Eigen::VectorXd difference = trajectory.q.row(k).transpose() - wanted(trajectory.node_times[k]).q;
     distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
   }
   return distance < share * range.maxCoeff() ? "same" : "other";
@@ -92,13 +92,13 @@ SolvedCase unsolved_case(const Case& what, const std::string& reason) {
   return result;
 }
 
-SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions& options, int repeats) {
+SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats) {
   SolvedCase result{.what = what, .solution = {}, .trajectory = {}, .row = {}};
   const auto setup_start = Clock::now();
   Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
                               what.grid);
   const double setup_seconds = seconds_since(setup_start);
-  const Eigen::VectorXd start_point = sample(transcription, start);
+  const Eigen::VectorXd start_point = sample(transcription, start.motion);
   result.solution = solve_repeatedly(transcription, start_point, what, options, repeats);
   Solution& solution = result.solution;
 
@@ -126,7 +126,7 @@ SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions
   row.set("evaluation_seconds", solution.evaluation_seconds);
   row.set("seconds", solution.seconds);
   if (result.trajectory) {
-    row.set("branch", branch_of(*result.trajectory, start));
+    if (start.branch) row.set("branch", branch_of(*result.trajectory, *start.branch));
     row.set("objective", result.trajectory->cost);
   }
   return result;

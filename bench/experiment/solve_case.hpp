@@ -24,9 +24,16 @@ struct SolvedCase {
 /// The columns that begin every experiment's table, in this order.
 [[nodiscard]] const std::vector<std::string>& core_columns();
 
+/// Where a solve starts, and the motion that tells whether its answer is on the wanted branch; without
+/// one the branch is left open.
+struct Start {
+  Motion motion;
+  std::optional<Motion> branch;
+};
+
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
 /// part of the result. Throws `Error` on misuse only.
-[[nodiscard]] SolvedCase solve_case(const Case& what, const Motion& start, const SolverOptions& options, int repeats);
+[[nodiscard]] SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats);
 
 /// The row of a case that could not even start, with status "not run" and the reason as its message.
 [[nodiscard]] SolvedCase unsolved_case(const Case& what, const std::string& reason);

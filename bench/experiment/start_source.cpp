@@ -100,6 +100,15 @@ Motion StartSource::motion_for(const Case& solved_case) {
   return own ? start.finer : start.motion;
 }
 
+std::optional<Motion> StartSource::branch_for(const Case& solved_case) {
+  if (kind_ != "guess") return motion_for(solved_case);
+  try {
+    return common_start(solved_case).motion;
+  } catch (const NoStart&) {
+    return std::nullopt;
+  }
+}
+
 const StartSource::CommonStart& StartSource::common_start(const Case& solved_case) {
   const Key key{solved_case.problem->name(), solved_case.tableau, solved_case.stages};
   const auto found = common_.find(key);

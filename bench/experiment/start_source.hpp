@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -38,6 +39,10 @@ class StartSource {
   /// method on the same grid, the same branch on the finer grid serves; a file that is the case's own answer is
   /// refused. Throws `NoStart` then, and if no common start can be found.
   [[nodiscard]] Motion motion_for(const Case& solved_case);
+
+  /// The motion whose branch a case should be on: the one it starts from, but the common start where cases start from
+  /// the problem's guess, which is on no branch. None if there is no common start.
+  [[nodiscard]] std::optional<Motion> branch_for(const Case& solved_case);
 
   /// Solves needed until the common start of this case is known; tells progress.
   std::function<void(const std::string&)> on_progress;

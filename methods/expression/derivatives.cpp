@@ -1,6 +1,7 @@
 #include "methods/expression/derivatives.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -43,7 +44,7 @@ std::vector<Node*> active_nodes(const Expression& f, const std::unordered_set<No
 
 /// ∂(node)/∂(operand number `which`), as a graph of the node and its operands.
 Expression partial_derivative(Node* node, std::size_t which) {
-  const Expression result = Expression::of_node(node);
+  Expression result = Expression::of_node(node);
   const Expression x = Expression::of_node(node->operand(0));
   switch (node->operation()) {
     case Operation::add:
@@ -110,13 +111,13 @@ ExpressionVector gradient(const Expression& f, const ExpressionVector& x) {
 
   std::unordered_map<Node*, Expression> adjoints;
   adjoints.emplace(f.node(), Expression(1.0));
-  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-    const auto found = adjoints.find(*node);
+  for (Node* node : std::ranges::reverse_view(nodes)) {
+    const auto found = adjoints.find(node);
     if (found == adjoints.end()) continue;
     const Expression adjoint = found->second;
-    for (std::size_t which = 0; which < operand_count((*node)->operation()); ++which) {
-      Node* operand = (*node)->operand(which);
-      if (active.contains(operand)) adjoints[operand] += adjoint * partial_derivative(*node, which);
+    for (std::size_t which = 0; which < operand_count(node->operation()); ++which) {
+      Node* operand = node->operand(which);
+      if (active.contains(operand)) adjoints[operand] += adjoint * partial_derivative(node, which);
     }
   }
   ExpressionVector result(x.size());

@@ -11,7 +11,6 @@ namespace dmocbench {
 
 namespace {
 
-using detail::Node;
 using detail::NodeKey;
 using detail::NodeTable;
 
@@ -21,8 +20,8 @@ Expression make(Operation operation, const Expression& x) {
   return make(NodeKey{.operation = operation, .operands = {x.node(), nullptr}});
 }
 
-Expression make(Operation operation, const Expression& left, const Expression& right) {
-  return make(NodeKey{.operation = operation, .operands = {left.node(), right.node()}});
+Expression make(Operation operation, const Expression& x, const Expression& y) {
+  return make(NodeKey{.operation = operation, .operands = {x.node(), y.node()}});
 }
 
 bool is(const Expression& x, Operation operation) { return x.node()->operation() == operation; }

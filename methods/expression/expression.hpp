@@ -26,7 +26,7 @@ void release(Node* node) noexcept;
 /// threads throws `Error`. Memory is returned when the last expression that reads a node is gone.
 ///
 /// Expressions cannot be compared: a traced formula that branches on a value would be traced on one side only.
-class Expression {
+class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one assignment copies or moves
  public:
   /// The constant 0.
   Expression();

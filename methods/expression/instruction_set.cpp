@@ -23,10 +23,12 @@ const std::vector<InstructionSet>& available_instruction_sets() {
   static const std::vector<InstructionSet> available = [] {
     std::vector<InstructionSet> sets{InstructionSet::baseline};
 #ifdef DMOCBENCH_X86_KERNELS
-    if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+    if (static_cast<bool>(__builtin_cpu_supports("avx2")) && static_cast<bool>(__builtin_cpu_supports("fma"))) {
       sets.push_back(InstructionSet::avx2);
-      if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-          __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512bw") != 0) {
+      if (static_cast<bool>(__builtin_cpu_supports("avx512f")) &&
+          static_cast<bool>(__builtin_cpu_supports("avx512dq")) &&
+          static_cast<bool>(__builtin_cpu_supports("avx512cd")) &&
+          static_cast<bool>(__builtin_cpu_supports("avx512bw"))) {
         sets.push_back(InstructionSet::avx512);
       }
     }

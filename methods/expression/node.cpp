@@ -14,7 +14,7 @@ bool NodeKey::equals(const NodeKey& other) const noexcept {
 }
 
 std::size_t NodeKey::hash() const noexcept {
-  std::uint64_t hash = static_cast<std::uint64_t>(operation);
+  auto hash = static_cast<std::uint64_t>(operation);
   const auto mix = [&hash](std::uint64_t word) {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;  // golden-ratio multiplier (Knuth)
     hash ^= hash >> 32U;

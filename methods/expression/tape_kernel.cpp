@@ -4,6 +4,7 @@
 // namespace xsimd another name per set for this reason.)
 #include "methods/expression/tape_kernel.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -50,9 +51,9 @@ inline void for_each_vector(Width width, double* result, const double* x, Functi
   }
   if constexpr (!Width::is_full) {
     if (i == width.value) return;
-    alignas(64) double padded[Vector::size] = {};
+    alignas(64) std::array<double, Vector::size> padded{};
     for (std::size_t j = i; j < width.value; ++j) padded[j - i] = x[j];
-    function(Vector::load_aligned(padded)).store_aligned(padded);
+    function(Vector::load_aligned(padded.data())).store_aligned(padded.data());
     for (std::size_t j = i; j < width.value; ++j) result[j] = padded[j - i];
   }
 }

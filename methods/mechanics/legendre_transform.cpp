@@ -1,6 +1,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 
 #include <Eigen/LU>
+#include <limits>
 
 #include "methods/error.hpp"
 
@@ -41,15 +42,20 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
                                             const Eigen::VectorXd& start) {
   constexpr int most_steps = 50;
   constexpr double tolerance = 1e-14;
+  constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
   Eigen::VectorXd v = start;
   for (int step = 0; step < most_steps; ++step) {
     evaluate(q, v, t);
     const Eigen::VectorXd residual = p - values_.head(n_);
-    const Eigen::FullPivLU<Eigen::MatrixXd> mass(values_.segment(n_, n_ * n_).reshaped(n_, n_));
-    if (!mass.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-    const Eigen::VectorXd correction = mass.solve(residual);
+    const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
+    const Eigen::FullPivLU<Eigen::MatrixXd> factors(mass);
+    if (!factors.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    // A residual of rounding is as good as zero, however far an ill-conditioned L_vv carries it.
+    const Eigen::VectorXd smallest = rounding * (p.cwiseAbs() + mass.cwiseAbs() * v.cwiseAbs());
+    const bool is_rounding = (residual.array().abs() <= smallest.array()).all();
+    const Eigen::VectorXd correction = factors.solve(residual);
     v += correction;
-    if (correction.norm() <= tolerance * (1.0 + v.norm())) return v;
+    if (is_rounding || correction.norm() <= tolerance * (1.0 + v.norm())) return v;
   }
   throw Error("the inverse Legendre transform did not converge; is the Lagrangian convex in the velocity?");
 }

@@ -14,7 +14,7 @@ std::string Parameter::range() const {
 }
 
 void Parameter::check(double candidate) const {
-  const bool in_range = candidate >= lower && candidate <= upper;  // false for NaN
+  const bool in_range = std::isfinite(candidate) && candidate >= lower && candidate <= upper;
   if (in_range && (!whole || candidate == std::trunc(candidate))) return;
   std::ostringstream text;
   text << "parameter " << name << " must be " << range();

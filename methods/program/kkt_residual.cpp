@@ -28,9 +28,10 @@ double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eig
   return worst;
 }
 
-/// How far x is from being a minimiser of `slope` · x within its bounds: the projected gradient.
+/// How far x is from being a minimiser of `slope` · x within its bounds: the projected gradient
+/// |x - clamp(x - slope, lower, upper)|, written so that a large x cannot swallow a small slope.
 double projected(double slope, double x, double lower, double upper) {
-  return std::abs(x - std::clamp(x - slope, lower, upper));
+  return std::abs(std::clamp(slope, x - upper, x - lower));
 }
 
 /// Stationarity of row i: an equality's multiplier is free; an inequality's pushes away from the bound it is at.

@@ -25,7 +25,11 @@ bool confirms(const NonlinearProgram& program, double tolerance, const Solution&
 }  // namespace
 
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
-  if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) return;
+  if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) {
+    if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing to look at
+    solution.message = sentence_of(solution.status);
+    return;
+  }
   solution.objective = program.objective(solution.primal);
   if (static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count()) {
     const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);

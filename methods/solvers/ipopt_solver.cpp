@@ -179,6 +179,7 @@ void set_options(Ipopt::IpoptApplication& application, const SolverOptions& opti
   if (options.most_seconds > 0.0) list.SetNumericValue("max_cpu_time", options.most_seconds);
   list.SetStringValue("nlp_scaling_method", "none");
   list.SetNumericValue("bound_relax_factor", 0.0);
+  list.SetStringValue("check_derivatives_for_naninf", "yes");  // else a NaN ends as a failed step
   for (const auto& [name, value] : options.passed_on) pass_on(list, name, value);
 }
 

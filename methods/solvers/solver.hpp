@@ -18,7 +18,7 @@ namespace dmocbench {
 struct SolverOptions {
   /// For the KKT residual of the program as the solver sees it (scaled cost).
   double tolerance = 1e-10;
-  int most_iterations = 3000;
+  int most_iterations = 500;
   /// Wall clock; 0 for no limit.
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.

@@ -98,9 +98,11 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
     return layout.variable_count() >= fixed + layout.row_count();
   };
   if (enough(layout_.intervals())) return;
-  constexpr std::size_t most_tried = 1000;
+  if (traced_.control_size() == 0) {
+    throw Error(problem.name() + " has no control: no number of intervals lets it meet both ends");
+  }
   std::size_t smallest = layout_.intervals();
-  while (smallest < most_tried && !enough(smallest)) ++smallest;
+  while (!enough(smallest)) ++smallest;  // every interval adds a control
   throw Error(problem.name() + " with " + element.name() + " has fewer free variables than rows on " +
               std::to_string(layout_.intervals()) + " intervals; it needs at least " + std::to_string(smallest));
 }

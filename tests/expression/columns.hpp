@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "methods/expression/replay.hpp"
+#include "methods/expression/tape.hpp"
+#include "tests/expression/terms.hpp"
+
+namespace dmocbench::tests {
+
+/// Entry k belongs to interval k. Every column is a block of memory of its own, not one number
+/// longer than it has to be, so that a sanitizer notices a step beyond its end.
+using Columns = std::vector<std::vector<double>>;
+
+/// Numbers of intervals around the widths of vectors and blocks.
+inline const std::vector<std::size_t>& interval_counts() {
+  static const std::vector<std::size_t> counts{0, 1, 2, 3, 7, 8, 9, 63, 64, 65, 127, 128, 1000};
+  return counts;
+}
+
+/// The outputs of a tape whose inputs all vary.
+inline Columns evaluate(const Tape& tape, const Columns& inputs, std::size_t count) {
+  Columns outputs(tape.output_count(), std::vector<double>(count));
+  std::vector<Tape::Input> places;
+  for (const std::vector<double>& column : inputs) places.push_back({column.data(), false});
+  std::vector<double*> results;
+  for (std::vector<double>& column : outputs) results.push_back(column.data());
+  Tape::Workspace workspace(tape);
+  tape.evaluate(count, places, results, workspace);
+  return outputs;
+}
+
+/// The outputs in one interval, step by step and with the sum of the magnitudes of their terms.
+inline std::vector<Terms> replay_interval(const Schedule& schedule, const Columns& inputs, std::size_t interval) {
+  std::vector<Terms> numbers;
+  for (const std::vector<double>& column : inputs) numbers.emplace_back(column[interval]);
+  return replay<Terms>(schedule, std::span<const Terms>(numbers));
+}
+
+}  // namespace dmocbench::tests

@@ -1,0 +1,121 @@
+#include <cstdlib>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/instruction_set.hpp"
+#include "tests/expression/columns.hpp"
+#include "tests/expression/operations.hpp"
+#include "tests/expression/random_program.hpp"
+#include "tests/support/sentence_of_error.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Columns;
+using tests::RandomPoints;
+
+constexpr double promise = 1e-13;  // of the sum of magnitudes
+
+void expect_all_agree(const Schedule& schedule, const Columns& inputs, std::size_t count) {
+  const Columns baseline = tests::evaluate(Tape(schedule, InstructionSet::baseline), inputs, count);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Columns found = tests::evaluate(Tape(schedule, set), inputs, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto terms = tests::replay_interval(schedule, inputs, k);
+      for (std::size_t j = 0; j < found.size(); ++j) {
+        ASSERT_NEAR(found[j][k], baseline[j][k], promise * terms[j].magnitude)
+            << name_of(set) << ", output " << j << ", interval " << k;
+      }
+    }
+  }
+}
+
+struct CompareSets {
+  template <class Formula>
+  void operator()(const char* name, const Formula& formula, const tests::Domain& domain) const {
+    SCOPED_TRACE(name);
+    const ExpressionVector x = input_vector(0, 2);
+    constexpr std::size_t count = 203;
+    RandomPoints random;
+    Columns inputs(2, std::vector<double>(count));
+    for (auto& column : inputs) {
+      for (double& entry : column) entry = random.number(domain.low, domain.high);
+    }
+    expect_all_agree(Schedule(ExpressionVector{{formula(x[0], x[1])}}), inputs, count);
+  }
+};
+
+TEST(InstructionSets, AgreeOnEveryOperation) { tests::visit_operations(CompareSets{}); }
+
+TEST(InstructionSets, AgreeOnEveryPower) { tests::visit_powers(CompareSets{}); }
+
+TEST(InstructionSets, AgreeOnRandomFormulasAndTheirSecondDerivatives) {
+  RandomPoints random;
+  for (int number = 0; number < 60; ++number) {
+    SCOPED_TRACE(number);
+    const tests::RandomProgram program(random, 3, 20, 1);
+    const ExpressionVector x = input_vector(0, 3);
+    const Expression f = program.run(std::span<const Expression>(x.data(), 3))[0];
+    constexpr std::size_t count = 67;
+    Columns inputs(3, std::vector<double>(count));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (double& entry : inputs[i]) entry = program.point()[i] + random.number(-1e-3, 1e-3);
+    }
+    expect_all_agree(Schedule(ExpressionVector(hessian(f, x).reshaped())), inputs, count);
+  }
+}
+
+TEST(InstructionSets, BaselineIsAlwaysThereAndNamesAreDistinct) {
+  const auto& sets = available_instruction_sets();
+  ASSERT_FALSE(sets.empty());
+  EXPECT_EQ(sets.front(), InstructionSet::baseline);
+  EXPECT_EQ(name_of(InstructionSet::baseline), "baseline");
+  EXPECT_EQ(name_of(InstructionSet::avx2), "avx2");
+  EXPECT_EQ(name_of(InstructionSet::avx512), "avx512");
+}
+
+/// DMOCBENCH_INSTRUCTION_SET is again what it was when the test ends.
+class PreferredInstructionSet : public testing::Test {
+ protected:
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  void SetUp() override {
+    if (const char* value = std::getenv(variable)) before_ = value;
+  }
+  void TearDown() override {
+    unset();
+    if (before_) set(*before_);
+  }
+  static void set(const std::string& value) { setenv(variable, value.c_str(), 1); }
+  static void unset() { unsetenv(variable); }
+  // NOLINTEND(concurrency-mt-unsafe)
+
+ private:
+  static constexpr const char* variable = "DMOCBENCH_INSTRUCTION_SET";
+  std::optional<std::string> before_;
+};
+
+TEST_F(PreferredInstructionSet, IsTheWidestUnlessTheEnvironmentNamesAnother) {
+  unset();
+  EXPECT_EQ(preferred_instruction_set(), available_instruction_sets().back());
+  for (const InstructionSet available : available_instruction_sets()) {
+    set(std::string(name_of(available)));
+    EXPECT_EQ(preferred_instruction_set(), available);
+    EXPECT_EQ(Tape(Schedule()).instruction_set(), available);
+  }
+}
+
+TEST_F(PreferredInstructionSet, ThrowsWhenTheEnvironmentNamesNoneThatIsAvailable) {
+  set("abacus");
+  tests::expect_error_naming({"abacus", "baseline"}, [] { static_cast<void>(preferred_instruction_set()); });
+  set("");
+  EXPECT_THROW(static_cast<void>(preferred_instruction_set()), Error);
+}
+
+}  // namespace
+}  // namespace dmocbench

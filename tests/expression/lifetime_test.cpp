@@ -1,0 +1,226 @@
+// Memory and threads of a graph: nodes go with their last reader, deep graphs do not end the stack, and threads trace
+// apart.
+
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/expression/tape.hpp"
+
+namespace dmocbench {
+namespace {
+
+constexpr int million = 1'000'000;
+
+double value(const Schedule& schedule, const std::vector<double>& point) {
+  return replay<double>(schedule, std::span<const double>(point))[0];
+}
+
+TEST(Lifetime, NodesGoWithTheLastExpressionThatReadsThem) {
+  const std::size_t before = live_nodes();
+  {
+    const ExpressionVector x = input_vector(0, 3);
+    EXPECT_EQ(live_nodes(), before + 3);
+    Expression f = sin(x[0]) * x[1];
+    EXPECT_EQ(live_nodes(), before + 5);
+    f = x[2];
+    EXPECT_EQ(live_nodes(), before + 3);
+    const ExpressionMatrix second = hessian(exp(x[0] * x[1]) / (1.0 + x[2] * x[2]), x);
+    EXPECT_GT(live_nodes(), before + 3);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, CopiesAndMovesKeepExactlyWhatTheyRead) {
+  const std::size_t before = live_nodes();
+  {
+    Expression f = sin(Expression::input(0));
+    Expression copy = f;
+    Expression moved = std::move(f);
+    EXPECT_TRUE(moved.is_same(copy));
+    Expression& alias = copy;
+    copy = alias;
+    EXPECT_TRUE(moved.is_same(copy));
+    EXPECT_EQ(live_nodes(), before + 2);
+    copy = Expression::input(0);
+    EXPECT_EQ(live_nodes(), before + 2);
+    moved = copy;
+    EXPECT_EQ(live_nodes(), before + 1);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, SchedulesAndTapesKeepNothingAlive) {
+  const std::size_t before = live_nodes();
+  const Tape tape(Schedule(ExpressionVector{{sin(Expression::input(0)) + 1.5}}));
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, AnErrorLeavesNoNodesBehind) {
+  const std::size_t before = live_nodes();
+  {
+    const ExpressionVector x = input_vector(0, 2);
+    EXPECT_THROW(static_cast<void>(gradient(x[0] * x[1], ExpressionVector{{x[0] + x[1]}})), Error);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, AChainOfAMillionOperationsIsScheduledAndDestroyed) {
+  const std::size_t before = live_nodes();
+  {
+    const ExpressionVector x = input_vector(0, 2);
+    Expression f = x[0];
+    for (int i = 0; i < million / 2; ++i) f = sin(f) + x[1];
+    const Schedule schedule(std::span(&f, 1));
+    EXPECT_EQ(schedule.operation_count(), static_cast<std::size_t>(million));
+    EXPECT_LE(Tape(schedule).slot_count(), 2U);
+    double expected = 0.3;
+    for (int i = 0; i < million / 2; ++i) expected = std::sin(expected) + 0.1;
+    EXPECT_NEAR(value(schedule, {0.3, 0.1}), expected, 1e-14);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, AChainOfAMillionOperationsIsDifferentiated) {
+  const std::size_t before = live_nodes();
+  {
+    const ExpressionVector x = input_vector(0, 2);
+    Expression f = x[0];
+    for (int i = 0; i < million / 2; ++i) f = 3.0 * x[1] - (f + 1.0);
+    const ExpressionVector first = gradient(f, x);
+    EXPECT_EQ(first[0].constant_value(), 1.0);  // half a million changes of sign
+    EXPECT_EQ(first[1].constant_value(), 0.0);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, ALongProductIsTracedAndDifferentiated) {
+  const std::size_t before = live_nodes();
+  {
+    // The adjoints of this chain are products of up to 200 000 factors.
+    Expression f = Expression::input(0);
+    constexpr int length = 200'000;
+    for (int i = 0; i < length; ++i) f = sin(f);
+    const Expression slope = gradient(f, ExpressionVector{{Expression::input(0)}})[0];
+    double expected = 1.0;
+    double at = 1e-3;
+    for (int i = 0; i < length; ++i) {
+      expected *= std::cos(at);
+      at = std::sin(at);
+    }
+    EXPECT_NEAR(value(Schedule(std::span(&slope, 1)), {1e-3}), expected, 1e-12 * expected);
+  }
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Lifetime, RepeatedSquaringTakesOneNodePerSquare) {
+  Expression f = Expression::input(0);
+  const std::size_t before = live_nodes();
+  for (int i = 0; i < 100; ++i) f *= f;
+  EXPECT_EQ(live_nodes(), before + 100);
+  EXPECT_EQ(Schedule(std::span(&f, 1)).operation_count(), 100U);
+}
+
+TEST(Lifetime, ManyDistinctNegativeFactorsAreScheduledInReasonableTime) {
+  Expression f;
+  constexpr int length = 100'000;
+  for (int i = 0; i < length; ++i) f = f * f - (2.0 + i) * Expression::input(static_cast<std::size_t>(i));
+  EXPECT_GE(Schedule(std::span(&f, 1)).operation_count(), static_cast<std::size_t>(2 * length));
+}
+
+TEST(Threads, TraceTheSameFormulasAtTheSameTime) {
+  const auto trace = [] {
+    const ExpressionVector x = input_vector(0, 2);
+    const Expression f = sin(x[0] * x[1]) / (2.0 + cos(x[1])) + exp(-x[0] * x[0]);
+    return Schedule(ExpressionVector(hessian(f, x).reshaped()));
+  };
+  const std::vector<double> point{0.4, -1.3};
+  const std::vector<double> expected = replay<double>(trace(), std::span<const double>(point));
+  std::atomic<int> right{0};
+  std::vector<std::thread> threads;
+  constexpr int thread_count = 8;
+  constexpr int repetitions = 200;
+  threads.reserve(thread_count);
+  for (int i = 0; i < thread_count; ++i) {
+    threads.emplace_back([&] {
+      for (int repetition = 0; repetition < repetitions; ++repetition) {
+        const bool same = replay<double>(trace(), std::span<const double>(point)) == expected;
+        right += same && live_nodes() == 0 ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, thread_count * repetitions);
+}
+
+TEST(Threads, CountTheirOwnNodes) {
+  const Expression here = Expression::input(0) * Expression::input(1);
+  const std::size_t before = live_nodes();
+  std::size_t at_start = 1;
+  std::size_t with_three = 0;
+  std::thread([&] {
+    at_start = live_nodes();
+    const ExpressionVector x = input_vector(0, 3);
+    with_three = live_nodes();
+  }).join();
+  EXPECT_EQ(at_start, 0U);
+  EXPECT_EQ(with_three, 3U);
+  EXPECT_EQ(live_nodes(), before);
+}
+
+TEST(Threads, MixingTheirExpressionsThrows) {
+  const Expression here = Expression::input(0);
+  int thrown = 0;
+  std::size_t left = 1;
+  std::thread([&] {  // this thread waits: nobody else touches `here`
+    {
+      const Expression there = Expression::input(1);
+      const auto expect_throw = [&](const auto& mix) {
+        try {
+          static_cast<void>(mix());
+        } catch (const Error&) {
+          ++thrown;
+        }
+      };
+      expect_throw([&] { return here + there; });
+      expect_throw([&] { return there - here; });
+      expect_throw([&] { return here * there; });
+      expect_throw([&] { return there / here; });
+      expect_throw([&] { return atan2(there, here); });
+      expect_throw([&] { return sin(here); });
+      expect_throw([&] { return -here; });
+    }
+    left = live_nodes();
+  })
+      .join();
+  EXPECT_EQ(thrown, 7);
+  EXPECT_EQ(left, 0U);
+}
+
+TEST(Threads, AnExpressionMayOutliveItsThread) {
+  Expression kept;
+  Expression part;
+  const std::size_t before = live_nodes();
+  std::thread([&] {
+    const ExpressionVector x = input_vector(0, 2);
+    kept = sin(x[0]) * x[1] + 2.0;
+    part = sin(x[0]);
+  }).join();
+  const Schedule schedule(std::span(&kept, 1));
+  EXPECT_EQ(value(schedule, {0.5, 3.0}), std::sin(0.5) * 3.0 + 2.0);
+  kept = Expression();
+  EXPECT_EQ(value(Schedule(std::span(&part, 1)), {0.5}), std::sin(0.5));
+  part = Expression();
+  EXPECT_EQ(live_nodes(), before);
+}
+
+}  // namespace
+}  // namespace dmocbench
