@@ -1,0 +1,198 @@
+// Claims are judged by predicates on tables; doctored tables have to be caught.
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "bench/claims/claim.hpp"
+#include "bench/claims/predicates.hpp"
+#include "bench/experiment/solve_case.hpp"
+
+namespace dmocbench {
+namespace {
+
+constexpr const char* orbit = "orbital_transfer";
+constexpr const char* methods[] = {"dmoc", "hamiltonian", "tangent"};
+
+Row solved_row(const std::string& method, long long intervals) {
+  Row row;
+  row.set("problem", orbit);
+  row.set("method", method);
+  row.set("tableau", "gauss");
+  row.set("stages", 1LL);
+  row.set("intervals", intervals);
+  row.set("status", "solved");
+  row.set("branch", "same");
+  return row;
+}
+
+/// Tables as a run that reproduces the paper writes them; `change` doctors every row of the named table.
+ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
+  ResultTables result;
+  const auto finish = [&](const std::string& name, std::vector<Row> rows) {
+    Table table(core_columns());
+    for (Row& row : rows) {
+      if (name == doctored) change(row);
+      table.append(std::move(row));
+    }
+    result.add(name, std::move(table));
+  };
+  std::vector<Row> slopes;
+  std::vector<Row> consistency;
+  std::vector<Row> convergence;
+  std::vector<Row> objective;
+  std::vector<Row> equivalence;
+  for (const std::string method : methods) {
+    for (const char* quantity : {"state", "control"}) {
+      Row row = solved_row(method, 0);
+      row.set("quantity", quantity);
+      row.set("slope", 2.01);
+      row.set("points", 4LL);
+      slopes.push_back(row);
+    }
+    for (const long long intervals : {16LL, 1024LL}) {
+      const double h = 1.0 / static_cast<double>(intervals);
+      Row row = solved_row(method, intervals);
+      row.set("largest_force", 1.0);
+      row.set("momentum_defect_max", method == "tangent" ? 1e-4 * h * h * h : 1e-15);
+      consistency.push_back(row);
+      row.set("free_variables", method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4);
+      row.set("step", 2.9316 * h);
+      convergence.push_back(row);
+      row.set("objective", 4e-5 * (1.0 + (method == "tangent" ? 0.9 : 1.0) * h * h));
+      objective.push_back(row);
+      if (method == "dmoc") continue;
+      const double difference = method == "tangent" ? h * h : 1e-13;
+      for (const char* column : {"configuration_difference", "momentum_difference", "control_difference",
+                                 "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+        row.set(column, difference);
+      }
+      equivalence.push_back(row);
+    }
+  }
+  finish("convergence_slopes", slopes);
+  finish("consistency", consistency);
+  finish("convergence", convergence);
+  finish("objective", objective);
+  finish("equivalence", equivalence);
+  return result;
+}
+
+Verdict verdict_on(const std::string& claim, const ResultTables& results) {
+  for (const Claim& judged : judge_claims(results)) {
+    if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;
+  }
+  ADD_FAILURE() << "no claim " << claim;
+  return Verdict::not_yet;
+}
+
+bool is(const Row& row, const std::string& method) { return row.text("method") == method; }
+
+TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
+  for (const char* claim : {"state_slope", "control_slope", "momentum_consistency", "equal_solutions",
+                            "tangent_differs", "variable_ratio", "objective_evolution", "reference_step"}) {
+    EXPECT_EQ(verdict_on(claim, tables()), Verdict::reproduced) << claim;
+  }
+}
+
+TEST(Claims, WithoutTablesNothingIsReproducedOrRefuted) {
+  for (const Claim& claim : judge_claims(ResultTables())) EXPECT_EQ(claim.verdict, Verdict::not_yet) << claim.id;
+}
+
+TEST(Claims, OrdersOneAndThreeDiffer) {
+  for (const double slope : {1.0, 3.0, 1.89, 2.11, std::nan("")}) {
+    const ResultTables doctored = tables("convergence_slopes", [&](Row& row) {
+      if (is(row, "hamiltonian")) row.set("slope", slope);
+    });
+    EXPECT_EQ(verdict_on("state_slope", doctored), Verdict::differs) << slope;
+    EXPECT_EQ(verdict_on("control_slope", doctored), Verdict::differs) << slope;
+  }
+}
+
+TEST(Claims, ASlopeThroughTwoPointsIsNoEvidence) {
+  EXPECT_EQ(verdict_on("state_slope", tables("convergence_slopes", [](Row& row) { row.set("points", 2LL); })),
+            Verdict::differs);
+}
+
+TEST(Claims, AMomentumDefectAboveRoundingDiffers) {
+  for (const char* method : {"dmoc", "hamiltonian"}) {
+    const ResultTables doctored = tables("consistency", [&](Row& row) {
+      if (is(row, method) && row.text("intervals") == "1024") row.set("momentum_defect_max", 1e-8);
+    });
+    EXPECT_EQ(verdict_on("momentum_consistency", doctored), Verdict::differs) << method;
+  }
+}
+
+TEST(Claims, ATangentSpaceMethodThatKeepsTheBalanceDiffers) {
+  const ResultTables doctored = tables("consistency", [](Row& row) { row.set("momentum_defect_max", 1e-15); });
+  EXPECT_EQ(verdict_on("momentum_consistency", doctored), Verdict::differs);
+}
+
+TEST(Claims, UnequalSolutionsDiffer) {
+  for (const char* column :
+       {"configuration_difference", "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+    const ResultTables doctored = tables("equivalence", [&](Row& row) {
+      if (is(row, "hamiltonian")) row.set(column, 1e-7);
+    });
+    EXPECT_EQ(verdict_on("equal_solutions", doctored), Verdict::differs) << column;
+  }
+}
+
+TEST(Claims, AnotherRatioOfVariablesDiffers) {
+  const ResultTables doctored = tables("convergence", [](Row& row) {
+    if (is(row, "dmoc")) row.set("free_variables", *row.number("intervals") * 4.0);
+  });
+  EXPECT_EQ(verdict_on("variable_ratio", doctored), Verdict::differs);
+}
+
+TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
+  for (const char* column : {"status", "branch"}) {
+    const auto spoil = [&](Row& row) {
+      if (is(row, "hamiltonian")) row.set(column, "other");
+    };
+    EXPECT_NE(verdict_on("momentum_consistency", tables("consistency", spoil)), Verdict::reproduced) << column;
+    EXPECT_NE(verdict_on("equal_solutions", tables("equivalence", spoil)), Verdict::reproduced) << column;
+    EXPECT_NE(verdict_on("objective_evolution", tables("objective", spoil)), Verdict::reproduced) << column;
+    EXPECT_NE(verdict_on("variable_ratio", tables("convergence", spoil)), Verdict::reproduced) << column;
+  }
+}
+
+TEST(Claims, AMissingFieldIsNeverReproduced) {
+  const auto erase = [](const char* column) { return [column](Row& row) { row.set(column, Cell()); }; };
+  EXPECT_EQ(verdict_on("momentum_consistency", tables("consistency", erase("momentum_defect_max"))), Verdict::differs);
+  EXPECT_EQ(verdict_on("equal_solutions", tables("equivalence", erase("configuration_difference"))), Verdict::differs);
+}
+
+TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
+  ResultTables results;
+  Table slips({"problem", "slip", "where", "printed", "meant", "quantity", "value_as_printed", "value_as_meant",
+               "required_value"});
+  Row row;
+  row.set("problem", orbit);
+  row.set("slip", "boundary_momenta");
+  row.set("value_as_printed", 1.02);
+  row.set("value_as_meant", 1.0);
+  row.set("required_value", 1.0);
+  slips.append(row);
+  results.add("slips", slips);
+  EXPECT_EQ(verdict_on("boundary_momenta", results), Verdict::differs);
+  row.set("value_as_printed", 1.0);
+  slips.clear();
+  slips.append(row);
+  results.add("slips", slips);
+  EXPECT_EQ(verdict_on("boundary_momenta", results), Verdict::reproduced);
+}
+
+TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
+  std::set<std::string> seen;
+  for (const Claim& claim : judge_claims(tables())) {
+    EXPECT_TRUE(seen.insert(claim.id).second) << claim.id;
+    EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/")) << claim.id;
+    EXPECT_FALSE(claim.paper.empty());
+    EXPECT_FALSE(claim.where.empty());
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench::tests {
+
+/// Errors and costs of a made-up method on N intervals.
+struct MadeUpMethod {
+  std::string name = "dmoc";
+  std::string stages = "1";
+  std::function<double(double)> error;  ///< state and control error on N intervals
+  std::function<double(double)> seconds = [](double n) { return 1e-3 * n; };  ///< of a solve on N intervals
+};
+
+/// A convergence table of made-up methods; step 1/N, 10 N free variables, solved on the same branch.
+inline Table convergence_of(const std::vector<MadeUpMethod>& methods, const std::vector<long long>& intervals) {
+  Table table({"problem", "method", "tableau", "stages", "solver", "intervals", "step", "free_variables", "status",
+               "branch", "objective", "seconds", "state_error", "control_error"});
+  for (const MadeUpMethod& method : methods) {
+    for (const long long count : intervals) {
+      const auto n = static_cast<double>(count);
+      Row row;
+      row.set("problem", "pendulum");
+      row.set("method", Cell(method.name));
+      row.set("tableau", "gauss");
+      row.set("stages", Cell(method.stages));
+      row.set("solver", "ipopt");
+      row.set("intervals", count);
+      row.set("step", 1.0 / n);
+      row.set("free_variables", 10 * count);
+      row.set("status", "solved");
+      row.set("branch", "same");
+      row.set("objective", 1.0);
+      row.set("seconds", method.seconds(n));
+      row.set("state_error", method.error(n));
+      row.set("control_error", method.error(n));
+      table.append(row);
+    }
+  }
+  return table;
+}
+
+/// The error c h^p on N intervals, h = 1/N.
+inline std::function<double(double)> power_law(double c, double p) {
+  return [c, p](double n) { return c * std::pow(n, -p); };
+}
+
+}  // namespace dmocbench::tests

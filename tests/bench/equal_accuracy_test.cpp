@@ -1,0 +1,56 @@
+#include "bench/summary/equal_accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/curves_for_tests.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::convergence_of;
+using tests::power_law;
+
+const std::vector<long long> sixteen_to_1024{16, 32, 64, 128, 256, 512, 1024};
+
+TEST(EqualAccuracy, PowerLawsGiveTheRatioOfTheirCosts) {
+  // Four times the error at order 2: twice the intervals; and three times the time on the same grid.
+  const Table table = equal_accuracy(
+      convergence_of({{.error = power_law(1.0, 2.0)},
+                      {.name = "tangent", .error = power_law(4.0, 2.0), .seconds = [](double n) { return 3e-3 * n; }}},
+                     sixteen_to_1024));
+  int of_tangent = 0;
+  for (const Row& row : table.rows()) {
+    const double factor = row.text("method") == "tangent" ? 2.0 : 1.0;
+    const double intervals = factor / std::sqrt(*row.number("error"));
+    EXPECT_NEAR(*row.number("intervals") / intervals, 1.0, 1e-12);
+    EXPECT_NEAR(*row.number("variables") / (10.0 * intervals), 1.0, 1e-12);
+    EXPECT_NEAR(*row.number("variables_ratio"), factor, 1e-12);
+    EXPECT_NEAR(*row.number("seconds_ratio"), factor == 2.0 ? 6.0 : 1.0, 1e-12);
+    of_tangent += factor == 2.0 ? 1 : 0;
+  }
+  EXPECT_GE(of_tangent, 2 * 4) << "half decades from 1e-2 to 1e-5, for state and control";
+}
+
+TEST(EqualAccuracy, ErrorsThatAMethodDoesNotReachAreLeftOut) {
+  const Table table = equal_accuracy(convergence_of(
+      {{.error = power_law(1.0, 2.0)}, {.name = "tangent", .error = power_law(1e3, 2.0)}}, sixteen_to_1024));
+  for (const Row& row : table.rows()) {
+    EXPECT_GE(*row.number("error"), 1e3 / (1024.0 * 1024.0) * (1.0 - 1e-12));
+    EXPECT_LE(*row.number("error"), 1.0 / (16.0 * 16.0) * (1.0 + 1e-12));
+  }
+  EXPECT_FALSE(table.rows().empty());
+}
+
+TEST(EqualAccuracy, WithoutDmocThereAreNoRatios) {
+  const Table table =
+      equal_accuracy(convergence_of({{.name = "hamiltonian", .error = power_law(1.0, 2.0)}}, sixteen_to_1024));
+  ASSERT_FALSE(table.rows().empty());
+  for (const Row& row : table.rows()) EXPECT_EQ(row.text("variables_ratio"), "");
+}
+
+TEST(EqualAccuracy, OneGridIsNoCurve) {
+  EXPECT_TRUE(equal_accuracy(convergence_of({{.error = power_law(1.0, 2.0)}}, {64})).rows().empty());
+}
+
+}  // namespace
+}  // namespace dmocbench

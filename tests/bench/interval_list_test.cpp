@@ -1,0 +1,74 @@
+#include "bench/experiment/interval_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/transcription/grid.hpp"
+#include "tests/support/sentence_of_error.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::expect_error_naming;
+using Counts = std::vector<long long>;
+
+Counts intervals(std::string_view text) { return parse_intervals("--intervals", text); }
+
+TEST(Intervals, ARangeDoublesUpToItsEnd) {
+  EXPECT_EQ(intervals("8:1024"), (Counts{8, 16, 32, 64, 128, 256, 512, 1024}));
+  EXPECT_EQ(intervals("8:1023"), (Counts{8, 16, 32, 64, 128, 256, 512}));
+  EXPECT_EQ(intervals("7:7"), (Counts{7}));
+}
+
+TEST(Intervals, AListIsSortedAndEachEntryOccursOnce) {
+  EXPECT_EQ(intervals("48,16"), (Counts{16, 48}));
+  EXPECT_EQ(intervals("16,16"), (Counts{16}));
+  EXPECT_EQ(intervals("96,8:64,48,32"), (Counts{8, 16, 32, 48, 64, 96}));
+}
+
+TEST(Intervals, TheLargestNumberIsAllowedAndEndsARange) {
+  EXPECT_EQ(intervals(std::to_string(Grid::most_intervals)), (Counts{Grid::most_intervals}));
+  EXPECT_EQ(intervals("3:" + std::to_string(Grid::most_intervals)).back(), 3LL << 22);
+}
+
+TEST(Intervals, RefusesAnythingElseAndQuotesIt) {
+  for (const std::string entry : {"0", "-3", "abc", "1e12", "1.5", "16 ", "+4", "99999999999999999999", "0x10"}) {
+    expect_error_naming({"\"" + entry + "\""}, [&] { static_cast<void>(intervals(entry)); });
+    expect_error_naming({"\"" + entry + "\""}, [&] { static_cast<void>(intervals("16," + entry)); });
+    expect_error_naming({"\"" + entry + "\""}, [&] { static_cast<void>(intervals("1:" + entry)); });
+  }
+  for (const char* text : {"", ",", ",16", "16,,32", ":", "8:", ":8", "8:16:32"}) {
+    EXPECT_THROW(static_cast<void>(intervals(text)), Error) << text;
+  }
+  expect_error_naming({"--intervals", "8:4"}, [] { static_cast<void>(intervals("8:4")); });
+  expect_error_naming({"--fit", "\"x\""}, [] { static_cast<void>(parse_intervals("--fit", "x")); });
+}
+
+TEST(NodeTimes, AreReadLineByLineWithoutEmptyLines) {
+  EXPECT_EQ(parse_node_times("0\n0.25\r\n\n1e0 \n"), (std::vector<double>{0.0, 0.25, 1.0}));
+}
+
+TEST(NodeTimes, ALineThatIsNoNumberIsNamed) {
+  expect_error_naming({"line 2", "half"}, [] { static_cast<void>(parse_node_times("0\nhalf\n1\n")); });
+}
+
+TEST(Assignment, IsCutAtTheFirstEqualsSign) {
+  const auto [name, value] = parse_assignment("--option", "a=b=c");
+  EXPECT_EQ(name, "a");
+  EXPECT_EQ(value, "b=c");
+}
+
+TEST(Assignment, WithoutNameOrEqualsSignIsRefused) {
+  for (const std::string text : {"mass", "=1", ""}) {
+    expect_error_naming({"--set", "\"" + text + "\""}, [&] { static_cast<void>(parse_assignment("--set", text)); });
+  }
+}
+
+TEST(Number, TakesTheWholeText) {
+  EXPECT_EQ(parse_number("x", "-1.5e3"), -1500.0);
+  for (const std::string text : {"", "1 km", "1,5", "0x10", "one"}) {
+    expect_error_naming({"x", "\"" + text + "\""}, [&] { static_cast<void>(parse_number("x", text)); });
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench

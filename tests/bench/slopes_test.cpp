@@ -1,0 +1,102 @@
+#include "bench/summary/slopes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/curves_for_tests.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::convergence_of;
+using tests::power_law;
+
+const std::vector<long long> sixteen_to_1024{16, 32, 64, 128, 256, 512, 1024};
+
+/// The slope of one quantity; the test fails if there is not exactly one.
+Row slope_of(const SlopeTable& slopes, const std::string& quantity, const std::string& method = "dmoc") {
+  std::vector<Row> found;
+  for (const Row& row : slopes.table.rows()) {
+    if (row.text("quantity") == quantity && row.text("method") == method) found.push_back(row);
+  }
+  EXPECT_EQ(found.size(), 1U) << quantity;
+  return found.empty() ? Row() : found.front();
+}
+
+/// The table with one field of the row on N intervals replaced.
+Table with_field(const Table& table, long long intervals, const std::string& column, const Cell& value) {
+  Table result(table.columns());
+  for (Row row : table.rows()) {
+    if (row.number("intervals") == static_cast<double>(intervals)) row.set(column, value);
+    result.append(row);
+  }
+  return result;
+}
+
+TEST(Slopes, APowerLawGivesItsExponentWithoutAnError) {
+  for (const double order : {1.0, 2.0, 3.5}) {
+    const Table table = convergence_of({{.error = power_law(7.0, order)}}, sixteen_to_1024);
+    const Row row = slope_of(fit_slopes(table, std::nullopt, 0), "state");
+    EXPECT_NEAR(*row.number("slope"), order, 1e-12);
+    EXPECT_NEAR(*row.number("standard_error"), 0.0, 1e-12);
+  }
+}
+
+TEST(Slopes, AreFittedFrom32ToAQuarterOfTheReference) {
+  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  const Row row = slope_of(fit_slopes(table, std::nullopt, 0), "control");
+  EXPECT_EQ(row.text("coarsest"), "32");
+  EXPECT_EQ(row.text("finest"), "256");
+  EXPECT_EQ(row.text("points"), "4");
+  const Row against_512 = slope_of(fit_slopes(table, std::nullopt, 512), "control");
+  EXPECT_EQ(against_512.text("finest"), "128");
+}
+
+TEST(Slopes, StartAt64WithSeveralStages) {
+  const Table table = convergence_of({{.stages = "2", .error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  EXPECT_EQ(slope_of(fit_slopes(table, std::nullopt, 0), "state").text("coarsest"), "64");
+}
+
+TEST(Slopes, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
+  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  EXPECT_TRUE(fit_slopes(table, FitRange{32, 256}, 1024).notes.empty());
+  const SlopeTable bent = fit_slopes(table, FitRange{32, 256}, 512);
+  ASSERT_EQ(bent.notes.size(), 1U);
+  EXPECT_NE(bent.notes[0].find("N = 256"), std::string::npos) << bent.notes[0];
+  EXPECT_EQ(slope_of(bent, "state").text("finest"), "256");
+}
+
+TEST(Slopes, UnsolvedRowsAndOtherBranchesAreLeftOut) {
+  const Table good = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  const Table wrong = with_field(good, 64, "state_error", Cell(1.0));
+  EXPECT_GT(std::abs(*slope_of(fit_slopes(wrong, std::nullopt, 0), "state").number("slope") - 2.0), 0.5);
+  for (const auto& [column, value] : {std::pair{"status", "iteration limit"}, std::pair{"branch", "other"}}) {
+    const Table marked = with_field(wrong, 64, column, Cell(std::string(value)));
+    const Row row = slope_of(fit_slopes(marked, std::nullopt, 0), "state");
+    EXPECT_NEAR(*row.number("slope"), 2.0, 1e-12) << column;
+    EXPECT_EQ(row.text("points"), "3");
+  }
+}
+
+TEST(Slopes, ErrorsAtTheLevelOfRoundingAreLeftOut) {
+  const auto floor = [](double n) { return std::max(1e3 * std::pow(n, -6.0), 1e-13); };
+  const Table table = convergence_of({{.error = floor}}, sixteen_to_1024);
+  const Row row = slope_of(fit_slopes(table, FitRange{16, 256}, 1024), "state");
+  EXPECT_NEAR(*row.number("slope"), 6.0, 1e-9);
+}
+
+TEST(Slopes, TwoPointsHaveNoStandardErrorAndOnePointNoSlope) {
+  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  EXPECT_EQ(slope_of(fit_slopes(table, FitRange{32, 64}, 1024), "state").text("standard_error"), "");
+  EXPECT_TRUE(fit_slopes(table, FitRange{32, 32}, 1024).table.rows().empty());
+}
+
+TEST(Slopes, EveryCurveHasItsOwn) {
+  const Table table = convergence_of(
+      {{.error = power_law(1.0, 2.0)}, {.name = "tangent", .error = power_law(3.0, 1.0)}}, sixteen_to_1024);
+  const SlopeTable slopes = fit_slopes(table, std::nullopt, 0);
+  EXPECT_NEAR(*slope_of(slopes, "state", "dmoc").number("slope"), 2.0, 1e-12);
+  EXPECT_NEAR(*slope_of(slopes, "state", "tangent").number("slope"), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace dmocbench

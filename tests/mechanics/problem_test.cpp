@@ -1,0 +1,97 @@
+#include "methods/mechanics/problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/sentence_of_error.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// A problem with two parameters.
+class Tunable final : public Problem {
+ public:
+  explicit Tunable(double default_mass = 1.0)
+      : Problem({{.name = "mass", .value = default_mass, .unit = "kg", .meaning = "mass", .lower = 0.0, .upper = 2.0},
+                 {.name = "turns",
+                  .value = 3.0,
+                  .unit = "",
+                  .meaning = "turns",
+                  .lower = 1.0,
+                  .upper = 9.0,
+                  .whole = true}}) {}
+  [[nodiscard]] std::string name() const override { return "tunable"; }
+  [[nodiscard]] std::string description() const override { return "a problem for tests"; }
+  [[nodiscard]] std::string source() const override { return "tests"; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"a", "b"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"c"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * parameter("mass") * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector::Constant(2, x.u[0]);
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {Eigen::Vector2d(1.0, 2.0), Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {Eigen::Vector2d(5.0, -2.0), Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] double horizon() const override { return 2.0; }
+};
+
+TEST(Problem, SetParameterIsReadBackAndReachesTheFormulas) {
+  Tunable problem;
+  const State x{input_vector(0, 2), input_vector(2, 2), Expression::input(5)};
+  const Expression before = problem.lagrangian(x);
+  problem.set_parameter("mass", 1.5);
+  EXPECT_EQ(problem.parameter("mass"), 1.5);
+  EXPECT_EQ(problem.parameter("turns"), 3.0);
+  EXPECT_FALSE(problem.lagrangian(x).is_same(before));
+}
+
+TEST(Problem, UnknownParametersListTheKnownOnes) {
+  Tunable problem;
+  tests::expect_error_naming({"tunable", "\"length\"", "mass", "turns"}, [&] { problem.set_parameter("length", 1.0); });
+  tests::expect_error_naming({"tunable", "\"length\"", "mass", "turns"},
+                             [&] { static_cast<void>(problem.parameter("length")); });
+  tests::DoubleIntegrator plain;
+  tests::expect_error_naming({"none"}, [&] { plain.set_parameter("length", 1.0); });
+}
+
+TEST(Problem, ARefusedValueChangesNothing) {
+  Tunable problem;
+  tests::expect_error_naming({"mass", "[0, 2]"}, [&] { problem.set_parameter("mass", 3.0); });
+  tests::expect_error_naming({"turns", "whole"}, [&] { problem.set_parameter("turns", 2.5); });
+  EXPECT_EQ(problem.parameter("mass"), 1.0);
+  EXPECT_EQ(problem.parameter("turns"), 3.0);
+}
+
+TEST(Problem, RefusesADefaultOutsideItsOwnRange) {
+  tests::expect_error_naming({"mass"}, [] { Tunable{-1.0}; });
+}
+
+TEST(Problem, GuessesTheStraightLineBetweenItsEnds) {
+  const Tunable problem;
+  const MotionPoint middle = problem.guess(0.5);
+  EXPECT_EQ(middle.q, Eigen::Vector2d(2.0, 1.0));
+  EXPECT_EQ(middle.v, Eigen::Vector2d(2.0, -2.0));
+  EXPECT_EQ(middle.u, Eigen::VectorXd::Zero(1));
+  EXPECT_EQ(problem.guess(0.0).q, problem.initial_state().q);
+  EXPECT_EQ(problem.guess(2.0).q, problem.final_state().q);
+}
+
+TEST(Problem, ShowsItsConfigurationAndControlUnlessItSaysOtherwise) {
+  const Tunable problem;
+  const ControlledState x{input_vector(0, 2), input_vector(2, 2), input_vector(4, 1), Expression::input(5)};
+  const std::vector<PictureQuantity> quantities = problem.picture(x);
+  ASSERT_EQ(quantities.size(), 3U);
+  EXPECT_EQ(quantities[0].name, "a");
+  EXPECT_EQ(quantities[2].name, "c");
+  EXPECT_TRUE(quantities[1].value.is_same(x.q[1]));
+  EXPECT_TRUE(quantities[2].value.is_same(x.u[0]));
+}
+
+}  // namespace
+}  // namespace dmocbench

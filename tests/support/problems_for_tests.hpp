@@ -1,0 +1,152 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench::tests {
+
+/// What every small problem shares: names by number and ends that the constructor is told.
+class SmallProblem : public Problem {
+ public:
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::string description() const override { return "a problem for tests"; }
+  [[nodiscard]] std::string source() const override { return "tests"; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return numbered("q", first_.q.size()); }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("u", controls_); }
+  [[nodiscard]] BoundaryState initial_state() const override { return first_; }
+  [[nodiscard]] BoundaryState final_state() const override { return last_; }
+  [[nodiscard]] double horizon() const override { return horizon_; }
+
+ protected:
+  SmallProblem(std::string name, BoundaryState first, BoundaryState last, double horizon, Eigen::Index controls)
+      : name_(std::move(name)),
+        first_(std::move(first)),
+        last_(std::move(last)),
+        horizon_(horizon),
+        controls_(controls) {}
+
+  static BoundaryState at(double q, double v) {
+    return {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, v)};
+  }
+  static ExpressionVector one(const Expression& entry) { return ExpressionVector::Constant(1, entry); }
+
+ private:
+  static std::vector<std::string> numbered(const std::string& letter, Eigen::Index count) {
+    std::vector<std::string> names;
+    for (Eigen::Index i = 1; i <= count; ++i) names.push_back(letter + std::to_string(i));
+    return names;
+  }
+
+  std::string name_;
+  BoundaryState first_;
+  BoundaryState last_;
+  double horizon_;
+  Eigen::Index controls_;
+};
+
+/// L = ½v², f = u, C = ½u², from 0 to 1 at rest in T = 1. Optimum: u = 6 - 12t, q = 3t² - 2t³, J = 6.
+class DoubleIntegrator final : public SmallProblem {
+ public:
+  DoubleIntegrator() : SmallProblem("double_integrator", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+  /// Translations.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector&) const override { return one(1.0); }
+};
+
+/// L = ½v² - ½ω²q², f = u, C = ½u²; the ends are those of the free motion q = cos ωt, so u = 0 is the optimum.
+class HarmonicOscillator final : public SmallProblem {
+ public:
+  static constexpr double omega = 2.0;
+  explicit HarmonicOscillator(double horizon = 1.0)
+      : SmallProblem("harmonic_oscillator", at(1.0, 0.0),
+                     at(std::cos(omega * horizon), -omega * std::sin(omega * horizon)), horizon, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] - 0.5 * omega * omega * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+/// L = ½v² + cos q, f = u, C = ½u², from hanging to upright at rest. L_vv is constant, L_q is not linear.
+class Pendulum final : public SmallProblem {
+ public:
+  Pendulum() : SmallProblem("pendulum", at(0.0, 0.0), at(std::numbers::pi, 0.0), 2.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + cos(x.q[0]); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+/// A free relativistic particle in a spring, L = -sqrt(1 - v²) - ½q²: not quadratic in v, p = v/sqrt(1 - v²).
+class RelativisticSpring final : public SmallProblem {
+ public:
+  RelativisticSpring() : SmallProblem("relativistic_spring", at(0.0, 0.3), at(0.5, 0.1), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return -sqrt(1.0 - x.v[0] * x.v[0]) - 0.5 * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+/// Everything that the paper's two problems lack: L depends on t, L_vv and L_vq on q and t, terms linear in v, damping,
+/// a force and a cost that depend on q, v, u and t.
+class MovingFrame final : public SmallProblem {
+ public:
+  MovingFrame()
+      : SmallProblem("moving_frame", {Eigen::Vector2d(0.1, -0.2), Eigen::Vector2d(0.4, 0.3)},
+                     {Eigen::Vector2d(0.7, 0.4), Eigen::Vector2d(0.2, -0.1)}, 1.5, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression& a = x.q[0];
+    const Expression& b = x.q[1];
+    const Expression& va = x.v[0];
+    const Expression& vb = x.v[1];
+    const Expression kinetic =
+        0.5 * (2.0 + cos(b)) * va * va + 0.5 * (1.0 + 0.1 * x.t * x.t) * vb * vb + 0.3 * sin(a + x.t) * va * vb;
+    const Expression gyroscopic = x.t * a * b * vb + b * b * va;
+    return kinetic + gyroscopic - (a * a * b + sin(b) * x.t);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    ExpressionVector f(2);
+    f << x.u[0] - 0.2 * x.v[0], x.q[0] * x.u[0] + x.u[1] + 0.1 * x.v[0] * x.v[1] + 0.3 * x.t;
+    return f;
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * (x.u[0] * x.u[0] + x.u[1] * x.u[1]) + 0.1 * x.q[0] * x.q[0] + 0.05 * x.v[1] * x.v[1] * x.t +
+           0.1 * x.u[0] * x.v[0];
+  }
+};
+
+/// Another problem with its ends replaced.
+class WithEnds final : public Problem {
+ public:
+  WithEnds(const Problem& base, BoundaryState first, BoundaryState last)
+      : base_(base), first_(std::move(first)), last_(std::move(last)) {}
+  [[nodiscard]] std::string name() const override { return base_.name(); }
+  [[nodiscard]] std::string description() const override { return base_.description(); }
+  [[nodiscard]] std::string source() const override { return base_.source(); }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_.force(x); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_.running_cost(x); }
+  [[nodiscard]] BoundaryState initial_state() const override { return first_; }
+  [[nodiscard]] BoundaryState final_state() const override { return last_; }
+  [[nodiscard]] double horizon() const override { return base_.horizon(); }
+  [[nodiscard]] double cost_scale() const override { return base_.cost_scale(); }
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
+    return base_.symmetry(q);
+  }
+
+ private:
+  const Problem& base_;
+  BoundaryState first_;
+  BoundaryState last_;
+};
+
+}  // namespace dmocbench::tests

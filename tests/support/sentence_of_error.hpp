@@ -1,0 +1,33 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench::tests {
+
+/// What the `Error` that a call throws says; the test fails if it throws none.
+template <class Call>
+std::string sentence_of_error(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "expected an Error";
+  return "";
+}
+
+/// The call throws an `Error` whose sentence contains every one of `parts`.
+template <class Call>
+void expect_error_naming(std::initializer_list<std::string> parts, const Call& call) {
+  const std::string sentence = sentence_of_error(call);
+  for (const std::string& part : parts) {
+    EXPECT_NE(sentence.find(part), std::string::npos) << '"' << part << "\" is not in: " << sentence;
+  }
+}
+
+}  // namespace dmocbench::tests
