@@ -1,7 +1,8 @@
 #include "methods/mechanics/legendre_transform.hpp"
 
-#include <Eigen/LU>
 #include <limits>
+
+#include <Eigen/LU>
 
 #include "methods/error.hpp"
 
