@@ -1,4 +1,7 @@
 // The table of claims: what the paper states, what was measured, and the verdict.
+#include <cstdio>
+#include <exception>
+
 #include <fmt/format.h>
 
 #include "bench/claims/predicates.hpp"
@@ -51,7 +54,7 @@ void print(const std::vector<Claim>& claims) {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app(
       "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.",
       "claims");
@@ -64,4 +67,7 @@ int main(int argc, char** argv) {
     dmocbench::print(claims);
     return 0;
   });
+} catch (const std::exception& error) {  // what is set up before run_program can guard it
+  std::fputs(error.what(), stderr);
+  return 2;
 }

@@ -1,4 +1,7 @@
 // What there is: problems with their parameters and guess, methods, tableaus, solvers, derivative back ends.
+#include <cstdio>
+#include <exception>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -59,7 +62,7 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app("What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.",
                "list");
   std::vector<std::string> problems;
@@ -67,4 +70,7 @@ int main(int argc, char** argv) {
   app.add_option("--problem", problems, "only these problems")->delimiter(',');
   app.add_option("--set", settings, "parameter=value of a problem; may be repeated");
   return dmocbench::run_program(app, argc, argv, [&] { return dmocbench::print_all(problems, settings); });
+} catch (const std::exception& error) {  // what is set up before run_program can guard it
+  std::fputs(error.what(), stderr);
+  return 2;
 }

@@ -1,5 +1,7 @@
 // Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -117,7 +119,7 @@ Table slip_table(const std::vector<Slip>& slips) {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
   CLI::App app("Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
                "slips");
@@ -133,4 +135,7 @@ int main(int argc, char** argv) {
     fmt::print("slips: {} rows: {}\n", table.rows().size(), (out / "slips.csv").string());
     return 0;
   });
+} catch (const std::exception& error) {  // what is set up before run_program can guard it
+  std::fputs(error.what(), stderr);
+  return 2;
 }

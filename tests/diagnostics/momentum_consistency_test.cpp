@@ -69,6 +69,16 @@ TEST(MomentumConsistency, OfTangentIsRoundingIfTheMassIsConstant) {
   }
 }
 
+TEST(MomentumConsistency, HoldsForAGeneratorThatTurnsWithTheConfiguration) {
+  // Without the term L_v·Dξ Q̇ of the work this would fail: it vanishes only for constant ξ.
+  const tests::CentralForce problem;
+  for (const Scheme& scheme : tests::all_schemes()) {
+    const Trajectory trajectory =
+        tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem), 1e-11).trajectory;
+    EXPECT_LT(momentum_consistency(problem, trajectory).largest, 1e-10) << scheme.label();
+  }
+}
+
 TEST(MomentumConsistency, IsNoIdentityButTheRowOfTheNodeAlongTheSymmetry) {
   // At a point that solves nothing the defect of interval k is minus the row of node k + 1: only solving makes it
   // vanish.

@@ -117,24 +117,7 @@ TEST(TracedProblem, AtSubstitutesThePointIntoEveryFormula) {
 }
 
 TEST(TracedProblem, CarriesTheSymmetryAndItsJacobian) {
-  /// Rotations of the plane in Cartesian coordinates: ξ = (-q₂, q₁).
-  class Planar final : public tests::SmallProblem {
-   public:
-    Planar()
-        : SmallProblem("planar", {Eigen::Vector2d::Ones(), Eigen::Vector2d::Zero()},
-                       {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 1.0, 2) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override {
-      return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
-    }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-    [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
-      ExpressionVector generator(2);
-      generator << -q[1], q[0];
-      return generator;
-    }
-  };
-  const TracedProblem traced{Planar()};
+  const TracedProblem traced{tests::CentralForce()};
   ASSERT_TRUE(traced.has_symmetry());
   const TracedProblem::Values values = traced.at(inputs(2, 2));
   EXPECT_EQ(values.symmetry_jacobian(0, 1).constant_value(), -1.0);

@@ -122,6 +122,33 @@ class MovingFrame final : public SmallProblem {
   }
 };
 
+/// A particle in the plane, L = ½|v|² + 1/|q|, f = u, in Cartesian coordinates: rotations are linear, not constant,
+/// ξ = (-q₂, q₁), and Dξ is not zero.
+class CentralForce final : public SmallProblem {
+ public:
+  CentralForce()
+      : SmallProblem("central_force", {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)},
+                     {Eigen::Vector2d(-1.2, 0.3), Eigen::Vector2d(-0.2, -0.8)}, 3.0, 2) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 1.0 / sqrt(x.q[0] * x.q[0] + x.q[1] * x.q[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 0.5 * (x.u[0] * x.u[0] + x.u[1] * x.u[1]);
+  }
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
+    ExpressionVector generator(2);
+    generator << -q[1], q[0];
+    return generator;
+  }
+  /// Half a turn on the unit circle: the straight line would pass near the centre.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    return {.q = Eigen::Vector2d(std::cos(t), std::sin(t)),
+            .v = Eigen::Vector2d(-std::sin(t), std::cos(t)),
+            .u = Eigen::Vector2d::Zero()};
+  }
+};
+
 /// Another problem with its ends replaced.
 class WithEnds final : public Problem {
  public:

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/expression/schedule.hpp"
+#include "methods/expression/tape.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench::speed {
+
+/// What is timed: a problem by DMOC with the midpoint rule on a grid of uneven steps, at a random point.
+///
+/// The time of an evaluation depends on the formulas, not on the numbers; random ones keep any step of the check before
+/// the timing from being trivially right.
+class Subject {
+ public:
+  static constexpr std::size_t intervals = 1024;
+
+  explicit Subject(const std::string& problem);
+
+  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
+  [[nodiscard]] Transcription& program() noexcept { return program_; }
+  [[nodiscard]] const IntervalFunctions& functions() const noexcept { return program_.functions(); }
+
+  // The point, as the program takes it.
+  [[nodiscard]] const Eigen::VectorXd& x() const noexcept { return x_; }
+  [[nodiscard]] const Eigen::VectorXd& multipliers() const noexcept { return multipliers_; }
+  static constexpr double objective_factor = 0.75;
+
+  /// The same point, as a tape takes it: one column per input.
+  [[nodiscard]] std::span<const Tape::Input> columns() const noexcept { return columns_; }
+  /// The same point, as code takes it that treats one interval at a time: all inputs of interval k together.
+  [[nodiscard]] std::span<const double> inputs_of(std::size_t interval) const noexcept {
+    return std::span(by_interval_).subspan(interval * columns_.size(), columns_.size());
+  }
+
+ private:
+  std::string problem_;
+  Transcription program_;
+  Eigen::VectorXd x_;
+  Eigen::VectorXd multipliers_;
+  std::vector<Tape::Input> columns_;
+  std::vector<double> by_interval_;
+};
+
+/// An interval's share of the Lagrangian, ℓ = factor · cost + multipliers · rows, with common subexpressions shared.
+[[nodiscard]] Schedule lagrangian_of(const IntervalFunctions& functions);
+
+/// Rows, Jacobian and Hessian by one schedule: what the three have in common is computed once.
+[[nodiscard]] Schedule fused(const IntervalFunctions& functions);
+
+}  // namespace dmocbench::speed
