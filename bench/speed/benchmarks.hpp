@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ inline constexpr const char* operations_per_interval = "operations";
 /// interval.
 inline void count_intervals(benchmark::State& state, std::size_t operations) {
   using benchmark::Counter;
-  constexpr double intervals = static_cast<double>(Subject::intervals);
+  constexpr auto intervals = static_cast<double>(Subject::intervals);
   constexpr double seconds_per_ns = 1e-9;
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(Subject::intervals));
   state.counters[ns_per_interval] =

@@ -1,5 +1,7 @@
 // Times of exact derivatives per interval: the tape, a replay number by number, ADOL-C, and the assembled program.
 #include <exception>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,27 +12,27 @@
 #include "bench/speed/measurements.hpp"
 #include "bench/speed/summary.hpp"
 
+namespace dmocbench::speed {
+
 namespace {
 
 /// Google Benchmark's flags, ours first so that the user's win. Interleaving spreads a disturbance over all benchmarks:
-/// ratios within a run suffer less from a shared machine than times do.
-void initialize(int argc, char** argv) {
-  std::vector<std::string> arguments{argv[0], "--benchmark_repetitions=5", "--benchmark_min_time=0.05",
-                                     "--benchmark_enable_random_interleaving=true"};
-  arguments.insert(arguments.end(), argv + 1, argv + argc);
-  static std::vector<std::string> kept;  // the library keeps a pointer to the program's name
-  kept = std::move(arguments);
+/// ratios within a run suffer less from a shared machine than times do. False if there is a flag that nobody knows.
+bool initialize(const char* program, std::span<char* const> flags) {
+  static std::vector<std::string> arguments;  // the library keeps a pointer to the program's name
+  arguments = {program, "--benchmark_repetitions=5", "--benchmark_min_time=0.05",
+               "--benchmark_enable_random_interleaving=true"};
+  arguments.insert(arguments.end(), flags.begin(), flags.end());
   std::vector<char*> pointers;
-  for (std::string& argument : kept) pointers.push_back(argument.data());
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
   pointers.push_back(nullptr);
-  int count = static_cast<int>(kept.size());
   benchmark::Initialize(&count, pointers.data());
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) throw std::invalid_argument("see above");
+  return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-void run(int argc, char** argv) {
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
-  initialize(argc, argv);
+void run() {
   const std::vector<std::string> problems{"orbital_transfer", "two_link_manipulator"};
   Subjects subjects;
   for (const std::string& problem : problems) subjects.push_back(std::make_unique<Subject>(problem));
@@ -47,9 +49,14 @@ void run(int argc, char** argv) {
 
 }  // namespace
 
+}  // namespace dmocbench::speed
+
 int main(int argc, char** argv) {
+  using dmocbench::speed::initialize, dmocbench::speed::run;
+  const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
   try {
-    run(argc, argv);
+    if (!initialize(arguments.front(), arguments.subspan(1))) return 2;
+    run();
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "speed: {}\n", error.what());

@@ -14,7 +14,7 @@ TapeRun::TapeRun(const Schedule& schedule, InstructionSet set, std::size_t inter
   values_.resize(tape_.output_count() * stride + line / sizeof(double));
   void* head = values_.data();
   std::size_t space = values_.size() * sizeof(double);
-  double* first = static_cast<double*>(std::align(line, sizeof(double), head, space));
+  auto* first = static_cast<double*>(std::align(line, sizeof(double), head, space));
   for (std::size_t j = 0; j < tape_.output_count(); ++j) columns_.push_back(first + j * stride);
 }
 
