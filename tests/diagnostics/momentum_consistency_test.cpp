@@ -69,9 +69,19 @@ TEST(MomentumConsistency, OfTangentIsRoundingIfTheMassIsConstant) {
   }
 }
 
-TEST(MomentumConsistency, HoldsForAGeneratorThatTurnsWithTheConfiguration) {
-  // Without the term L_v·Dξ Q̇ of the work this would fail: it vanishes only for constant ξ.
-  const tests::CentralForce problem;
+/// Rotations and dilations at once, ξ = (q₁ - q₂, q₁ + q₂). L is not invariant, so L_q·ξ and L_v·Dξ q̇ = |q̇|² both
+/// count.
+class Spiral final : public tests::CentralForce {
+ public:
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
+    ExpressionVector generator(2);
+    generator << q[0] - q[1], q[0] + q[1];
+    return generator;
+  }
+};
+
+TEST(MomentumConsistency, CountsTheChangeOfAGeneratorThatDependsOnTheConfiguration) {
+  const Spiral problem;
   for (const Scheme& scheme : tests::all_schemes()) {
     const Trajectory trajectory =
         tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem), 1e-11).trajectory;

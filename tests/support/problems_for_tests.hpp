@@ -124,7 +124,7 @@ class MovingFrame final : public SmallProblem {
 
 /// A particle in the plane, L = ½|v|² + 1/|q|, f = u, in Cartesian coordinates: rotations are linear, not constant,
 /// ξ = (-q₂, q₁), and Dξ is not zero.
-class CentralForce final : public SmallProblem {
+class CentralForce : public SmallProblem {
  public:
   CentralForce()
       : SmallProblem("central_force", {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)},
