@@ -19,7 +19,9 @@ struct MomentumConsistency {
 };
 
 /// The momenta are the node momenta of the trajectory, one number per node shared by the two intervals beside it: with
-/// both taken from one interval the defect would be zero at any point. Throws `Error` if the problem has no symmetry.
+/// both taken from one interval the defect would be zero at any point. (The last node has one interval only, so for
+/// DMOC the last interval's defect is such an identity; the other N - 1 are checks.) Throws `Error` if the problem has
+/// no symmetry.
 [[nodiscard]] MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory);
 
 }  // namespace dmocbench
