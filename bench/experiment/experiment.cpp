@@ -36,7 +36,7 @@ int report_error(const CLI::App& app, const std::string& sentence) {
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
-  Run(Experiment& experiment, const ExperimentOptions& options, std::vector<std::string> command_line)
+  Run(Experiment& experiment, const ExperimentOptions& options, const std::vector<std::string>& command_line)
       : experiment_(experiment),
         options_(options),
         solver_options_(solver_options(options)),
@@ -70,7 +70,7 @@ class Run {
   }
 
   [[nodiscard]] std::string summary() const {
-    const std::size_t done = static_cast<std::size_t>(
+    const auto done = static_cast<std::size_t>(
         std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.has_value(); }));
     return fmt::format("{} rows, {} not solved, {} on another branch: {}.csv", done, failures_, other_branch_,
                        prefix_.string());

@@ -19,6 +19,7 @@ namespace {
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::filesystem::path path)
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open is one
       : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

@@ -1,5 +1,6 @@
 #include "bench/experiment/start_source.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -20,7 +21,7 @@ namespace dmocbench {
 namespace {
 
 constexpr long long final_intervals = 144;
-constexpr long long guess_intervals[] = {48, 96, 144};
+constexpr std::array guess_intervals{48LL, 96LL, 144LL};
 
 /// Solves one method on a uniform grid; none if it does not converge.
 std::optional<Trajectory> solve(const Case& base, const std::string& method, long long intervals, const Motion& start,

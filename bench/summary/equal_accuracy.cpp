@@ -1,6 +1,7 @@
 #include "bench/summary/equal_accuracy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,8 +14,8 @@ namespace dmocbench {
 namespace {
 
 constexpr double steps_per_decade = 2.0;
-constexpr const char* quantities[] = {"state", "control"};
-constexpr const char* costs[] = {"intervals", "free_variables", "seconds"};
+constexpr std::array quantities{"state", "control"};
+constexpr std::array costs{"intervals", "free_variables", "seconds"};
 
 /// Error and cost of one grid, as logarithms.
 struct Point {

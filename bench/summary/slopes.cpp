@@ -1,6 +1,7 @@
 #include "bench/summary/slopes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr long long reference_factor = 4;
 /// it.
 constexpr double rounding_level = 1e-11;
 
-constexpr const char* quantities[] = {"state", "control", "momentum", "costate", "objective", "replay"};
+constexpr std::array quantities{"state", "control", "momentum", "costate", "objective", "replay"};
 
 double number_of(const Row* row, const std::string& column) { return row->number(column).value_or(0.0); }
 
@@ -35,7 +36,7 @@ SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& r
   result.table = Table({"problem", "method", "tableau", "stages", "quantity", "slope", "standard_error", "finest",
                         "coarsest", "points"});
   for (const Curve& curve : curves_of(convergence)) {
-    double reference_intervals = static_cast<double>(reference);
+    auto reference_intervals = static_cast<double>(reference);
     for (const Row* row : curve.rows) {
       if (reference == 0) reference_intervals = std::max(reference_intervals, number_of(row, "intervals"));
     }
