@@ -23,7 +23,9 @@ struct Solution {
 
   // Counts; none where a solver does not tell them.
   std::optional<int> major_iterations;
-  std::optional<int> minor_iterations;
+  std::optional<int> minor_iterations;  ///< of the quadratic programs; the sum of the next two
+  std::optional<int> phase_one_minor_iterations;
+  std::optional<int> phase_two_minor_iterations;
   std::optional<int> evaluations;
 
   double seconds = 0.0;             ///< wall clock of the solver call alone

@@ -192,10 +192,7 @@ std::string IpoptSolver::description() const {
 }
 
 Solution IpoptSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
-  if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
-    throw Error("the start has " + std::to_string(start.size()) + " entries, the program " +
-                std::to_string(program.variable_count()) + " variables");
-  }
+  require_start(program, start);
   Solution solution;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options_.verbose);
   application->RethrowNonIpoptException(true);

@@ -6,6 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
 
 namespace dmocbench {
 
@@ -24,6 +25,7 @@ std::unique_ptr<Solver> make(const SolverOptions& options) {
 // One line per solver, the default first.
 constexpr std::array registry{
     Entry{"ipopt", make<IpoptSolver>},
+    Entry{"sqp", make<SqpSolver>},
 };
 
 }  // namespace
@@ -38,6 +40,12 @@ void SolverOptions::validate() const {
     text << "the time limit must be a number of seconds, or 0 for none, got " << most_seconds;
   }
   if (!text.str().empty()) throw Error(text.str());
+}
+
+void require_start(const NonlinearProgram& program, const Eigen::VectorXd& start) {
+  if (static_cast<std::size_t>(start.size()) == program.variable_count()) return;
+  throw Error("the start has " + std::to_string(start.size()) + " entries, the program " +
+              std::to_string(program.variable_count()) + " variables");
 }
 
 std::vector<std::string> solver_names() {

@@ -11,6 +11,7 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/solvers/minor_iteration.hpp"
 
 namespace dmocbench {
 
@@ -27,6 +28,8 @@ struct SolverOptions {
   std::map<std::string, std::string> passed_on;
   /// Asked once per iteration; true ends the solve with status "interrupted".
   std::function<bool()> stop_requested;
+  /// Told of every minor iteration by solvers that have them (`sqp`).
+  std::function<void(const MinorIteration&)> on_minor_iteration;
 
   /// Throws `Error` that names the option if one is out of range.
   void validate() const;
@@ -53,6 +56,9 @@ class Solver {
  protected:
   Solver() = default;
 };
+
+/// Throws `Error` unless `start` has variable_count() entries.
+void require_start(const NonlinearProgram& program, const Eigen::VectorXd& start);
 
 /// Names of all solvers, the default first.
 [[nodiscard]] std::vector<std::string> solver_names();

@@ -1,0 +1,112 @@
+#include "methods/solvers/sqp/basis_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/solvers/sqp/basis_factorisation.hpp"
+
+namespace dmocbench::sqp {
+
+namespace {
+
+/// Entries of the table may be this large: smaller bounds cost more exchanges and gain little.
+constexpr double largest_entry = 4.0;
+/// A pivot below this is no pivot: the row depends on others.
+constexpr double smallest_pivot = 1e-9;
+
+bool is_slack(const QuadraticProgram& program, Eigen::Index j) { return j >= program.variable_count(); }
+
+/// One Gauss-Jordan step: the basic column at `row` and the other column at `place` change their roles.
+void exchange(BasisChoice& choice, Eigen::Index row, Eigen::Index place) {
+  Eigen::MatrixXd& table = choice.table;
+  const double pivot = table(row, place);
+  const Eigen::VectorXd column = table.col(place);
+  table.col(place).setZero();
+  table(row, place) = 1.0;
+  table.row(row) /= pivot;
+  const Eigen::RowVectorXd pivot_row = table.row(row);
+  for (Eigen::Index j = 0; j < table.cols(); ++j) {
+    if (pivot_row[j] == 0.0) continue;
+    const double kept = table(row, j);
+    table.col(j) -= pivot_row[j] * column;
+    table(row, j) = kept;
+  }
+  std::swap(choice.basics[static_cast<std::size_t>(row)], choice.others[static_cast<std::size_t>(place)]);
+}
+
+/// Exchanges while an entry is larger than the bound. Each exchange multiplies |det B| by that entry, so this ends.
+void improve(BasisChoice& choice) {
+  if (choice.table.size() == 0) return;
+  while (true) {
+    Eigen::Index row = 0;
+    Eigen::Index place = 0;
+    if (!(choice.table.cwiseAbs().maxCoeff(&row, &place) > largest_entry)) return;
+    exchange(choice, row, place);
+  }
+}
+
+/// Replaces the slacks in the basis, row by row, each by the variable with the largest pivot. A slack that went does
+/// not come back.
+void replace_slacks(const QuadraticProgram& program, BasisChoice& choice) {
+  for (Eigen::Index row = 0; row < choice.table.rows(); ++row) {
+    if (!is_slack(program, choice.basics[static_cast<std::size_t>(row)])) continue;
+    Eigen::Index place = 0;
+    if (!(choice.table.row(row).cwiseAbs().maxCoeff(&place) > smallest_pivot)) continue;
+    exchange(choice, row, place);
+    choice.table.col(place).setZero();
+  }
+}
+
+/// The table anew, from factors of the basis: many exchanges in a row gather rounding.
+bool recompute(const QuadraticProgram& program, BasisChoice& choice) {
+  BasisFactorisation factors;
+  if (!factors.factorise(program, choice.basics)) return false;
+  choice.table.resize(program.row_count(), static_cast<Eigen::Index>(choice.others.size()));
+  for (std::size_t place = 0; place < choice.others.size(); ++place) {
+    choice.table.col(static_cast<Eigen::Index>(place)) = factors.solve(program.column(choice.others[place]));
+  }
+  return choice.table.allFinite();
+}
+
+BasisChoice from_slacks(const QuadraticProgram& program, const std::vector<Eigen::Index>& candidates) {
+  BasisChoice choice;
+  for (Eigen::Index i = 0; i < program.row_count(); ++i) choice.basics.push_back(program.variable_count() + i);
+  choice.others = candidates;
+  std::erase_if(choice.others, [&](Eigen::Index j) { return is_slack(program, j); });
+  static_cast<void>(recompute(program, choice));  // the slack basis is never singular
+  if (choice.table.size() > 0) replace_slacks(program, choice);
+  choice.others = candidates;
+  std::erase_if(choice.others, [&](Eigen::Index j) {
+    return std::find(choice.basics.begin(), choice.basics.end(), j) != choice.basics.end();
+  });
+  static_cast<void>(recompute(program, choice));
+  improve(choice);
+  static_cast<void>(recompute(program, choice));
+  return choice;
+}
+
+}  // namespace
+
+BasisChoice choose_basis(const QuadraticProgram& program, std::vector<Eigen::Index> basics,
+                         std::vector<Eigen::Index> others) {
+  BasisChoice choice{.basics = basics, .others = others, .table = {}};
+  if (!recompute(program, choice)) {
+    basics.insert(basics.end(), others.begin(), others.end());
+    return from_slacks(program, basics);
+  }
+  const std::vector<Eigen::Index> before = choice.basics;
+  improve(choice);
+  if (choice.basics != before) static_cast<void>(recompute(program, choice));
+  return choice;
+}
+
+BasisChoice crash_basis(const QuadraticProgram& program) {
+  std::vector<Eigen::Index> movable;
+  for (Eigen::Index j = 0; j < program.variable_count(); ++j) {
+    if (program.lower[j] < program.upper[j]) movable.push_back(j);
+  }
+  return from_slacks(program, movable);
+}
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseLU>
+
+#include "methods/solvers/sqp/quadratic_program.hpp"
+
+namespace dmocbench::sqp {
+
+/// Sparse LU factors of the basis matrix B, kept up to date in product form while columns are exchanged.
+class BasisFactorisation {
+ public:
+  /// Factorises the columns `basics` of (A, -I) afresh. False if they are singular.
+  [[nodiscard]] bool factorise(const QuadraticProgram& program, const std::vector<Eigen::Index>& basics);
+
+  /// The column at `position` of B becomes the one with `solved` = B⁻¹ (new column); solved[position] must not be 0.
+  void replace(Eigen::Index position, const Eigen::VectorXd& solved);
+
+  /// True if so many columns have been replaced that new factors are cheaper and more accurate.
+  [[nodiscard]] bool is_worn() const noexcept { return replacements_.size() >= most_replacements; }
+
+  /// B⁻¹ y.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& y) const;
+  /// B⁻ᵀ y.
+  [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& y) const;
+
+ private:
+  static constexpr std::size_t most_replacements = 50;
+
+  /// B_new = B E with E the identity but for one column.
+  struct Replacement {
+    Eigen::Index position = 0;
+    double pivot = 1.0;
+    std::vector<Eigen::Index> rows;  // without the pivot's
+    std::vector<double> values;
+  };
+
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors_;
+  std::vector<Replacement> replacements_;
+};
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,78 @@
+#include "methods/solvers/sqp/globalisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "methods/solvers/sqp/kkt_matrix.hpp"
+
+namespace dmocbench::sqp {
+
+double Globalisation::longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
+  constexpr double limit = 2.0;
+  double share = 1.0;
+  for (Eigen::Index j = 0; j < step.size(); ++j) {
+    const double allowed = limit * (1.0 + std::abs(point[j]));
+    if (std::abs(step[j]) > allowed) share = std::min(share, allowed / std::abs(step[j]));
+  }
+  return share;
+}
+
+double Globalisation::merit(const Linearisation& at) const {
+  return at.objective + weight_ * evaluator_.violations(at.constraints).lpNorm<1>();
+}
+
+LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
+                                       double first_share) {
+  constexpr double sufficient = 1e-4;
+  constexpr double kept = 0.5;  // of the reduction of the violation that the model must predict for the merit
+  constexpr double smallest_share = 1e-8;
+  const double violation = evaluator_.violations(from.constraints).lpNorm<1>();
+  const double slope_of_objective = from.gradient.dot(step);
+  if (violation > 0.0) {
+    const double needed = (slope_of_objective + 0.5 * std::max(0.0, curvature)) / ((1.0 - kept) * violation);
+    weight_ = std::max(weight_ / 2, needed);
+  }
+  const double slope = slope_of_objective - weight_ * violation;
+  const double merit_before = merit(from);
+  // Close to the solution differences of the merit are rounding.
+  const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(merit_before));
+  const auto falls_enough = [&](const Linearisation& at, double share) {
+    return at.has_finite_values() && merit(at) <= merit_before + sufficient * share * std::min(slope, 0.0) + rounding;
+  };
+
+  double share = first_share;
+  while (share > smallest_share) {
+    Linearisation tried = evaluator_.values_at(from.point + share * step);
+    if (falls_enough(tried, share)) return {std::move(tried), share};
+    if (share == first_share && tried.has_finite_values()) {
+      Linearisation bent = corrected(from, tried);
+      if (falls_enough(bent, share)) return {std::move(bent), share};
+    }
+    share *= 0.5;
+  }
+  return {from, 0.0};
+}
+
+Linearisation Globalisation::corrected(const Linearisation& from, const Linearisation& tried) {
+  const NonlinearProgram& program = evaluator_.program();
+  const Eigen::Index n = from.point.size();
+  const Eigen::Index m = from.constraints.size();
+  Eigen::VectorXd right_hand_side = Eigen::VectorXd::Zero(n + m);
+  right_hand_side.tail(m) = -evaluator_.violations(tried.constraints);
+  std::vector<bool> counts = equality_rows(program);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (right_hand_side[n + i] != 0.0) counts[static_cast<std::size_t>(i)] = true;
+  }
+  const Eigen::SparseMatrix<double> no_curvature(n, n);
+  const Eigen::SparseMatrix<double> matrix =
+      kkt_matrix(no_curvature, 1.0, from.jacobian, free_variables(program), counts);
+  if (!factorisation_.factorise(matrix)) return tried;
+  const Eigen::VectorXd correction = factorisation_.solve(std::move(right_hand_side)).head(n);
+  return evaluator_.values_at(
+      (tried.point + correction).cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
+}
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/solvers/sqp/linearisation.hpp"
+#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+
+namespace dmocbench::sqp {
+
+/// What a line search ends with.
+struct LineSearchResult {
+  Linearisation accepted;  ///< values only
+  double share = 0.0;      ///< of the step; 0 if none was accepted
+};
+
+/// The l1 merit function φ(ξ) + μ Σ violations, with the weight μ from the predicted reduction of the quadratic model:
+/// weights from the multipliers grow too large and stall.
+class Globalisation {
+ public:
+  explicit Globalisation(Evaluator& evaluator) : evaluator_(evaluator) {}
+
+  /// How much of a step may be tried: |d_j| <= 2 (1 + |ξ_j|).
+  [[nodiscard]] static double longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
+
+  /// Backtracks along `step` (with curvature dᵀHd) from a share of `first_share` until the merit falls enough. A whole
+  /// step that fails is tried once more with a second-order correction, the shortest vector that removes the violation
+  /// of the rows to first order.
+  [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
+                                        double first_share);
+
+  [[nodiscard]] double weight() const noexcept { return weight_; }
+
+ private:
+  [[nodiscard]] double merit(const Linearisation& at) const;
+  [[nodiscard]] Linearisation corrected(const Linearisation& from, const Linearisation& tried);
+
+  Evaluator& evaluator_;
+  SymmetricFactorisation factorisation_;
+  double weight_ = 0.0;
+};
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,69 @@
+#include "methods/solvers/sqp/hessians.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/solvers/sqp/kkt_matrix.hpp"
+
+namespace dmocbench::sqp {
+
+double Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
+                                  const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
+                                  const std::vector<bool>& equalities) {
+  const auto is_enough = [&](double shift) {
+    return factorisation_.factorise(kkt_matrix(hessian, shift, jacobian, free, equalities)) &&
+           factorisation_.negative_eigenvalues() == jacobian.rows();
+  };
+  if (is_enough(0.0)) return 0.0;
+  double size = 1e-8;
+  for (Eigen::Index e = 0; e < hessian.nonZeros(); ++e) size = std::max(size, std::abs(hessian.valuePtr()[e]));
+  constexpr double smallest = 1e-8;
+  constexpr double most = 1e4;  // times the size: more than the norm of any sparse matrix of this kind
+  constexpr double growth = 8.0;
+  double too_small = 0.0;
+  double enough = smallest * size;
+  while (!is_enough(enough)) {
+    too_small = enough;
+    enough *= growth;
+    if (enough > most * size) return enough;
+  }
+  constexpr double close = 1.25;
+  while (too_small > 0.0 && enough > close * too_small) {
+    const double middle = std::sqrt(too_small * enough);
+    (is_enough(middle) ? enough : too_small) = middle;
+  }
+  return enough;
+}
+
+Eigen::MatrixXd LimitedMemoryHessian::times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const {
+  Eigen::MatrixXd result = diagonal_.asDiagonal() * vectors;
+  for (const Update& update : updates_) {
+    result += update.added * (update.added.transpose() * vectors);
+    result -= update.removed * (update.removed.transpose() * vectors);
+  }
+  return result;
+}
+
+void LimitedMemoryHessian::update(const Eigen::VectorXd& step, const Eigen::VectorXd& change) {
+  const Eigen::VectorXd curved = times(step);
+  const double old_curvature = step.dot(curved);
+  if (!(old_curvature > 0.0)) return;
+  constexpr double least_share = 0.2;
+  const double seen = step.dot(change);
+  const double weight =
+      seen >= least_share * old_curvature ? 1.0 : (1.0 - least_share) * old_curvature / (old_curvature - seen);
+  const Eigen::VectorXd damped = weight * change + (1.0 - weight) * curved;
+  if (updates_.size() == most_updates) {
+    for (const Update& update : updates_) {
+      diagonal_ += update.added.cwiseAbs2() - update.removed.cwiseAbs2();
+    }
+    updates_.clear();
+    // The old curvature along the step is that of the new start.
+    const Eigen::VectorXd of_diagonal = diagonal_.cwiseProduct(step);
+    updates_.push_back({damped / std::sqrt(step.dot(damped)), of_diagonal / std::sqrt(step.dot(of_diagonal))});
+    return;
+  }
+  updates_.push_back({damped / std::sqrt(step.dot(damped)), curved / std::sqrt(old_curvature)});
+}
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "methods/solvers/sqp/quadratic_program.hpp"
+#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+
+namespace dmocbench::sqp {
+
+/// The exact Hessian of the Lagrangian plus a multiple of the identity.
+class ShiftedHessian final : public Hessian {
+ public:
+  /// `lower`: its lower triangle, n x n.
+  ShiftedHessian(Eigen::SparseMatrix<double> lower, double shift) : lower_(std::move(lower)), shift_(shift) {}
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const override {
+    return lower_.selfadjointView<Eigen::Lower>() * vectors + shift_ * vectors;
+  }
+
+ private:
+  Eigen::SparseMatrix<double> lower_;
+  double shift_;
+};
+
+/// Finds the shift δ >= 0 that makes H + δI positive definite on the null space of the equality rows, by the inertia of
+/// the matrix (H + δI, Eᵀ; E, 0): as many negative eigenvalues as rows E, and no eigenvalue 0.
+class Convexification {
+ public:
+  /// 0 if H is positive definite there already; otherwise at most a quarter more than what is needed. `free` says which
+  /// variables may move, `equalities` which rows count.
+  [[nodiscard]] double shift_for(const Eigen::SparseMatrix<double>& hessian,
+                                 const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
+                                 const std::vector<bool>& equalities);
+
+ private:
+  SymmetricFactorisation factorisation_;
+};
+
+/// A quasi-Newton approximation as SNOPT keeps it: a diagonal and at most ten damped BFGS updates; then the diagonal of
+/// the whole becomes the new start. Always positive definite.
+class LimitedMemoryHessian final : public Hessian {
+ public:
+  explicit LimitedMemoryHessian(Eigen::Index variables) : diagonal_(Eigen::VectorXd::Ones(variables)) {}
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const override;
+
+  /// Learns from a step s and the change y of the gradient of the Lagrangian along it (Powell's damping where yᵀs is
+  /// small or negative).
+  void update(const Eigen::VectorXd& step, const Eigen::VectorXd& change);
+
+ private:
+  static constexpr std::size_t most_updates = 10;
+  /// + (added addedᵀ) - (removed removedᵀ)
+  struct Update {
+    Eigen::VectorXd added;
+    Eigen::VectorXd removed;
+  };
+  Eigen::VectorXd diagonal_;
+  std::vector<Update> updates_;
+};
+
+}  // namespace dmocbench::sqp

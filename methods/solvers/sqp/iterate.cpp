@@ -1,0 +1,70 @@
+#include "methods/solvers/sqp/iterate.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "methods/solvers/sqp/basis_choice.hpp"
+
+namespace dmocbench::sqp {
+
+Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double feasibility_tolerance)
+    : program_(&program),
+      sets_(std::move(sets)),
+      tolerance_(feasibility_tolerance),
+      lower_(program.lower),
+      upper_(program.upper),
+      values_(Eigen::VectorXd::Zero(program.column_count()).cwiseMax(lower_).cwiseMin(upper_)) {
+  refresh();
+}
+
+double Iterate::infeasibility() const {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < values_.size(); ++j) {
+    const double distance = std::max(lower_[j] - values_[j], values_[j] - upper_[j]);
+    if (distance > tolerance_) sum += distance;
+  }
+  return sum;
+}
+
+Eigen::VectorXd Iterate::at_basics(const Eigen::VectorXd& of_columns) const { return of_columns(sets_.basics()); }
+
+Eigen::VectorXd Iterate::at_superbasics(const Eigen::VectorXd& of_columns) const {
+  return of_columns(sets_.superbasics());
+}
+
+double Iterate::objective() const {
+  const Eigen::VectorXd d = variables();
+  const Eigen::VectorXd curved = program_->hessian->times(d);
+  return program_->gradient.dot(d) + 0.5 * d.dot(curved);
+}
+
+void Iterate::replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved) {
+  sets_.replace_basic(position, entering);
+  basis_.replace(position, solved);
+  if (basis_.is_worn()) refresh();
+}
+
+void Iterate::choose_basis_again() {
+  BasisChoice choice = choose_basis(*program_, sets_.basics(), sets_.superbasics());
+  sets_ = WorkingSet(program_->column_count(), std::move(choice.basics), std::move(choice.others));
+  refresh();
+}
+
+void Iterate::accept_violations() {
+  lower_ = lower_.cwiseMin(values_);
+  upper_ = upper_.cwiseMax(values_);
+}
+
+void Iterate::refresh() {
+  if (!basis_.factorise(*program_, sets_.basics())) throw Breakdown("the basis is singular");
+  const Eigen::Index variables = program_->variable_count();
+  Eigen::VectorXd others = values_;
+  for (const Eigen::Index j : sets_.basics()) others[j] = 0.0;
+  const Eigen::VectorXd missing = others.tail(program_->row_count()) - program_->rows * others.head(variables);
+  const Eigen::VectorXd solved = basis_.solve(missing);
+  for (std::size_t position = 0; position < sets_.basics().size(); ++position) {
+    values_[sets_.basics()[position]] = solved[static_cast<Eigen::Index>(position)];
+  }
+}
+
+}  // namespace dmocbench::sqp

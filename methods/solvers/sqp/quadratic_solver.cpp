@@ -1,0 +1,64 @@
+#include "methods/solvers/sqp/quadratic_solver.hpp"
+
+#include <utility>
+
+#include "methods/solvers/sqp/basis_choice.hpp"
+#include "methods/solvers/sqp/null_space.hpp"
+
+namespace dmocbench::sqp {
+
+namespace {
+
+WorkingSet slack_start(const QuadraticProgram& program) {
+  return WorkingSet::slack_start(program.variable_count(), program.row_count());
+}
+
+bool leaves_variable_outside(const Iterate& iterate) {
+  for (Eigen::Index j = 0; j < iterate.program().variable_count(); ++j) {
+    const double value = iterate.values()[j];
+    if (value < iterate.lower()[j] - iterate.tolerance() || value > iterate.upper()[j] + iterate.tolerance())
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+WorkingSet QuadraticSolver::warm_start(const QuadraticProgram& program) const {
+  BasisChoice choice = choose_basis(program, sets_->basics(), sets_->superbasics());
+  return {program.column_count(), std::move(choice.basics), std::move(choice.others)};
+}
+
+QuadraticSolution QuadraticSolver::solve(const QuadraticProgram& program) {
+  if (sets_) return solve_from(program, warm_start(program), true);
+  if (options_.crash == Crash::none) return solve_from(program, slack_start(program), false);
+  return solve_from(program, {program.column_count(), crash_basis(program).basics, {}}, true);
+}
+
+QuadraticSolution QuadraticSolver::solve_from(const QuadraticProgram& program, WorkingSet start, bool may_restart) {
+  QuadraticSolution solution;
+  try {
+    Iterate iterate(program, std::move(start), options_.feasibility_tolerance);
+    find_feasible_point(iterate, pricing_, options_.optimality_tolerance, observer_);
+    if (may_restart && leaves_variable_outside(iterate)) return solve_from(program, slack_start(program), false);
+    solution.infeasibility = iterate.infeasibility();
+    if (solution.infeasibility > 0.0) iterate.accept_violations();
+    ReducedHessian reduced;
+    if (!reduced.assign(reduced_matrix(iterate))) throw Breakdown("the reduced Hessian is not positive definite");
+    solution.multipliers = -find_minimiser(iterate, reduced, pricing_, options_.optimality_tolerance, observer_);
+    solution.step = iterate.variables();
+    solution.status =
+        solution.infeasibility > 0.0 ? QuadraticSolution::Status::infeasible : QuadraticSolution::Status::optimal;
+    sets_ = iterate.sets();
+  } catch (const Breakdown& reason) {
+    sets_.reset();
+    if (may_restart) return solve_from(program, slack_start(program), false);
+    solution.status = QuadraticSolution::Status::breakdown;
+    solution.message = reason.what();
+  } catch (const Stopped&) {
+    solution.status = QuadraticSolution::Status::stopped;
+  }
+  return solution;
+}
+
+}  // namespace dmocbench::sqp

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "methods/solvers/sqp/phases.hpp"
+#include "methods/solvers/sqp/pricing.hpp"
+#include "methods/solvers/sqp/quadratic_program.hpp"
+#include "methods/solvers/sqp/working_set.hpp"
+
+namespace dmocbench::sqp {
+
+/// Where the first quadratic program starts.
+enum class Crash : std::uint8_t {
+  none,   ///< all slacks basic: phase 1 has to bring every row in
+  basis,  ///< a well-conditioned basis of variables, chosen for free: the rows hold from the start
+};
+
+/// What a quadratic program ends with.
+struct QuadraticSolution {
+  enum class Status : std::uint8_t {
+    optimal,
+    infeasible,  ///< rows stay violated; `step` minimises the objective with their violations accepted
+    breakdown,   ///< singular basis or reduced Hessian not positive definite
+    stopped,     ///< by the observer
+  };
+  Status status = Status::breakdown;
+  std::string message;
+  Eigen::VectorXd step;         ///< d
+  Eigen::VectorXd multipliers;  ///< λ of the rows: g + Hd + Aᵀλ vanishes in the free variables
+  double infeasibility = 0.0;   ///< left in the rows
+};
+
+struct QuadraticOptions {
+  double feasibility_tolerance = 1e-9;
+  double optimality_tolerance = 1e-9;
+  Crash crash = Crash::none;
+};
+
+/// Solves the quadratic programs of one SQP run by the active-set method and remembers the sets from one to the next.
+class QuadraticSolver {
+ public:
+  QuadraticSolver(QuadraticOptions options, Pricing pricing, MinorObserver observer)
+      : options_(options), pricing_(std::move(pricing)), observer_(std::move(observer)) {}
+
+  /// Solves from the sets of the last call (the basis chosen anew from the basic and superbasic columns), or from a
+  /// start by `Crash` at the first call. If these sets leave variables outside their bounds, or break down, it starts
+  /// again from the slack basis; all minor iterations are observed.
+  [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program);
+
+  /// The sets at the end of the last call; none before the first.
+  [[nodiscard]] const std::optional<WorkingSet>& sets() const noexcept { return sets_; }
+
+ private:
+  [[nodiscard]] QuadraticSolution solve_from(const QuadraticProgram& program, WorkingSet start, bool may_restart);
+  [[nodiscard]] WorkingSet warm_start(const QuadraticProgram& program) const;
+
+  QuadraticOptions options_;
+  Pricing pricing_;
+  MinorObserver observer_;
+  std::optional<WorkingSet> sets_;
+};
+
+}  // namespace dmocbench::sqp

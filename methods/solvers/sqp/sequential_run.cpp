@@ -1,0 +1,178 @@
+#include "methods/solvers/sqp/sequential_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "methods/program/kkt_residual.hpp"
+
+namespace dmocbench::sqp {
+
+namespace {
+
+/// Quadratic programs are solved far more accurately than the whole: with equal tolerances the last major iterations
+/// stall.
+constexpr double tolerance_of_quadratic_programs = 0.1;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+SequentialRun::SequentialRun(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+                             const SequentialOptions& choices)
+    : program_(program),
+      options_(options),
+      choices_(choices),
+      evaluator_(program),
+      tolerance_(std::max(options.tolerance, program.rounding_floor())),
+      quadratic_solver_({.feasibility_tolerance = tolerance_of_quadratic_programs * tolerance_,
+                         .optimality_tolerance = tolerance_of_quadratic_programs * tolerance_,
+                         .crash = choices.crash},
+                        Pricing(choices.pricing, choices.seed),
+                        [this](const MinorIteration& minor) { return observe(minor); }),
+      globalisation_(evaluator_),
+      multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))),
+      begin_(std::chrono::steady_clock::now()) {
+  at_.point = start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper());
+}
+
+Solution SequentialRun::run() {
+  Solution solution;
+  at_ = evaluator_.values_at(at_.point);
+  evaluator_.differentiate(at_);
+  solution.status = Status::evaluation_failed;
+  if (at_.has_finite_values() && at_.gradient.allFinite()) {
+    std::optional<Status> end;
+    while (!end) end = major_iteration();
+    solution.status = *end;
+  }
+  solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
+  solution.primal = at_.point;
+  solution.multipliers = multipliers_;
+  solution.major_iterations = majors_;
+  solution.minor_iterations = phase_one_minors_ + phase_two_minors_;
+  solution.phase_one_minor_iterations = phase_one_minors_;
+  solution.phase_two_minor_iterations = phase_two_minors_;
+  solution.evaluations = evaluator_.count();
+  solution.evaluation_seconds = evaluator_.seconds();
+  solution.seconds = seconds_since(begin_);
+  return solution;
+}
+
+std::optional<Status> SequentialRun::reason_to_stop() const {
+  if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
+  if (options_.most_seconds > 0.0 && seconds_since(begin_) > options_.most_seconds) return Status::time_limit;
+  return std::nullopt;
+}
+
+bool SequentialRun::observe(MinorIteration minor) {
+  minor.major = majors_;
+  (minor.phase == MinorIteration::Phase::feasibility ? phase_one_minors_ : phase_two_minors_) += 1;
+  if (options_.on_minor_iteration) options_.on_minor_iteration(minor);
+  return !reason_to_stop();
+}
+
+bool SequentialRun::has_converged() {
+  constexpr double multiplier_scale = 100.0;  // as `confirm` scales
+  const KktResidual residual = kkt_residual(program_, at_.point, multipliers_);
+  const double mean = multipliers_.size() > 0 ? multipliers_.cwiseAbs().mean() : 0.0;
+  return residual.constraint_violation <= tolerance_ &&
+         residual.stationarity <= tolerance_ * std::max(1.0, mean / multiplier_scale);
+}
+
+void SequentialRun::choose_hessian() {
+  if (choices_.limited_memory) {
+    if (limited_memory_ != nullptr) return;
+    auto hessian = std::make_unique<LimitedMemoryHessian>(at_.point.size());
+    limited_memory_ = hessian.get();
+    hessian_ = std::move(hessian);
+    return;
+  }
+  Eigen::SparseMatrix<double> exact = evaluator_.hessian_at(at_.point, multipliers_);
+  const double needed =
+      convexification_.shift_for(exact, at_.jacobian, free_variables(program_), equality_rows(program_));
+  shift_ = std::max(needed, cautious_shift_);
+  hessian_ = std::make_unique<ShiftedHessian>(std::move(exact), shift_);
+}
+
+QuadraticProgram SequentialRun::quadratic_program() {
+  QuadraticProgram program;
+  program.hessian = hessian_.get();
+  program.gradient = at_.gradient;
+  program.rows = at_.jacobian;
+  const Eigen::Index n = at_.point.size();
+  const Eigen::Index m = at_.constraints.size();
+  program.lower.resize(n + m);
+  program.upper.resize(n + m);
+  program.lower << program_.variable_lower() - at_.point, program_.constraint_lower() - at_.constraints;
+  program.upper << program_.variable_upper() - at_.point, program_.constraint_upper() - at_.constraints;
+  return program;
+}
+
+std::optional<Status> SequentialRun::major_iteration() {
+  if (has_converged()) return Status::solved;
+  if (const auto reason = reason_to_stop()) return reason;
+  if (majors_ == options_.most_iterations) return Status::iteration_limit;
+  choose_hessian();
+  ++majors_;
+  const QuadraticSolution quadratic = quadratic_solver_.solve(quadratic_program());
+  switch (quadratic.status) {
+    case QuadraticSolution::Status::stopped:
+      return reason_to_stop().value_or(Status::interrupted);
+    case QuadraticSolution::Status::breakdown:
+      message_ = "A quadratic program could not be solved: " + quadratic.message + ".";
+      return Status::step_failed;
+    case QuadraticSolution::Status::infeasible:
+      if (quadratic.step.lpNorm<Eigen::Infinity>() < tolerance_) return Status::infeasible;
+      break;
+    case QuadraticSolution::Status::optimal:
+      break;
+  }
+  const Eigen::VectorXd curved = hessian_->times(quadratic.step);
+  const LineSearchResult search = globalisation_.search(at_, quadratic.step, quadratic.step.dot(curved),
+                                                        Globalisation::longest_share(at_.point, quadratic.step));
+  if (search.share == 0.0) {
+    return quadratic.status == QuadraticSolution::Status::infeasible ? Status::infeasible : Status::step_failed;
+  }
+  if (options_.verbose) {
+    std::printf("major %3d  minors %6d  merit weight %9.2e  shift %9.2e  |d| %9.2e  share %9.2e  objective %.10e\n",
+                majors_, phase_one_minors_ + phase_two_minors_, globalisation_.weight(), shift_,
+                quadratic.step.lpNorm<Eigen::Infinity>(), search.share, search.accepted.objective);
+  }
+  take(search, quadratic);
+  return std::nullopt;
+}
+
+void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution& quadratic) {
+  Eigen::VectorXd wanted = quadratic.multipliers;
+  if (quadratic.status == QuadraticSolution::Status::infeasible) {
+    wanted = wanted.cwiseMax(-globalisation_.weight()).cwiseMin(globalisation_.weight());
+  }
+  multipliers_ += search.share * (wanted - multipliers_);
+  const Linearisation before = std::exchange(at_, search.accepted);
+  evaluator_.differentiate(at_);
+  if (limited_memory_ != nullptr) {
+    limited_memory_->update(at_.point - before.point,
+                            (at_.gradient + at_.jacobian.transpose() * multipliers_) -
+                                (before.gradient + before.jacobian.transpose() * multipliers_));
+  }
+  adapt_shift(search.share);
+}
+
+void SequentialRun::adapt_shift(double share) {
+  constexpr double short_step = 0.2;
+  constexpr double growth = 4.0;
+  constexpr double decay = 3.0;
+  constexpr double smallest = 1e-6;
+  if (share < short_step) {
+    cautious_shift_ = growth * std::max({shift_, cautious_shift_, smallest});
+  } else if (share == 1.0) {
+    cautious_shift_ /= decay;
+    if (cautious_shift_ < smallest) cautious_shift_ = 0.0;
+  }
+}
+
+}  // namespace dmocbench::sqp

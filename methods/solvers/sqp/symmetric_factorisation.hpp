@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace dmocbench::sqp {
+
+/// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS).
+class SymmetricFactorisation {
+ public:
+  SymmetricFactorisation();
+  ~SymmetricFactorisation();
+  SymmetricFactorisation(const SymmetricFactorisation&) = delete;
+  SymmetricFactorisation& operator=(const SymmetricFactorisation&) = delete;
+  SymmetricFactorisation(SymmetricFactorisation&&) noexcept;
+  SymmetricFactorisation& operator=(SymmetricFactorisation&&) noexcept;
+
+  /// Factorises the matrix whose lower triangle is given. False if it is singular. The order of elimination is chosen
+  /// at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS fails (out of memory).
+  [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
+  /// Number of negative eigenvalues of the matrix factorised last.
+  [[nodiscard]] Eigen::Index negative_eigenvalues() const;
+  /// The solution for a right-hand side.
+  [[nodiscard]] Eigen::VectorXd solve(Eigen::VectorXd right_hand_side);
+
+ private:
+  struct Mumps;
+  std::unique_ptr<Mumps> mumps_;
+};
+
+}  // namespace dmocbench::sqp
