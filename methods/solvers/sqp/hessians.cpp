@@ -15,19 +15,18 @@ double Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
            factorisation_.negative_eigenvalues() == jacobian.rows();
   };
   if (is_enough(0.0)) return 0.0;
-  double size = 1e-8;
+  double size = 1.0;
   for (Eigen::Index e = 0; e < hessian.nonZeros(); ++e) size = std::max(size, std::abs(hessian.valuePtr()[e]));
-  constexpr double smallest = 1e-8;
   constexpr double most = 1e4;  // times the size: more than the norm of any sparse matrix of this kind
   constexpr double growth = 8.0;
   double too_small = 0.0;
-  double enough = smallest * size;
+  double enough = least_shift;
   while (!is_enough(enough)) {
     too_small = enough;
     enough *= growth;
     if (enough > most * size) return enough;
   }
-  constexpr double close = 1.25;
+  constexpr double close = 1.1;
   while (too_small > 0.0 && enough > close * too_small) {
     const double middle = std::sqrt(too_small * enough);
     (is_enough(middle) ? enough : too_small) = middle;

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/sqp/quadratic_program.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 #include "methods/solvers/sqp/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
@@ -28,7 +28,10 @@ class ShiftedHessian final : public Hessian {
 /// the matrix (H + δI, Eᵀ; E, 0): as many negative eigenvalues as rows E, and no eigenvalue 0.
 class Convexification {
  public:
-  /// 0 if H is positive definite there already; otherwise at most a quarter more than what is needed. `free` says which
+  static constexpr double least_shift = 1e-4;
+
+  /// 0 if H is positive definite there already; otherwise at most a tenth more than what is needed, and no less than
+  /// `least_shift`: where there is no curvature at all, less would make steps without measure. `free` says which
   /// variables may move, `equalities` which rows count.
   [[nodiscard]] double shift_for(const Eigen::SparseMatrix<double>& hessian,
                                  const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,

@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
 namespace dmocbench::sqp {
 
@@ -55,5 +56,9 @@ class Evaluator {
   int count_ = 0;
   double seconds_ = 0.0;
 };
+
+/// The quadratic program at a point with derivatives; `hessian` must outlive it.
+[[nodiscard]] QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
+                                                    const Hessian& hessian);
 
 }  // namespace dmocbench::sqp

@@ -47,7 +47,8 @@ Solution SequentialRun::run() {
   if (at_.has_finite_values() && at_.gradient.allFinite()) {
     std::optional<Status> end;
     while (!end) end = major_iteration();
-    solution.status = *end;
+    const bool gave_up = *end == Status::step_failed || *end == Status::iteration_limit;
+    solution.status = gave_up && is_stuck_outside() ? Status::infeasible : *end;
   }
   solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
   solution.primal = at_.point;
@@ -83,6 +84,17 @@ bool SequentialRun::has_converged() {
          residual.stationarity <= tolerance_ * std::max(1.0, mean / multiplier_scale);
 }
 
+bool SequentialRun::is_stuck_outside() const {
+  const Eigen::VectorXd violations = evaluator_.violations(at_.constraints);
+  if (violations.size() == 0 || violations.lpNorm<Eigen::Infinity>() <= tolerance_) return false;
+  // The gradient of half the sum of squares; a step against it must leave the bounds, or is none.
+  const Eigen::VectorXd downhill = -(at_.jacobian.transpose() * violations);
+  const Eigen::VectorXd moved =
+      (at_.point + downhill).cwiseMax(program_.variable_lower()).cwiseMin(program_.variable_upper()) - at_.point;
+  constexpr double stationary = 1e-4;
+  return moved.lpNorm<Eigen::Infinity>() <= stationary * violations.lpNorm<Eigen::Infinity>();
+}
+
 void SequentialRun::choose_hessian() {
   if (choices_.limited_memory) {
     if (limited_memory_ != nullptr) return;
@@ -98,27 +110,13 @@ void SequentialRun::choose_hessian() {
   hessian_ = std::make_unique<ShiftedHessian>(std::move(exact), shift_);
 }
 
-QuadraticProgram SequentialRun::quadratic_program() {
-  QuadraticProgram program;
-  program.hessian = hessian_.get();
-  program.gradient = at_.gradient;
-  program.rows = at_.jacobian;
-  const Eigen::Index n = at_.point.size();
-  const Eigen::Index m = at_.constraints.size();
-  program.lower.resize(n + m);
-  program.upper.resize(n + m);
-  program.lower << program_.variable_lower() - at_.point, program_.constraint_lower() - at_.constraints;
-  program.upper << program_.variable_upper() - at_.point, program_.constraint_upper() - at_.constraints;
-  return program;
-}
-
 std::optional<Status> SequentialRun::major_iteration() {
   if (has_converged()) return Status::solved;
   if (const auto reason = reason_to_stop()) return reason;
   if (majors_ == options_.most_iterations) return Status::iteration_limit;
   choose_hessian();
   ++majors_;
-  const QuadraticSolution quadratic = quadratic_solver_.solve(quadratic_program());
+  const QuadraticSolution quadratic = quadratic_solver_.solve(quadratic_program_at(program_, at_, *hessian_));
   switch (quadratic.status) {
     case QuadraticSolution::Status::stopped:
       return reason_to_stop().value_or(Status::interrupted);

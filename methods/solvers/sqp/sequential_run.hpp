@@ -14,7 +14,7 @@
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
 #include "methods/solvers/sqp/linearisation.hpp"
-#include "methods/solvers/sqp/quadratic_solver.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 
 namespace dmocbench::sqp {
 
@@ -37,11 +37,12 @@ class SequentialRun {
 
  private:
   [[nodiscard]] std::optional<Status> major_iteration();
-  [[nodiscard]] QuadraticProgram quadratic_program();
   void choose_hessian();
   void take(const LineSearchResult& search, const QuadraticSolution& quadratic);
   void adapt_shift(double share);
   [[nodiscard]] bool has_converged();
+  /// True if the violation of the rows is stationary where it is not zero.
+  [[nodiscard]] bool is_stuck_outside() const;
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool observe(MinorIteration minor);
 

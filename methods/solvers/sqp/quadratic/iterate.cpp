@@ -1,9 +1,9 @@
-#include "methods/solvers/sqp/iterate.hpp"
+#include "methods/solvers/sqp/quadratic/iterate.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "methods/solvers/sqp/basis_choice.hpp"
+#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
 
 namespace dmocbench::sqp {
 

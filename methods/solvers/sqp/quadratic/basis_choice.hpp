@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/quadratic_program.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
 namespace dmocbench::sqp {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "methods/solvers/sqp/phases.hpp"
-#include "methods/solvers/sqp/ratio_test.hpp"
+#include "methods/solvers/sqp/quadratic/phases.hpp"
+#include "methods/solvers/sqp/quadratic/ratio_test.hpp"
 
 namespace dmocbench::sqp {
 

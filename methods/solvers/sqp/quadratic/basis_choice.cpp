@@ -1,10 +1,10 @@
-#include "methods/solvers/sqp/basis_choice.hpp"
+#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "methods/solvers/sqp/basis_factorisation.hpp"
+#include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

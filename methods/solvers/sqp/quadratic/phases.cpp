@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/phases.hpp"
+#include "methods/solvers/sqp/quadratic/phases.hpp"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "methods/solvers/sqp/null_space.hpp"
-#include "methods/solvers/sqp/phases.hpp"
-#include "methods/solvers/sqp/ratio_test.hpp"
+#include "methods/solvers/sqp/quadratic/null_space.hpp"
+#include "methods/solvers/sqp/quadratic/phases.hpp"
+#include "methods/solvers/sqp/quadratic/ratio_test.hpp"
 
 namespace dmocbench::sqp {
 

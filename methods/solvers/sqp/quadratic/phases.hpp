@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "methods/solvers/minor_iteration.hpp"
-#include "methods/solvers/sqp/iterate.hpp"
-#include "methods/solvers/sqp/pricing.hpp"
-#include "methods/solvers/sqp/reduced_hessian.hpp"
+#include "methods/solvers/sqp/quadratic/iterate.hpp"
+#include "methods/solvers/sqp/quadratic/pricing.hpp"
+#include "methods/solvers/sqp/quadratic/reduced_hessian.hpp"
 
 namespace dmocbench::sqp {
 

@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/basis_factorisation.hpp"
+#include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
 
 #include <cmath>
 
@@ -6,6 +6,7 @@ namespace dmocbench::sqp {
 
 bool BasisFactorisation::factorise(const QuadraticProgram& program, const std::vector<Eigen::Index>& basics) {
   replacements_.clear();
+  if (basics.empty()) return true;  // SparseLU divides by the size
   const Eigen::Index variables = program.variable_count();
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t position = 0; position < basics.size(); ++position) {
@@ -41,6 +42,7 @@ void BasisFactorisation::replace(Eigen::Index position, const Eigen::VectorXd& s
 }
 
 Eigen::VectorXd BasisFactorisation::solve(const Eigen::VectorXd& y) const {
+  if (y.size() == 0) return y;
   Eigen::VectorXd x = factors_.solve(y);
   for (const Replacement& replacement : replacements_) {
     const double value = x[replacement.position] / replacement.pivot;
@@ -51,6 +53,7 @@ Eigen::VectorXd BasisFactorisation::solve(const Eigen::VectorXd& y) const {
 }
 
 Eigen::VectorXd BasisFactorisation::solve_transposed(const Eigen::VectorXd& y) const {
+  if (y.size() == 0) return y;
   Eigen::VectorXd x = y;
   for (auto replacement = replacements_.rbegin(); replacement != replacements_.rend(); ++replacement) {
     double sum = x[replacement->position];

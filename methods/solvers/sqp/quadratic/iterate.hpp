@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/basis_factorisation.hpp"
-#include "methods/solvers/sqp/quadratic_program.hpp"
-#include "methods/solvers/sqp/working_set.hpp"
+#include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
+#include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/iterate.hpp"
+#include "methods/solvers/sqp/quadratic/iterate.hpp"
 
 namespace dmocbench::sqp {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseLU>
 
-#include "methods/solvers/sqp/quadratic_program.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
 namespace dmocbench::sqp {
 

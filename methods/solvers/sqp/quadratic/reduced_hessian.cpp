@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/reduced_hessian.hpp"
+#include "methods/solvers/sqp/quadratic/reduced_hessian.hpp"
 
 #include <algorithm>
 #include <cmath>

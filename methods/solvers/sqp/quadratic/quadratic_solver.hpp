@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/phases.hpp"
-#include "methods/solvers/sqp/pricing.hpp"
-#include "methods/solvers/sqp/quadratic_program.hpp"
-#include "methods/solvers/sqp/working_set.hpp"
+#include "methods/solvers/sqp/quadratic/phases.hpp"
+#include "methods/solvers/sqp/quadratic/pricing.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
+#include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
 

@@ -1,9 +1,9 @@
-#include "methods/solvers/sqp/quadratic_solver.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 
 #include <utility>
 
-#include "methods/solvers/sqp/basis_choice.hpp"
-#include "methods/solvers/sqp/null_space.hpp"
+#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
+#include "methods/solvers/sqp/quadratic/null_space.hpp"
 
 namespace dmocbench::sqp {
 

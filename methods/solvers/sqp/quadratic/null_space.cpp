@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/null_space.hpp"
+#include "methods/solvers/sqp/quadratic/null_space.hpp"
 
 #include <cstddef>
 #include <vector>
