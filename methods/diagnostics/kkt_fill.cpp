@@ -1,0 +1,57 @@
+#include "methods/diagnostics/kkt_fill.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+namespace dmocbench {
+
+namespace {
+
+/// Position of every free variable in the matrix; -1 for fixed ones.
+std::vector<int> positions_of(const Transcription& transcription) {
+  std::vector<int> positions;
+  int next = 0;
+  for (std::size_t j = 0; j < transcription.variable_count(); ++j) {
+    const auto index = static_cast<Eigen::Index>(j);
+    const bool fixed = transcription.variable_lower()[index] == transcription.variable_upper()[index];
+    positions.push_back(fixed ? -1 : next++);
+  }
+  return positions;
+}
+
+}  // namespace
+
+KktFill kkt_fill(const Transcription& transcription) {
+  const std::vector<int> positions = positions_of(transcription);
+  const auto position = [&](int j) { return positions[static_cast<std::size_t>(j)]; };
+  const auto free = static_cast<int>(free_variable_count(transcription));
+  const auto size = free + static_cast<int>(transcription.constraint_count());
+
+  // Numbers that make it diagonally dominant: only the pattern matters, and it has a Cholesky factor then.
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < size; ++i) entries.emplace_back(i, i, static_cast<double>(size));
+  const SparsityPattern& hessian = transcription.hessian_structure();
+  for (std::size_t e = 0; e < hessian.size(); ++e) {
+    const int row = position(hessian.rows[e]);
+    const int column = position(hessian.columns[e]);
+    if (row >= 0 && column >= 0 && row != column) {
+      entries.emplace_back(std::max(row, column), std::min(row, column), -0.5);
+    }
+  }
+  const SparsityPattern& jacobian = transcription.jacobian_structure();
+  for (std::size_t e = 0; e < jacobian.size(); ++e) {
+    const int column = position(jacobian.columns[e]);
+    if (column >= 0) entries.emplace_back(free + jacobian.rows[e], column, -0.5);
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor(matrix);
+  return {.nonzeros = static_cast<std::size_t>(matrix.nonZeros()),
+          .factor_nonzeros = static_cast<std::size_t>(factor.matrixL().nestedExpression().nonZeros())};
+}
+
+}  // namespace dmocbench
