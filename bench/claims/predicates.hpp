@@ -1,13 +1,40 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/claims/claim.hpp"
 
 namespace dmocbench {
 
-/// Every claim of the paper with its verdict, computed from the tables by the predicates of predicates.cpp. Rows that
-/// are not solved or on another branch make a claim about all grids "differs", never better.
+/// Every claim of the paper with its verdict, computed from the tables by the predicates below. Rows that are not
+/// solved or on another branch make a claim about all grids "differs", never better.
 [[nodiscard]] std::vector<Claim> judge_claims(const ResultTables& tables);
+
+// One predicate each; "not yet" where the table is not there. The numbers that decide stand at the head of its file.
+
+/// The fitted slope of a quantity ("state", "control") in a table of slopes.
+[[nodiscard]] Claim slope_claim(const ResultTables& tables, const std::string& problem, const std::string& quantity,
+                                const std::string& table);
+/// The step that the paper prints for its reference grid.
+[[nodiscard]] Claim step_claim(const ResultTables& tables, const std::string& problem);
+/// Momentum-force consistency.
+[[nodiscard]] Claim consistency_claim(const ResultTables& tables, const std::string& problem);
+/// Equal solutions of DMOC and Hamiltonian collocation.
+[[nodiscard]] Claim equality_claim(const ResultTables& tables, const std::string& problem);
+/// Different solutions of tangent-space collocation.
+[[nodiscard]] Claim difference_claim(const ResultTables& tables, const std::string& problem);
+/// The ratio of the numbers of variables.
+[[nodiscard]] Claim variable_claim(const ResultTables& tables, const std::string& problem);
+/// The optimal cost over the grids.
+[[nodiscard]] Claim objective_claim(const ResultTables& tables, const std::string& problem);
+/// The ratio of the numbers of minor iterations.
+[[nodiscard]] Claim minor_iterations_claim(const ResultTables& tables, const std::string& problem);
+/// That this ratio is the one of the numbers of variables.
+[[nodiscard]] Claim agreement_claim(const ResultTables& tables, const std::string& problem);
+/// The same ratio where the first basis is chosen for free.
+[[nodiscard]] Claim crash_claim(const ResultTables& tables, const std::string& problem);
+/// A row of the table of slips.
+[[nodiscard]] Claim slip_claim(const Row& row);
 
 }  // namespace dmocbench

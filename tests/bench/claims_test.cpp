@@ -43,6 +43,7 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
   std::vector<Row> convergence;
   std::vector<Row> objective;
   std::vector<Row> equivalence;
+  std::vector<Row> iterations;
   for (const std::string method : methods) {
     for (const char* quantity : {"state", "control"}) {
       Row row = solved_row(method, 0);
@@ -76,6 +77,21 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
   finish("convergence", convergence);
   finish("objective", objective);
   finish("equivalence", equivalence);
+  for (const std::string method : methods) {
+    for (const long long intervals : {32LL, 64LL, 128LL}) {
+      const long long free = method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4;
+      for (const char* crash : {"none", "basis"}) {
+        Row row = solved_row(method, intervals);
+        row.set("solver", "sqp");
+        row.set("crash", crash);
+        row.set("free_variables", free);
+        row.set("minor_iterations", (std::string(crash) == "none" ? free : intervals - 4) + 3);
+        row.set("predicted_minors", *row.number("minor_iterations"));
+        iterations.push_back(row);
+      }
+    }
+  }
+  finish("iterations", iterations);
   return result;
 }
 
@@ -90,8 +106,9 @@ Verdict verdict_on(const std::string& claim, const ResultTables& results) {
 bool is(const Row& row, const std::string& method) { return row.text("method") == method; }
 
 TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
-  for (const char* claim : {"state_slope", "control_slope", "momentum_consistency", "equal_solutions",
-                            "tangent_differs", "variable_ratio", "objective_evolution", "reference_step"}) {
+  for (const char* claim :
+       {"state_slope", "control_slope", "momentum_consistency", "equal_solutions", "tangent_differs", "variable_ratio",
+        "objective_evolution", "reference_step", "minor_iteration_ratio", "minor_iterations_equal_variable_ratio"}) {
     EXPECT_EQ(verdict_on(claim, tables()), Verdict::reproduced) << claim;
   }
 }
@@ -146,6 +163,24 @@ TEST(Claims, AnotherRatioOfVariablesDiffers) {
   EXPECT_EQ(verdict_on("variable_ratio", doctored), Verdict::differs);
 }
 
+TEST(Claims, AnotherRatioOfMinorIterationsDiffers) {
+  for (const double factor : {0.9, 1.1}) {
+    const ResultTables doctored = tables("iterations", [&](Row& row) {
+      if (is(row, "dmoc")) row.set("minor_iterations", *row.number("minor_iterations") * factor);
+    });
+    EXPECT_EQ(verdict_on("minor_iteration_ratio", doctored), Verdict::differs) << factor;
+    EXPECT_EQ(verdict_on("minor_iterations_equal_variable_ratio", doctored), Verdict::differs) << factor;
+  }
+}
+
+TEST(Claims, EqualCountsFromACrashBasisSayThatTheSavingIsTheStarts) {
+  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", tables()), Verdict::differs);
+  const ResultTables doctored = tables("iterations", [](Row& row) {
+    if (row.text("crash") == "basis") row.set("minor_iterations", *row.number("free_variables") + 3.0);
+  });
+  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", doctored), Verdict::reproduced);
+}
+
 TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
   for (const char* column : {"status", "branch"}) {
     const auto spoil = [&](Row& row) {
@@ -155,6 +190,7 @@ TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
     EXPECT_NE(verdict_on("equal_solutions", tables("equivalence", spoil)), Verdict::reproduced) << column;
     EXPECT_NE(verdict_on("objective_evolution", tables("objective", spoil)), Verdict::reproduced) << column;
     EXPECT_NE(verdict_on("variable_ratio", tables("convergence", spoil)), Verdict::reproduced) << column;
+    EXPECT_NE(verdict_on("minor_iteration_ratio", tables("iterations", spoil)), Verdict::reproduced) << column;
   }
 }
 

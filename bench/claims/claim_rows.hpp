@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+// What predicates share: the paper's problems, and rows picked from tables.
+
+inline constexpr const char* orbit = "orbital_transfer";
+inline constexpr const char* two_link = "two_link_manipulator";
+
+using Rows = std::vector<const Row*>;
+
+[[nodiscard]] inline Verdict verdict_of(bool holds) { return holds ? Verdict::reproduced : Verdict::differs; }
+
+/// Midpoint rows of one method.
+[[nodiscard]] Rows midpoint_rows(const Rows& rows, const std::string& method);
+
+/// The rows with that text in a column.
+[[nodiscard]] Rows rows_with(const Rows& rows, const std::string& column, const std::string& text);
+
+/// The row on a grid, if it was solved on the wanted branch.
+[[nodiscard]] const Row* on_grid(const Rows& rows, double intervals);
+
+/// How many were not solved, or not on the wanted branch.
+[[nodiscard]] std::size_t count_unusable(const Rows& rows);
+
+/// The largest entry of a column; infinity if one is missing.
+[[nodiscard]] double largest(const Rows& rows, const std::string& column);
+
+}  // namespace dmocbench
