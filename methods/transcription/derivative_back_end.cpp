@@ -62,6 +62,7 @@ const Entry& entry_named(std::string_view name) {
 
 std::vector<std::string> derivative_back_end_names() {
   std::vector<std::string> names;
+  names.reserve(registry.size());
   for (const Entry& entry : registry) names.emplace_back(entry.name);
   return names;
 }

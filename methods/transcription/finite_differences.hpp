@@ -44,7 +44,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
  private:
   /// Formulas evaluated at a point, at moved points and differentiated: a tape and room for its values there.
   struct Formulas {
-    Formulas(const Schedule& schedule, std::size_t intervals, std::size_t points);
+    Formulas(const Schedule& schedule, std::size_t interval_count, std::size_t points);
     [[nodiscard]] const double* value(std::size_t point, std::size_t output) const;
 
     Tape tape;
