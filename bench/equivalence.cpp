@@ -55,6 +55,7 @@ class Equivalence final : public Experiment {
     for (const Answer& dmoc : answers_) {
       const bool partner = dmoc.what.problem == solved.what.problem && dmoc.what.tableau == solved.what.tableau &&
                            dmoc.what.stages == solved.what.stages && dmoc.what.solver == solved.what.solver &&
+                           dmoc.what.derivatives == solved.what.derivatives &&
                            dmoc.trajectory.node_times == solved.trajectory->node_times;
       if (partner) compare(dmoc.trajectory, solved);
     }

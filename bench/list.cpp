@@ -7,6 +7,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "methods/error.hpp"
+#include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
@@ -53,9 +54,10 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
   }
   fmt::print("\nSolvers (--solver)\n\n");
   for (const std::string& name : solver_names()) fmt::print("{:<12} {}\n", name, make_solver(name)->description());
-  fmt::print("\nDerivatives\n\n");
-  fmt::print("{:<12} {}\n", "tape",
-             "exact: the formulas of one interval differentiated symbolically, evaluated for all");
+  fmt::print("\nDerivatives (--derivatives)\n\n");
+  for (const std::string& name : derivative_back_end_names()) {
+    fmt::print("{:<20} {}\n", name, derivative_back_end_description(name));
+  }
   return 0;
 }
 

@@ -54,7 +54,7 @@ Slip potential_without_sine() {
 /// The optimal transfer by DMOC: angular momentum at the nodes.
 Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
   constexpr long long intervals = 128;
-  const Case what{problem, "dmoc", "gauss", 1, "ipopt", Grid::uniform(intervals)};
+  const Case what{problem, "dmoc", "gauss", 1, "ipopt", "tape", Grid::uniform(intervals), ""};
   StartSource starts("common", {});
   SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
   if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");

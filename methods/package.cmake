@@ -12,9 +12,13 @@ install(
   EXPORT dmocbenchTargets
   NAMESPACE dmocbench::
   DESTINATION ${DMOCBENCH_CMAKE_DIR})
+get_property(DMOCBENCH_WITH_ADOLC GLOBAL PROPERTY DMOCBENCH_WITH_ADOLC)
 configure_package_config_file(methods/dmocbenchConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfig.cmake
                               INSTALL_DESTINATION ${DMOCBENCH_CMAKE_DIR})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVersion.cmake DESTINATION ${DMOCBENCH_CMAKE_DIR})
+if(DMOCBENCH_WITH_ADOLC)
+  install(FILES methods/FindADOLC.cmake DESTINATION ${DMOCBENCH_CMAKE_DIR})
+endif()

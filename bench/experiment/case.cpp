@@ -5,16 +5,18 @@
 namespace dmocbench {
 
 std::string Case::label() const {
-  return fmt::format("{} {} {} {} {} N = {}", problem->name(), method, tableau, stages, solver, intervals());
+  return fmt::format("{} {} {} {} {} {}{}{} N = {}", problem->name(), method, tableau, stages, solver, derivatives,
+                     variant.empty() ? "" : " ", variant, intervals());
 }
 
 std::string Case::file_label() const {
-  return fmt::format("{}_{}_{}{}_{}", problem->name(), method, tableau, stages, intervals());
+  return fmt::format("{}_{}_{}{}_{}{}", problem->name(), method, tableau, stages, intervals(),
+                     derivatives == "tape" ? "" : "_" + derivatives);
 }
 
 bool Case::same_curve(const Case& other) const {
   return problem == other.problem && method == other.method && tableau == other.tableau && stages == other.stages &&
-         solver == other.solver;
+         solver == other.solver && derivatives == other.derivatives && variant == other.variant;
 }
 
 }  // namespace dmocbench

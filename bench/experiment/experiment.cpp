@@ -33,6 +33,28 @@ int report_error(const CLI::App& app, const std::string& sentence) {
   return exit_bad_input;
 }
 
+/// The first case behind `first` that is not on its curve.
+std::size_t end_of_curve(const std::vector<Case>& cases, std::size_t first) {
+  std::size_t last = first + 1;
+  while (last < cases.size() && cases[last].same_curve(cases[first])) ++last;
+  return last;
+}
+
+std::vector<Case> part(const std::vector<Case>& cases, std::size_t first, std::size_t last) {
+  return {cases.begin() + static_cast<std::ptrdiff_t>(first), cases.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
+  std::vector<Case> result;
+  for (std::size_t first = 0; first < cases.size();) {
+    const std::size_t last = end_of_curve(cases, first);
+    const std::vector<Case> variants = experiment.variants(part(cases, first, last));
+    result.insert(result.end(), variants.begin(), variants.end());
+    first = last;
+  }
+  return result;
+}
+
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
@@ -40,7 +62,7 @@ class Run {
       : experiment_(experiment),
         options_(options),
         solver_options_(solver_options(options)),
-        cases_(expand_cases(options)),
+        cases_(with_variants(experiment, expand_cases(options))),
         starts_(options.start, with_interrupt(solver_options_)),
         rows_(cases_.size()),
         prefix_(options.out / options.name),
@@ -57,8 +79,7 @@ class Run {
     Progress progress(cases_.size());
     starts_.on_progress = [&](const std::string& what) { progress.show(what); };
     for (std::size_t first = 0; first < cases_.size() && !interrupt_requested();) {
-      std::size_t last = first + 1;
-      while (last < cases_.size() && cases_[last].same_curve(cases_[first])) ++last;
+      const std::size_t last = end_of_curve(cases_, first);
       solve_curve(first, last, progress);
       first = last;
     }
@@ -83,8 +104,7 @@ class Run {
   }
 
   void solve_curve(std::size_t first, std::size_t last, Progress& progress) {
-    const auto begin = cases_.begin() + static_cast<std::ptrdiff_t>(first);
-    const std::vector<Case> curve(begin, cases_.begin() + static_cast<std::ptrdiff_t>(last));
+    const std::vector<Case> curve = part(cases_, first, last);
     for (const std::size_t position : experiment_.solving_order(curve)) {
       const Case& what = curve[position];
       if (interrupt_requested()) return;
@@ -104,7 +124,7 @@ class Run {
     try {
       const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
       progress.show(what.label());
-      return solve_case(what, start, solver_options_, options_.repeats);
+      return solve_case(what, start, experiment_.options_for(what, solver_options_), options_.repeats);
     } catch (const NoStart& reason) {
       return unsolved_case(what, reason.what());
     }
@@ -165,6 +185,7 @@ int run_experiment(Experiment& experiment, int argc, char** argv) {
   ExperimentOptions options;
   options.intervals = experiment.default_intervals();
   options.name = experiment.name();
+  options.derivatives = experiment.default_derivatives();
   add_options(app, options);
   experiment.add_options(app);
   return run_program(app, argc, argv, [&] {

@@ -30,11 +30,17 @@ class Experiment {
   /// What `--help` says.
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] virtual std::string default_intervals() const = 0;
+  /// The back ends of derivatives unless the user chooses.
+  [[nodiscard]] virtual std::vector<std::string> default_derivatives() const { return {"tape"}; }
   /// Columns behind the core ones.
   [[nodiscard]] virtual std::vector<std::string> own_columns() const = 0;
 
   /// Options behind the common ones.
   virtual void add_options(CLI::App& /*app*/) {}
+  /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
+  [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
+  /// The solver's options for one case; by default those of the command line.
+  [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) const { return common; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
   /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.

@@ -8,6 +8,7 @@
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
+#include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/tableau.hpp"
 #include "methods/transcription/transcription.hpp"
@@ -65,6 +66,9 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
   app.add_option("--tableau", options.tableaus, "families of Butcher tableaus")->delimiter(',')->capture_default_str();
   app.add_option("--stages", options.stages, "numbers of stages s")->delimiter(',')->capture_default_str();
   app.add_option("--solver", options.solvers, "solvers, as `list` names them")->delimiter(',')->capture_default_str();
+  app.add_option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--intervals", options.intervals,
                  "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed")
       ->capture_default_str();
@@ -123,6 +127,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
   const auto tableaus = in_order("tableau", options.tableaus, tableau_names());
   const auto solvers = in_order("solver", options.solvers, solver_names());
+  for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
+  const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
   if (options.name.empty() || options.name.find('/') != std::string::npos) {
     throw Error(
         fmt::format("--name \"{}\" must be a file's name without a folder; --out names the folder", options.name));
@@ -138,7 +144,11 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
           static_cast<void>(
               Transcription(*problem, *make_element(method), make_tableau(tableau, stages), grids.front()));
           for (const std::string& solver : solvers) {
-            for (const Grid& grid : grids) cases.push_back({problem, method, tableau, stages, solver, grid});
+            for (const std::string& derivatives : back_ends) {
+              for (const Grid& grid : grids) {
+                cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, ""});
+              }
+            }
           }
         }
       }

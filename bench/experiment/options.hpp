@@ -18,6 +18,7 @@ struct ExperimentOptions {
   std::vector<std::string> tableaus{"gauss"};
   std::vector<int> stages{1};
   std::vector<std::string> solvers{"ipopt"};
+  std::vector<std::string> derivatives{"tape"};
   std::string intervals;
   std::string grid_file;               ///< relative node times; replaces `intervals`
   std::vector<std::string> settings;   ///< "parameter=value"
@@ -37,8 +38,9 @@ void add_options(CLI::App& app, ExperimentOptions& options);
 /// The solver options among them. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
 
-/// All cases in the order of rows: problem, method, tableau, stages, solver, intervals ascending. Problems of equal
-/// name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by then.
+/// All cases in the order of rows: problem, method, tableau, stages, solver, derivatives, intervals ascending. Problems
+/// of equal name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by
+/// then.
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
 /// Problems with the settings applied, in the order of the registry. A setting must belong to at least one of them.

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "methods/error.hpp"
+#include "methods/solvers/confirm.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -39,6 +40,14 @@ Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& s
   return solution;
 }
 
+/// Judges a solution again by exact derivatives. The solver's own word counts once more where its derivatives denied
+/// it.
+void judge_exactly(const Case& what, double tolerance, Solution& solution) {
+  Transcription exact(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid);
+  if (solution.status == Status::not_confirmed) solution.status = Status::solved;
+  confirm(exact, tolerance, solution);
+}
+
 /// "same" if no node is farther from the wanted motion than a tenth of the range of q, else "other".
 const char* branch_of(const Trajectory& trajectory, const Motion& wanted) {
   constexpr double share = 0.1;
@@ -59,7 +68,7 @@ void describe(SolvedCase& solved) {
   row.set("tableau", solved.what.tableau);
   row.set("stages", static_cast<long long>(solved.what.stages));
   row.set("solver", solved.what.solver);
-  row.set("derivatives", "tape");
+  row.set("derivatives", solved.what.derivatives);
   row.set("intervals", static_cast<long long>(solved.what.intervals()));
   row.set("status", std::string(name_of(solved.solution.status)));
   row.set("message", solved.solution.message);
@@ -86,21 +95,22 @@ const std::vector<std::string>& core_columns() {
 }
 
 SolvedCase unsolved_case(const Case& what, const std::string& reason) {
-  SolvedCase result{.what = what, .solution = {}, .trajectory = {}, .row = {}};
+  SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
   result.solution.message = reason;
   describe(result);
   return result;
 }
 
 SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats) {
-  SolvedCase result{.what = what, .solution = {}, .trajectory = {}, .row = {}};
+  SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
   const auto setup_start = Clock::now();
   Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
-                              what.grid);
+                              what.grid, what.derivatives);
   const double setup_seconds = seconds_since(setup_start);
-  const Eigen::VectorXd start_point = sample(transcription, start.motion);
-  result.solution = solve_repeatedly(transcription, start_point, what, options, repeats);
+  result.start = sample(transcription, start.motion);
+  result.solution = solve_repeatedly(transcription, result.start, what, options, repeats);
   Solution& solution = result.solution;
+  if (what.derivatives != "tape") judge_exactly(what, options.tolerance, solution);
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
     try {

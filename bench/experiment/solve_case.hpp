@@ -17,6 +17,7 @@ namespace dmocbench {
 struct SolvedCase {
   Case what;
   Solution solution;
+  Eigen::VectorXd start;                 ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory;  ///< none if the solver gave no point, or one where momenta make no sense
   Row row;                               ///< the core columns
 };
@@ -32,7 +33,8 @@ struct Start {
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
-/// part of the result. Throws `Error` on misuse only.
+/// part of the result. The solver sees the case's derivatives; residuals and status are those of the exact ones
+/// whatever they are, so that wrong derivatives cannot confirm themselves. Throws `Error` on misuse only.
 [[nodiscard]] SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats);
 
 /// The row of a case that could not even start, with status "not run" and the reason as its message.

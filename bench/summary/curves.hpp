@@ -14,6 +14,7 @@ struct Curve {
   std::string tableau;
   std::string stages;
   std::string solver;
+  std::string derivatives;
   std::vector<const Row*> rows;
 
   [[nodiscard]] std::string label() const { return problem + " " + method + " " + tableau + " " + stages; }

@@ -11,39 +11,13 @@ namespace dmocbench {
 
 AssembledTape::AssembledTape(const Schedule& schedule, const std::vector<std::size_t>& firsts, std::size_t size,
                              std::size_t intervals)
-    : tape_(schedule), workspace_(tape_), size_(size), intervals_(intervals), firsts_(firsts), outputs_(firsts.size()) {
+    : tape_(schedule), workspace_(tape_), assembly_(firsts, size, intervals) {
   if (firsts.size() != tape_.output_count()) throw Error("an assembled tape needs one place per output");
-  std::vector<std::size_t> order(firsts.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return firsts[a] < firsts[b]; });
-  std::size_t covered = 0;  // entries below are written, set to zero or added to
-  for (const std::size_t output : order) {
-    const std::size_t first = firsts[output];
-    if (first + intervals_ > size_) throw Error("an output of an assembled tape leaves the array");
-    if (first < covered) {
-      additions_.push_back({output, additions_.size() * intervals_, first});
-      for (; covered < first + intervals_; ++covered) zeros_.push_back(covered);
-    } else {
-      for (; covered < first; ++covered) zeros_.push_back(covered);
-      covered = first + intervals_;
-    }
-  }
-  for (; covered < size_; ++covered) zeros_.push_back(covered);
-  scratch_.resize(additions_.size() * intervals_);
 }
 
 void AssembledTape::evaluate(std::span<const Tape::Input> inputs, VectorOut result) {
-  if (static_cast<std::size_t>(result.size()) != size_)
-    throw Error("an assembled tape got an array of the wrong length");
-  for (std::size_t output = 0; output < outputs_.size(); ++output) outputs_[output] = result.data() + firsts_[output];
-  for (const Addition& addition : additions_) outputs_[addition.output] = scratch_.data() + addition.scratch;
-  tape_.evaluate(intervals_, inputs, outputs_, workspace_);
-  for (const std::size_t entry : zeros_) result.data()[entry] = 0.0;
-  for (const Addition& addition : additions_) {
-    double* target = result.data() + addition.first;
-    const double* source = scratch_.data() + addition.scratch;
-    for (std::size_t k = 0; k < intervals_; ++k) target[k] += source[k];
-  }
+  tape_.evaluate(assembly_.intervals(), inputs, assembly_.open(result), workspace_);
+  assembly_.close(result);
 }
 
 AssembledPattern assemble_pattern(const std::vector<std::size_t>& row_firsts,

@@ -6,16 +6,16 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/column_assembly.hpp"
 
 namespace dmocbench {
 
-/// A tape whose outputs are parts of one long array: output e of interval k belongs to entry firsts[e] + k.
-///
-/// Where two outputs meet (the right end of one interval is the left end of the next, so one's `first` is one more than
-/// the other's) their values are added. Entries that no output reaches are set to 0.
+/// A tape whose outputs are parts of one long array: output e of interval k belongs to entry firsts[e] + k, see
+/// `ColumnAssembly`.
 class AssembledTape {
  public:
-  /// `size` is the length of the array, `intervals` the number of intervals.
+  /// `size` is the length of the array, `intervals` the number of intervals. Throws `Error` if there is not one place
+  /// per output.
   AssembledTape(const Schedule& schedule, const std::vector<std::size_t>& firsts, std::size_t size,
                 std::size_t intervals);
 
@@ -25,21 +25,9 @@ class AssembledTape {
   [[nodiscard]] const Tape& tape() const noexcept { return tape_; }
 
  private:
-  struct Addition {
-    std::size_t output;   // its values go to a scratch column first
-    std::size_t scratch;  // where that column begins
-    std::size_t first;    // and are added from this entry on
-  };
-
   Tape tape_;
   Tape::Workspace workspace_;
-  std::size_t size_;
-  std::size_t intervals_;
-  std::vector<std::size_t> firsts_;
-  std::vector<Addition> additions_;
-  std::vector<std::size_t> zeros_;
-  std::vector<double> scratch_;
-  std::vector<double*> outputs_;
+  ColumnAssembly assembly_;
 };
 
 /// The pattern of an assembled sparse matrix, and where local entries go in its array of values.

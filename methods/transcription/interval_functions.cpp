@@ -103,6 +103,7 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   functions.gradient = nonzeros(gradient(cost, z));
   functions.rows = nonzeros(rows);
   functions.jacobian = nonzeros(jacobian(rows, z), false);
+  functions.lagrangian = Schedule(std::vector<Expression>{lagrangian});
   functions.hessian = nonzeros(hessian(lagrangian, z), true);
   const Eigen::Index node_size = unknowns.left_q.size() + unknowns.left_y.size();
   functions.node_adjoint = Schedule(gradient(lagrangian, z.head(2 * node_size)));

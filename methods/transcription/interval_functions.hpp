@@ -48,6 +48,7 @@ struct IntervalFunctions {
   LocalVector gradient;   ///< ∂cost/∂unknown
   LocalVector rows;       ///< all local rows
   LocalMatrix jacobian;   ///< ∂row/∂unknown
+  Schedule lagrangian;    ///< ℓ, one output
   LocalMatrix hessian;    ///< ∂²ℓ/∂unknown², one entry per pair (the caller orders it)
   Schedule node_adjoint;  ///< ∂ℓ/∂(left node), then ∂ℓ/∂(right node)
   Schedule momenta;       ///< left momentum, then right momentum

@@ -62,7 +62,8 @@ void require_finite(const Eigen::VectorXd& values, const Problem& problem, const
 
 }  // namespace
 
-Transcription::Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid)
+Transcription::Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid,
+                             std::string_view derivatives)
     : tableau_(tableau),
       cost_scale_(problem.cost_scale()),
       traced_(problem),
@@ -75,13 +76,17 @@ Transcription::Transcription(const Problem& problem, const Element& element, con
       jacobian_pattern_(jacobian_pattern(functions_, layout_)),
       hessian_pattern_(hessian_pattern(functions_, layout_)),
       cost_(functions_.cost, {0}, grid.intervals(), grid.intervals()),
-      gradient_(functions_.gradient.schedule, pick(layout_.unknown_firsts(), functions_.gradient.places),
-                layout_.variable_count(), grid.intervals()),
       rows_(functions_.rows.schedule, pick(layout_.row_firsts(), functions_.rows.places), layout_.row_count(),
             grid.intervals()),
-      jacobian_(functions_.jacobian.schedule, jacobian_pattern_.firsts, jacobian_pattern_.pattern.size(),
-                grid.intervals()),
-      hessian_(functions_.hessian.schedule, hessian_pattern_.firsts, hessian_pattern_.pattern.size(), grid.intervals()),
+      derivatives_(
+          make_derivative_back_end(derivatives, functions_,
+                                   {.intervals = grid.intervals(),
+                                    .gradient_firsts = pick(layout_.unknown_firsts(), functions_.gradient.places),
+                                    .gradient_size = layout_.variable_count(),
+                                    .jacobian_firsts = jacobian_pattern_.firsts,
+                                    .jacobian_size = jacobian_pattern_.pattern.size(),
+                                    .hessian_firsts = hessian_pattern_.firsts,
+                                    .hessian_size = hessian_pattern_.pattern.size()})),
       costs_(static_cast<Eigen::Index>(grid.intervals())) {
   if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
   require_enough_intervals(problem, element);
@@ -172,7 +177,7 @@ double Transcription::objective(const VectorIn& x) {
 }
 
 void Transcription::gradient(const VectorIn& x, VectorOut result) {
-  gradient_.evaluate(bind(x, no_multipliers_, 1.0), result);
+  derivatives_->gradient(bind(x, no_multipliers_, 1.0), result);
 }
 
 void Transcription::constraints(const VectorIn& x, VectorOut result) {
@@ -180,11 +185,11 @@ void Transcription::constraints(const VectorIn& x, VectorOut result) {
 }
 
 void Transcription::jacobian(const VectorIn& x, VectorOut values) {
-  jacobian_.evaluate(bind(x, no_multipliers_, 1.0), values);
+  derivatives_->jacobian(bind(x, no_multipliers_, 1.0), values);
 }
 
 void Transcription::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
-  hessian_.evaluate(bind(x, multipliers, objective_factor), values);
+  derivatives_->hessian(bind(x, multipliers, objective_factor), values);
 }
 
 }  // namespace dmocbench

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/transcription/assembled_tape.hpp"
+#include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/grid.hpp"
 #include "methods/transcription/interval_functions.hpp"
@@ -20,7 +22,7 @@ namespace dmocbench {
 
 /// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval.
 ///
-/// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, exact derivatives,
+/// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, derivatives,
 /// boundary conditions. The cost is multiplied by `Problem::cost_scale`. Boundary conditions: q_0, q_N (and p or v
 /// there, where nodes carry them) are fixed by bounds; for DMOC the rows of nodes 0 and N are p⁰ + (∂A/∂q_0 + W) = 0
 /// (eq:gDLOCP3) and -p^T + (∂A/∂q_N + W) = 0 (rem:inifinalvel), with p⁰ = L_v(q⁰, v⁰) in the bounds.
@@ -28,8 +30,10 @@ class Transcription final : public NonlinearProgram {
  public:
   /// Traces the problem on one interval and sets everything up for the grid. Throws `Error` if the grid has too few
   /// intervals (fewer free variables than rows; the sentence names the smallest number), or the problem is not well
-  /// posed.
-  Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid);
+  /// posed. `derivatives` names the back end of gradient, Jacobian and Hessian (`derivative_back_end_names`; the
+  /// default is exact); values, momenta and costates come from the formulas whatever it is.
+  Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid,
+                std::string_view derivatives = "tape");
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
   [[nodiscard]] std::size_t constraint_count() const override { return layout_.row_count(); }
@@ -85,10 +89,8 @@ class Transcription final : public NonlinearProgram {
   AssembledPattern jacobian_pattern_;
   AssembledPattern hessian_pattern_;
   AssembledTape cost_;
-  AssembledTape gradient_;
   AssembledTape rows_;
-  AssembledTape jacobian_;
-  AssembledTape hessian_;
+  std::unique_ptr<DerivativeBackEnd> derivatives_;
   Eigen::VectorXd costs_;  // per interval
 };
 

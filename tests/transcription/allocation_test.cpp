@@ -29,7 +29,7 @@ extern "C" void* malloc(std::size_t size) noexcept {
 namespace dmocbench {
 namespace {
 
-class Evaluations : public testing::TestWithParam<std::string> {
+class Evaluations : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   void SetUp() override {
     if (!DMOCBENCH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "malloc is not ours in this build";
@@ -48,7 +48,9 @@ TEST_P(Evaluations, AllocateNothing) {
   for (const std::string& name : problem_names()) {
     const auto problem = make_problem(name);
     for (const int stages : {1, 2, 3}) {
-      const auto program = tests::transcribe(*problem, {GetParam(), stages}, Grid::uniform(70));
+      const auto& [method, derivatives] = GetParam();
+      const auto program = std::make_unique<Transcription>(*problem, *make_element(method), gauss_tableau(stages),
+                                                           Grid::uniform(70), derivatives);
       const Eigen::VectorXd x = sample(*program, guessed_motion(*problem));
       const auto rows = static_cast<Eigen::Index>(program->constraint_count());
       const Eigen::VectorXd multipliers = Eigen::VectorXd::Ones(rows);
@@ -69,8 +71,13 @@ TEST_P(Evaluations, AllocateNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Evaluations, testing::ValuesIn(element_names()),
-                         [](const auto& instance) { return instance.param; });
+// The drivers of ADOL-C allocate; all else does not.
+INSTANTIATE_TEST_SUITE_P(All, Evaluations,
+                         testing::Combine(testing::ValuesIn(element_names()),
+                                          testing::Values("tape", "finite_differences", "forward_differences")),
+                         [](const auto& instance) {
+                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
+                         });
 
 }  // namespace
 }  // namespace dmocbench

@@ -1,0 +1,80 @@
+#include "bench/derivatives/derivative_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "methods/expression/replay.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Position = std::pair<int, int>;
+
+/// Values of a sparse matrix, added up entry by entry.
+class SparseSum {
+ public:
+  explicit SparseSum(const SparsityPattern& pattern) : values_(pattern.size(), 0.0L) {
+    for (std::size_t e = 0; e < pattern.size(); ++e) entry_at_[{pattern.rows[e], pattern.columns[e]}] = e;
+  }
+  void add(std::size_t row, std::size_t column, long double value) {
+    values_[entry_at_.at({static_cast<int>(row), static_cast<int>(column)})] += value;
+  }
+  [[nodiscard]] std::vector<long double> values() && { return std::move(values_); }
+
+ private:
+  std::map<Position, std::size_t> entry_at_;
+  std::vector<long double> values_;
+};
+
+}  // namespace
+
+DerivativeReference reference_derivatives(const Transcription& program, const Eigen::VectorXd& x,
+                                          double objective_factor, const Eigen::VectorXd& multipliers) {
+  const IntervalFunctions& functions = program.functions();
+  const IntervalInputs& numbers = functions.inputs;
+  const Layout& layout = program.layout();
+  SparseSum jacobian(program.jacobian_structure());
+  SparseSum hessian(program.hessian_structure());
+  std::vector<long double> inputs(numbers.count());
+  for (std::size_t k = 0; k < layout.intervals(); ++k) {
+    const auto unknown = [&](std::size_t a) { return layout.unknown_firsts()[a] + k; };
+    const auto row = [&](std::size_t r) { return layout.row_firsts()[r] + k; };
+    for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs[a] = x[static_cast<Eigen::Index>(unknown(a))];
+    inputs[numbers.step()] = program.steps()[static_cast<Eigen::Index>(k)];
+    inputs[numbers.time()] = program.node_times()[static_cast<Eigen::Index>(k)];
+    inputs[numbers.objective_factor()] = objective_factor;
+    for (std::size_t r = 0; r < numbers.rows; ++r) {
+      inputs[numbers.multiplier(r)] = multipliers[static_cast<Eigen::Index>(row(r))];
+    }
+    const std::span<const long double> point(inputs);
+    const std::vector<long double> first = replay<long double>(functions.jacobian.schedule, point);
+    for (std::size_t e = 0; e < first.size(); ++e) {
+      jacobian.add(row(functions.jacobian.rows[e]), unknown(functions.jacobian.columns[e]), first[e]);
+    }
+    const std::vector<long double> second = replay<long double>(functions.hessian.schedule, point);
+    for (std::size_t e = 0; e < second.size(); ++e) {
+      const auto [column, lower] =
+          std::minmax({unknown(functions.hessian.rows[e]), unknown(functions.hessian.columns[e])});
+      hessian.add(lower, column, second[e]);
+    }
+  }
+  return {std::move(jacobian).values(), std::move(hessian).values()};
+}
+
+double relative_error(const Eigen::VectorXd& values, const std::vector<long double>& reference) {
+  long double largest = 0.0L;
+  long double difference = 0.0L;
+  for (std::size_t e = 0; e < reference.size(); ++e) {
+    const double value = values[static_cast<Eigen::Index>(e)];
+    if (std::isnan(value)) return value;
+    largest = std::max(largest, std::abs(reference[e]));
+    difference = std::max(difference, std::abs(value - reference[e]));
+  }
+  return static_cast<double>(difference / largest);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/expression/tape.hpp"
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/interval_functions.hpp"
+
+namespace dmocbench {
+
+/// Where an interval's derivatives stand in the program's arrays: entry e of interval k at firsts[e] + k (see
+/// `ColumnAssembly`), entries in the order of `IntervalFunctions::gradient`, `jacobian` and `hessian`.
+struct DerivativePlaces {
+  std::size_t intervals = 0;
+  std::vector<std::size_t> gradient_firsts;
+  std::size_t gradient_size = 0;  ///< of the program's array
+  std::vector<std::size_t> jacobian_firsts;
+  std::size_t jacobian_size = 0;
+  std::vector<std::size_t> hessian_firsts;
+  std::size_t hessian_size = 0;
+};
+
+/// A way to differentiate the formulas of an interval: fills the program's arrays for all intervals of its grid.
+///
+/// All back ends fill the same entries, so a solver sees the same program: which entries vanish for every motion is
+/// known from the formulas. Not to be used from two threads at once.
+class DerivativeBackEnd {
+ public:
+  /// The inputs of all intervals in the order of `IntervalInputs`; multipliers are read by `hessian` only.
+  using Inputs = std::span<const Tape::Input>;
+
+  virtual ~DerivativeBackEnd() = default;
+  DerivativeBackEnd(const DerivativeBackEnd&) = delete;
+  DerivativeBackEnd& operator=(const DerivativeBackEnd&) = delete;
+  DerivativeBackEnd(DerivativeBackEnd&&) = delete;
+  DerivativeBackEnd& operator=(DerivativeBackEnd&&) = delete;
+
+  /// ∂cost/∂unknown; `result` has `gradient_size` entries.
+  virtual void gradient(Inputs inputs, VectorOut result) = 0;
+  /// ∂row/∂unknown; `values` has `jacobian_size` entries.
+  virtual void jacobian(Inputs inputs, VectorOut values) = 0;
+  /// ∂²ℓ/∂unknown², one triangle; `values` has `hessian_size` entries.
+  virtual void hessian(Inputs inputs, VectorOut values) = 0;
+
+ protected:
+  DerivativeBackEnd() = default;
+};
+
+/// Names of the back ends there are, the default (`tape`) first: tape, adolc (if ADOL-C was found when this was built),
+/// finite_differences, forward_differences.
+[[nodiscard]] std::vector<std::string> derivative_back_end_names();
+
+/// One line. Throws `Error` as `make_derivative_back_end` does.
+[[nodiscard]] std::string derivative_back_end_description(std::string_view name);
+
+/// The back end of that name for the intervals of one grid; `functions` is read here only. Throws `Error` that lists
+/// the names if there is none, and says what is missing if it was left out of this build.
+[[nodiscard]] std::unique_ptr<DerivativeBackEnd> make_derivative_back_end(std::string_view name,
+                                                                          const IntervalFunctions& functions,
+                                                                          const DerivativePlaces& places);
+
+}  // namespace dmocbench

@@ -1,0 +1,166 @@
+// Every back end against the symbolic derivatives: the same entries, each as exact as its method can be.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "methods/transcription/finite_differences.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::RandomPoints;
+using tests::Scheme;
+
+struct Derivatives {
+  Eigen::VectorXd gradient;
+  Eigen::VectorXd jacobian;
+  Eigen::VectorXd hessian;
+};
+
+/// Largest differences relative to the largest entry.
+struct Differences {
+  double gradient;
+  double jacobian;
+  double hessian;
+};
+
+double relative(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
+}
+
+Differences operator-(const Derivatives& a, const Derivatives& b) {
+  return {relative(a.gradient, b.gradient), relative(a.jacobian, b.jacobian), relative(a.hessian, b.hessian)};
+}
+
+bool offers(const std::string& name) {
+  const auto names = derivative_back_end_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The derivatives of one back end at a point near the guess, where both problems are regular; the arrays start as NaN,
+/// so that an entry that is not written shows.
+Derivatives derivatives_by(const std::string& back_end, const Problem& problem, const Scheme& scheme,
+                           const Grid& grid) {
+  Transcription program(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid, back_end);
+  RandomPoints random;
+  Eigen::VectorXd x = sample(program, guessed_motion(problem));
+  x += random.vector(x.size(), -0.2, 0.2);
+  const Eigen::VectorXd multipliers = random.vector(static_cast<Eigen::Index>(program.constraint_count()));
+  const auto array = [](std::size_t size) {
+    return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")).eval();
+  };
+  Derivatives result{array(program.variable_count()), array(program.jacobian_structure().size()),
+                     array(program.hessian_structure().size())};
+  // Twice: nothing may be left behind by an evaluation elsewhere.
+  for (const Eigen::VectorXd& point : {(x.array() + 0.1).matrix().eval(), x}) {
+    program.gradient(point, result.gradient);
+    program.jacobian(point, result.jacobian);
+    program.hessian(point, 0.7, multipliers, result.hessian);
+  }
+  return result;
+}
+
+class BackEnds : public testing::TestWithParam<std::tuple<std::string, std::string, int>> {
+ protected:
+  [[nodiscard]] Derivatives by(const std::string& back_end) const {
+    return derivatives_by(back_end, *problem_, scheme_, grid_);
+  }
+  [[nodiscard]] Differences from_exact(const std::string& back_end) const { return by(back_end) - by("tape"); }
+
+  std::unique_ptr<Problem> problem_ = std::get<0>(GetParam()) == "moving_frame" ? std::make_unique<tests::MovingFrame>()
+                                                                                : make_problem(std::get<0>(GetParam()));
+  Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam())};
+  Grid grid_ = tests::graded_grid(7);
+};
+
+TEST_P(BackEnds, AdolcAgreesToRounding) {
+  if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
+  const Differences found = from_exact("adolc");
+  EXPECT_LT(found.gradient, 1e-13);
+  EXPECT_LT(found.jacobian, 1e-13);
+  EXPECT_LT(found.hessian, 1e-13);
+}
+
+TEST_P(BackEnds, CentralDifferencesHaveTwoThirdsOfTheDigitsAndHalfOfThemInTheHessian) {
+  const Differences found = from_exact("finite_differences");
+  EXPECT_LT(found.gradient, 1e-8);
+  EXPECT_LT(found.jacobian, 1e-8);
+  EXPECT_LT(found.hessian, 1e-6);
+}
+
+TEST_P(BackEnds, ForwardDifferencesHaveHalfOfTheDigitsAndAThirdInTheHessian) {
+  const Differences found = from_exact("forward_differences");
+  EXPECT_LT(found.gradient, 1e-6);
+  EXPECT_LT(found.jacobian, 1e-6);
+  EXPECT_LT(found.hessian, 1e-3);
+}
+
+TEST_P(BackEnds, ForwardDifferencesAreWorseThanCentralOnes) {
+  const Differences central = from_exact("finite_differences");
+  const Differences forward = from_exact("forward_differences");
+  EXPECT_GT(forward.jacobian, 10.0 * central.jacobian);
+  EXPECT_GT(forward.hessian, 10.0 * central.hessian);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BackEnds,
+                         testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
+                                          testing::ValuesIn(element_names()), testing::Values(1, 2)),
+                         [](const auto& instance) {
+                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +
+                                  std::to_string(std::get<2>(instance.param));
+                         });
+
+TEST(DifferenceStep, BalancesTruncationAndRounding) {
+  // Truncation step^p against rounding ε / step^d: p + d is the root.
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  EXPECT_NEAR(std::pow(difference_step(DifferenceKind::forward, 1), 2) / epsilon, 1.0, 1e-12);
+  EXPECT_NEAR(std::pow(difference_step(DifferenceKind::central, 1), 3) / epsilon, 1.0, 1e-12);
+  EXPECT_NEAR(std::pow(difference_step(DifferenceKind::forward, 2), 3) / epsilon, 1.0, 1e-12);
+  EXPECT_NEAR(std::pow(difference_step(DifferenceKind::central, 2), 4) / epsilon, 1.0, 1e-12);
+}
+
+TEST(BackEndRegistry, BeginsWithTheTapeAndDescribesAll) {
+  const auto names = derivative_back_end_names();
+  EXPECT_EQ(names.front(), "tape");
+  for (const std::string& name : names) EXPECT_FALSE(derivative_back_end_description(name).empty()) << name;
+}
+
+TEST(BackEndRegistry, RefusesAnUnknownNameAndListsThoseThereAre) {
+  const auto problem = make_problem("orbital_transfer");
+  const auto with = [&](const std::string& name) {
+    Transcription(*problem, *make_element("dmoc"), gauss_tableau(1), Grid::uniform(8), name);
+  };
+  tests::expect_error_naming({"magic", "tape", "finite_differences", "forward_differences"}, [&] { with("magic"); });
+  if (!offers("adolc")) tests::expect_error_naming({"adolc", "install", "tape"}, [&] { with("adolc"); });
+}
+
+TEST(BackEndRegistry, ManyAdolcProgramsLiveSideBySide) {
+  if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
+  const auto problem = make_problem("two_link_manipulator");
+  const auto make = [&](const std::string& method) {
+    return std::make_unique<Transcription>(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(6),
+                                           "adolc");
+  };
+  const auto jacobian_of = [&](Transcription& program) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+    program.jacobian(sample(program, guessed_motion(*problem)), values);
+    return values;
+  };
+  const auto first = make("dmoc");
+  const Eigen::VectorXd before = jacobian_of(*first);
+  for (int i = 0; i < 3; ++i) {
+    const auto other = make("tangent");
+    static_cast<void>(jacobian_of(*other));
+  }
+  EXPECT_EQ(jacobian_of(*first), before);
+}
+
+}  // namespace
+}  // namespace dmocbench
