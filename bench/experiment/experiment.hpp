@@ -32,6 +32,8 @@ class Experiment {
   [[nodiscard]] virtual std::string default_intervals() const = 0;
   /// The back ends of derivatives unless the user chooses.
   [[nodiscard]] virtual std::vector<std::string> default_derivatives() const { return {"tape"}; }
+  /// Changes what else is chosen unless the user chooses.
+  virtual void set_defaults(ExperimentOptions& /*options*/) const {}
   /// Columns behind the core ones.
   [[nodiscard]] virtual std::vector<std::string> own_columns() const = 0;
 
