@@ -2,6 +2,8 @@
 #   awk -f rows.awk [-v where=problem=a,method=b] [-v need=column] [-v without=column] TABLE
 #       the header and the rows that were solved on the same branch, meet every condition of `where`, have a value above
 #       zero in `need` and an empty field in `without`
+#   awk -f rows.awk -v take=unsolved ... TABLE       (or take=all)
+#       the same of the rows that were tried and not solved, or of both
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
 #       of those rows, the distinct values: words such as problem=a,method=b, which serve as `where` again
 #   awk -f rows.awk -v missing=step,state_error TABLE
@@ -27,8 +29,13 @@ NR == 1 {
   next
 }
 
-"status" in position && $position["status"] != "solved" { next }
-"branch" in position && $position["branch"] != "same" { next }
+{
+  solved = !("status" in position) || $position["status"] == "solved"
+  same = !("branch" in position) || $position["branch"] == "same"
+}
+take == "" && !(solved && same) { next }
+take == "unsolved" && (solved || $position["status"] == "not run") { next }
+take == "all" && solved && !same { next }
 need != "" && !(need in position && $position[need] + 0 > 0) { next }
 without != "" && without in position && $position[without] != "" { next }
 

@@ -1,0 +1,68 @@
+# What a solve takes and reaches with each back end of derivatives: section 4.1, "Automatic Differentiation".
+#   gnuplot -e "results='results'" plots/derivatives.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("derivatives",\
+    "problem,method,tableau,stages,solver,derivatives,hessian,status,branch,intervals,seconds,kkt_residual")
+
+# One style per back end; filled and joined where solved, open and alone where not.
+names = "tape adolc finite_differences forward_differences"
+orange = "#E69F00"; sky = "#56B4E9"
+colour(i) = i == 1 ? blue : i == 2 ? vermilion : i == 3 ? green : i == 4 ? purple : i == 5 ? orange : sky
+filled(i) = word("7 5 9 11 13 15", i) + 0
+open(i) = filled(i) - 1
+label_of(i) = i == 1 ? "tape (exact, ours)" : i == 2 ? "ADOL-C (exact)" : i == 3 ? "central differences"\
+    : i == 4 ? "forward differences" : i == 5 ? "tape, quasi-Newton Hessian" : "forward differences, quasi-Newton Hessian"
+dashes(i) = i > 4 ? 2 : 1  # of a quasi-Newton Hessian
+curve_of(i) = i == 5 ? "derivatives=tape,hessian=limited_memory"\
+    : i == 6 ? "derivatives=forward_differences,hessian=limited_memory"\
+    : "derivatives=".word(names, i).",hessian=exact"
+
+taken(take, where, need) = "< ".rows_awk("-v take=".take." -v where='".where."' -v need=".need, "derivatives")
+counted(take, where, need) = system(rows_awk("-v take=".take." -v where='".where."' -v need=".need, "derivatives").\
+    " | wc -l") - 1
+
+quantities = "seconds kkt_residual"
+problems = system(rows_awk("-v take=all -v distinct=problem -v need=seconds", "derivatives"))
+
+do for [problem_word in problems] {
+  problem = entry(problem_word, "problem")
+  methods = system(rows_awk("-v take=all -v distinct=method -v where='".problem_word."'", "derivatives"))
+  where = problem_word.",".word(methods, 1).",".word(system(rows_awk(\
+      "-v take=all -v distinct=tableau,stages,solver -v where='".problem_word."'", "derivatives")), 1)
+  solved = ""; unsolved = ""; shown = ""
+  do for [i = 1:6] {
+    if (counted("''", where.",".curve_of(i), "seconds") > 0) { solved = solved." ".i }
+    if (counted("unsolved", where.",".curve_of(i), "kkt_residual") > 0) { unsolved = unsolved." ".i }
+  }
+  do for [i = 1:6] { if (strstrt(solved.unsolved, "".i) > 0) { shown = shown." ".i } }
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_derivatives", 1100, 640)
+    set multiplot layout 1, 2 title title_text(problem_label(problem).": with exact derivatives ".\
+        method_label(entry(where, "method"))." is solved on every grid, fastest by the tape", "",\
+        "Open markers: not solved; the time spent, which is limited, and the residual reached when the solve ended.")\
+        offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.87 spacing 0.1
+    do for [q = 1:2] {
+      quantity = word(quantities, q)
+      unset logscale; set autoscale
+      stats taken("all", where, quantity) using (column("intervals")):(column(quantity)) name 'S' nooutput
+      eval intervals_axis
+      eval power_axis("y")
+      eval set_range("x", S_min_x, S_max_x, 1.25)
+      eval set_range("y", S_min_y, S_max_y, q == 1 ? 1.6 : 4)
+      set ylabel (q == 1 ? "time of the solver [s]" : "KKT residual reached, by exact derivatives")
+      if (q == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
+      plot for [i in shown] keyentry with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
+               pointtype filled(i + 0) pointsize 0.75 title label_of(i + 0),\
+           for [i in solved] taken("''", where.",".curve_of(i + 0), quantity)\
+               using (column("intervals")):(column(quantity))\
+               with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
+               pointtype filled(i + 0) pointsize 0.75,\
+           for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
+               using (column("intervals")):(column(quantity))\
+               with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_derivatives")
+  }
+}
