@@ -68,7 +68,7 @@ class Derivatives final : public Experiment {
     return all;
   }
 
-  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) const override {
+  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) override {
     if (what.variant == limited_memory) common.passed_on.emplace("hessian_approximation", "limited-memory");
     if (is_exact(what.derivatives) && what.variant.empty()) return common;
     const Answer* exact = partner_of(what);

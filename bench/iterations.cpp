@@ -58,7 +58,7 @@ class Iterations final : public Experiment {
     }
     return all;
   }
-  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) const override {
+  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) override {
     if (what.solver == "sqp") common.passed_on["crash"] = what.variant;
     return common;
   }

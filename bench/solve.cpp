@@ -4,6 +4,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/trace_file.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 
@@ -21,9 +22,29 @@ class Solve final : public Experiment {
   }
   [[nodiscard]] std::string default_intervals() const override { return "128"; }
   [[nodiscard]] std::vector<std::string> own_columns() const override { return {"replay_error"}; }
-  void check(const std::vector<Case>& cases) override { single_ = cases.size() == 1; }
+  void add_options(CLI::App& app) override {
+    app.add_option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
+  }
+  void check(const std::vector<Case>& cases) override {
+    single_ = cases.size() == 1;
+    if (!trace_file_.empty() && (!single_ || cases.front().solver != "sqp")) {
+      throw Error("--trace needs exactly one case, solved by --solver sqp");
+    }
+  }
+  [[nodiscard]] SolverOptions options_for(const Case& /*what*/, SolverOptions common) override {
+    if (trace_file_.empty()) return common;
+    common.on_minor_iteration = [this](const MinorIteration& minor) {
+      if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
+      trace_.push_back(minor);
+    };
+    return common;
+  }
 
   void complete(SolvedCase& solved) override {
+    if (!trace_file_.empty()) {
+      const auto variables = static_cast<Eigen::Index>(*solved.row.number("variables"));
+      write_file(trace_file_, trace_table(trace_, variables).csv());
+    }
     if (!solved.trajectory) return;
     try {
       solved.row.set("replay_error", replay_error(*solved.what.problem, *solved.trajectory).norm());
@@ -55,6 +76,8 @@ class Solve final : public Experiment {
     Trajectory trajectory;
   };
   bool single_ = true;
+  std::string trace_file_;
+  std::vector<MinorIteration> trace_;
   std::vector<SolvedMotion> motions_;
 };
 

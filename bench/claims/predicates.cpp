@@ -17,8 +17,6 @@ std::vector<Claim> claims_without_experiment() {
   const std::string o = orbit;
   const std::string t = two_link;
   return {
-      open(o + "/automatic_differentiation", "section 4.1", "faster and more robust than finite differences"),
-      open(t + "/automatic_differentiation", "section 4.1", "faster and more robust than finite differences"),
       open(t + "/order_of_adjoint_scheme", "th:orderapp", "the adjoint scheme has the order of the state scheme"),
       open(t + "/order_of_convergence", "main_theorem", "order kappa for state, costate and u(x, psi) at the nodes"),
       open(t + "/order_of_consistency", "th:ordercalculation",
@@ -50,6 +48,7 @@ std::vector<Claim> judge_claims(const ResultTables& tables) {
     claims.push_back(minor_iterations_claim(tables, problem));
     claims.push_back(agreement_claim(tables, problem));
     claims.push_back(crash_claim(tables, problem));
+    claims.push_back(derivatives_claim(tables, problem));
   }
   for (const Row* row : tables.rows("slips")) claims.push_back(slip_claim(*row));
   for (Claim& claim : claims_without_experiment()) claims.push_back(std::move(claim));

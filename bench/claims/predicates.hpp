@@ -34,6 +34,8 @@ namespace dmocbench {
 [[nodiscard]] Claim agreement_claim(const ResultTables& tables, const std::string& problem);
 /// The same ratio where the first basis is chosen for free.
 [[nodiscard]] Claim crash_claim(const ResultTables& tables, const std::string& problem);
+/// Derivatives by automatic differentiation against finite differences.
+[[nodiscard]] Claim derivatives_claim(const ResultTables& tables, const std::string& problem);
 /// A row of the table of slips.
 [[nodiscard]] Claim slip_claim(const Row& row);
 

@@ -42,7 +42,7 @@ class Experiment {
   /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
-  [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) const { return common; }
+  [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
   /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.

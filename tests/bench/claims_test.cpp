@@ -92,6 +92,22 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
     }
   }
   finish("iterations", iterations);
+  std::vector<Row> derivatives;
+  for (const std::string method : methods) {
+    for (const char* back_end : {"tape", "adolc", "finite_differences", "forward_differences"}) {
+      for (const long long intervals : {16LL, 1024LL}) {
+        Row row = solved_row(method, intervals);
+        row.set("solver", "ipopt");
+        row.set("derivatives", back_end);
+        row.set("hessian", "exact");
+        const bool exact = back_end == std::string("tape") || back_end == std::string("adolc");
+        if (!exact && intervals == 1024) row.set("status", "acceptable");
+        row.set("seconds", exact ? 0.01 : 0.03);
+        derivatives.push_back(row);
+      }
+    }
+  }
+  finish("derivatives", derivatives);
   return result;
 }
 
@@ -108,7 +124,8 @@ bool is(const Row& row, const std::string& method) { return row.text("method") =
 TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
   for (const char* claim :
        {"state_slope", "control_slope", "momentum_consistency", "equal_solutions", "tangent_differs", "variable_ratio",
-        "objective_evolution", "reference_step", "minor_iteration_ratio", "minor_iterations_equal_variable_ratio"}) {
+        "objective_evolution", "reference_step", "minor_iteration_ratio", "minor_iterations_equal_variable_ratio",
+        "automatic_differentiation"}) {
     EXPECT_EQ(verdict_on(claim, tables()), Verdict::reproduced) << claim;
   }
 }
@@ -179,6 +196,27 @@ TEST(Claims, EqualCountsFromACrashBasisSayThatTheSavingIsTheStarts) {
     if (row.text("crash") == "basis") row.set("minor_iterations", *row.number("free_variables") + 3.0);
   });
   EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", doctored), Verdict::reproduced);
+}
+
+TEST(Claims, DifferencesThatAreAsRobustOrFasterThanExactDerivativesDiffer) {
+  const auto is_difference = [](const Row& row) { return row.text("derivatives").ends_with("differences"); };
+  EXPECT_EQ(verdict_on("automatic_differentiation", tables("derivatives",
+                                                           [&](Row& row) {
+                                                             if (is_difference(row)) row.set("status", "solved");
+                                                           })),
+            Verdict::differs);
+  EXPECT_EQ(verdict_on("automatic_differentiation", tables("derivatives",
+                                                           [&](Row& row) {
+                                                             if (is_difference(row)) row.set("seconds", 0.005);
+                                                           })),
+            Verdict::differs);
+  EXPECT_EQ(verdict_on("automatic_differentiation", tables("derivatives",
+                                                           [](Row& row) {
+                                                             if (row.text("derivatives") == "adolc") {
+                                                               row.set("status", "step failed");
+                                                             }
+                                                           })),
+            Verdict::differs);
 }
 
 TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
