@@ -51,11 +51,12 @@ class Solve final : public Experiment {
     } catch (const Error& error) {
       solved.row.set("message", solved.row.text("message") + " " + error.what());
     }
-    if (is_solved(solved.solution.status)) motions_.push_back({solved.what, *solved.trajectory});
+    if (!is_solved(solved.solution.status)) return;
+    motions_.push_back({solved.what, *solved.trajectory, solved.solution.multipliers_are_estimated});
   }
 
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    for (const auto& [what, trajectory] : motions_) {
+    for (const auto& [what, trajectory, costates_are_estimated] : motions_) {
       const std::string file = single_ ? prefix.string() : prefix.string() + "_" + what.file_label();
       write_file(file + "_stages.csv", stage_table(*what.problem, trajectory).csv());
       write_file(file + "_picture.csv", picture_table(*what.problem, trajectory).csv());
@@ -65,7 +66,8 @@ class Solve final : public Experiment {
                                      {"method", what.method},
                                      {"tableau", what.tableau},
                                      {"stages", what.stages},
-                                     {"intervals", what.intervals()}});
+                                     {"intervals", what.intervals()},
+                                     {"costates_are_estimated", costates_are_estimated}});
       fmt::print("solve: {}: {}_nodes.csv\n", what.label(), file);
     }
   }
@@ -74,6 +76,7 @@ class Solve final : public Experiment {
   struct SolvedMotion {
     Case what;
     Trajectory trajectory;
+    bool costates_are_estimated;  // by least squares, where the solver gave no multipliers
   };
   bool single_ = true;
   std::string trace_file_;

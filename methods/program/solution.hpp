@@ -14,11 +14,13 @@ struct Solution {
   Status status = Status::not_run;
   std::string message;          ///< one sentence: what happened
   Eigen::VectorXd primal;       ///< ξ, variable_count() entries; empty if the solver never started
-  Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if the solver gives none
-  double objective = 0.0;       ///< φ at `primal`, as the solver saw it (scaled)
+  Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if there is no point to have them at
+  /// The solver gave none, so they are the least-squares multipliers of its point (least_squares_multipliers.hpp).
+  bool multipliers_are_estimated = false;
+  double objective = 0.0;  ///< φ at `primal`, as the solver saw it (scaled)
 
   // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
-  std::optional<double> kkt_residual;          ///< none without multipliers
+  std::optional<double> kkt_residual;          ///< none if the solver never started
   std::optional<double> constraint_violation;  ///< none if the solver never started
 
   // Counts; none where a solver does not tell them.

@@ -1,28 +1,48 @@
 #include "methods/solvers/confirm.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "methods/program/kkt_residual.hpp"
+#include "methods/program/least_squares_multipliers.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-bool confirms(const NonlinearProgram& program, double tolerance, const Solution& solution) {
-  const double floor = program.rounding_floor();
-  if (!(*solution.constraint_violation <= confirmation_factor * std::max(tolerance, floor))) return false;
-  if (!solution.kkt_residual) return true;
+Status judged(Status claim, double misses) {
+  if (misses <= confirmation_factor) return Status::solved;
+  const bool is_near = misses <= confirmation_factor * acceptable_factor;
+  return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
+}
+
+}  // namespace
+
+void measure(NonlinearProgram& program, Solution& solution) {
+  solution.objective = program.objective(solution.primal);
+  if (static_cast<std::size_t>(solution.multipliers.size()) != program.constraint_count()) {
+    solution.multipliers = least_squares_multipliers(program, solution.primal);
+    solution.multipliers_are_estimated = true;
+  }
+  const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);
+  solution.kkt_residual = residual.stationarity;
+  solution.constraint_violation = residual.constraint_violation;
+}
+
+double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution) {
   constexpr double multiplier_scale = 100.0;
+  const double floor = program.rounding_floor();
   const bool has_multipliers = solution.multipliers.size() > 0;
   const double mean =
       has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
   const double largest = has_multipliers ? solution.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  const double allowed = confirmation_factor *
-                         std::max(tolerance * std::max(1.0, mean / multiplier_scale), floor * std::max(1.0, largest));
-  return *solution.kkt_residual <= allowed;
+  const double allowed = std::max(tolerance * std::max(1.0, mean / multiplier_scale), floor * std::max(1.0, largest));
+  const double stationarity = solution.kkt_residual.value_or(unbounded) / allowed;
+  const double violation = solution.constraint_violation.value_or(unbounded) / std::max(tolerance, floor);
+  return std::isnan(stationarity) ? stationarity
+         : std::isnan(violation)  ? violation
+                                  : std::max(stationarity, violation);
 }
-
-}  // namespace
 
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
   if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) {
@@ -30,21 +50,10 @@ void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
     solution.message = sentence_of(solution.status);
     return;
   }
-  solution.objective = program.objective(solution.primal);
-  if (static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count()) {
-    const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);
-    solution.kkt_residual = residual.stationarity;
-    solution.constraint_violation = residual.constraint_violation;
-  } else {
-    solution.constraint_violation = constraint_violation(program, solution.primal);
-  }
+  measure(program, solution);
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
-  if (confirms(program, tolerance, solution)) {
-    solution.status = Status::solved;
-  } else if (solution.status == Status::solved) {
-    solution.status = Status::not_confirmed;
-  }
+  solution.status = judged(solution.status, times_the_tolerance(program, tolerance, solution));
   solution.message = sentence_of(solution.status);
 }
 

@@ -5,16 +5,30 @@
 
 namespace dmocbench {
 
-/// Fills in what we compute ourselves (objective, KKT residual, constraint violation) and judges the solver's word.
+/// Fills in what we compute ourselves at `solution.primal`: objective, KKT residual, constraint violation; and, where
+/// the solver gave no multipliers, their least-squares estimate, so that its point is judged like everyone's.
+/// The point has variable_count() entries.
+void measure(NonlinearProgram& program, Solution& solution);
+
+/// How many times what `tolerance` allows a measured solution misses, NaN if it is not a number, infinity if it was not
+/// measured.
 ///
-/// A solution is confirmed as "solved" if stationarity is below `confirmation_factor` · max(tolerance · max(1,
-/// |λ|/100), rounding) and violation below `confirmation_factor` · max(tolerance, rounding), where |λ| is the mean
-/// magnitude of the multipliers (Ipopt scales its own test by it) and rounding = max(1, largest |λ|) times the
-/// program's rounding floor for stationarity. "Acceptable" becomes "solved" by the same test, and "solved" becomes "not
-/// confirmed" where it fails.
+/// Allowed are a stationarity of max(tolerance · max(1, |λ|/100), rounding · max(1, largest |λ|)), where |λ| is the
+/// mean magnitude of the multipliers (Ipopt scales its own test by it) and rounding the program's rounding floor, and a
+/// violation of max(tolerance, rounding).
+[[nodiscard]] double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution);
+
+/// Measures a solution and judges the solver's word.
+///
+/// It is confirmed as "solved" if it misses by at most `confirmation_factor` times the tolerance (see above).
+/// "Acceptable" becomes "solved" by the same test, and "solved" becomes "not confirmed" where it fails; so does
+/// "acceptable" beyond a hundred times what confirms.
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 
 /// How much larger than the tolerance our residual may be: ours is the plain largest entry, solvers scale theirs.
 inline constexpr double confirmation_factor = 10.0;
+
+/// How much farther than a solved one an acceptable solution may be.
+inline constexpr double acceptable_factor = 100.0;
 
 }  // namespace dmocbench

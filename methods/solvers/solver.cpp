@@ -6,6 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
+#include "methods/solvers/nlopt_solver.hpp"
 #include "methods/solvers/sqp/sqp_solver.hpp"
 
 namespace dmocbench {
@@ -26,13 +27,14 @@ std::unique_ptr<Solver> make(const SolverOptions& options) {
 constexpr std::array registry{
     Entry{"ipopt", make<IpoptSolver>},
     Entry{"sqp", make<SqpSolver>},
+    Entry{"nlopt", make<NloptSolver>},
 };
 
 }  // namespace
 
 void SolverOptions::validate() const {
   std::ostringstream text;
-  if (!(tolerance > 0.0 && tolerance < 1.0)) {
+  if (!(tolerance > 0.0) || !(tolerance < 1.0)) {
     text << "the tolerance must lie between 0 and 1, got " << tolerance;
   } else if (most_iterations < 1) {
     text << "the largest number of iterations must be at least 1, got " << most_iterations;
@@ -50,6 +52,7 @@ void require_start(const NonlinearProgram& program, const Eigen::VectorXd& start
 
 std::vector<std::string> solver_names() {
   std::vector<std::string> names;
+  names.reserve(registry.size());
   for (const Entry& entry : registry) names.emplace_back(entry.name);
   return names;
 }

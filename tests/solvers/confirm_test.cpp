@@ -48,13 +48,14 @@ TEST(Confirm, TakesSolvedBackWhereTheMultiplierIsWrong) {
 TEST(Confirm, TakesSolvedBackWhereARowIsViolated) {
   const Solution solution = claimed(Status::solved, vector({1.001, 1.001}), vector({-2.002}));
   EXPECT_EQ(solution.status, Status::not_confirmed);
-  EXPECT_NEAR(*solution.constraint_violation, 0.002, 1e-12);
+  EXPECT_NEAR(solution.constraint_violation.value_or(unbounded), 0.002, 1e-12);
 }
 
 TEST(Confirm, TakesSolvedBackWhereSomethingIsNotANumber) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(claimed(Status::solved, vector({nan, 1.0}), vector({-2.0})).status, Status::not_confirmed);
   EXPECT_EQ(claimed(Status::solved, vector({1.0, 1.0}), vector({nan})).status, Status::not_confirmed);
+  EXPECT_EQ(claimed(Status::solved, vector({nan, 1.0}), Eigen::VectorXd()).status, Status::not_confirmed);
 }
 
 TEST(Confirm, TurnsAcceptableIntoSolvedOnlyByTheSameTest) {
@@ -71,10 +72,29 @@ TEST(Confirm, NeverImprovesAFailure) {
   }
 }
 
-TEST(Confirm, LeavesTheResidualEmptyWithoutMultipliers) {
+TEST(Confirm, TakesAcceptableBackBeyondAHundredTimesTheTolerance) {
+  EXPECT_EQ(claimed(Status::acceptable, vector({1.0 + 1e-4, 1.0 - 1e-4}), vector({-2.0})).status,
+            Status::not_confirmed);
+}
+
+TEST(Confirm, JudgesAPointWithoutMultipliersByItsLeastSquaresMultipliers) {
   const Solution solution = claimed(Status::solved, vector({1.0, 1.0}), Eigen::VectorXd());
-  EXPECT_FALSE(solution.kkt_residual.has_value());
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_TRUE(solution.multipliers_are_estimated);
+  ASSERT_EQ(solution.multipliers.size(), 1);
+  EXPECT_NEAR(solution.multipliers[0], -2.0, 1e-15);
+  EXPECT_NEAR(solution.kkt_residual.value_or(unbounded), 0.0, 1e-15);
+}
+
+TEST(Confirm, TakesSolvedBackWhereAPointWithoutMultipliersIsOnlyFeasible) {
+  const Solution solution = claimed(Status::solved, vector({1.5, 0.5}), Eigen::VectorXd());
+  EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_EQ(solution.constraint_violation, 0.0);
+  EXPECT_NEAR(solution.kkt_residual.value_or(unbounded), 1.0, 1e-15);  // slopes 3 and 1, λ = -2
+}
+
+TEST(Confirm, DoesNotMarkMultipliersThatTheSolverGave) {
+  EXPECT_FALSE(claimed(Status::solved, vector({1.0, 1.0}), vector({-2.0})).multipliers_are_estimated);
 }
 
 TEST(Confirm, TakesNoEmptyAnswerForSolved) {

@@ -95,7 +95,7 @@ inline Eigen::VectorXd everywhere(Eigen::Index count, double value) { return Eig
 /// Free variables and rows equal to `row_values`.
 inline SmallProgram equality_program(std::function<HyperDual(const HyperVector&)> objective,
                                      std::function<HyperVector(const HyperVector&)> rows, Eigen::Index variables,
-                                     Eigen::VectorXd row_values) {
+                                     const Eigen::VectorXd& row_values) {
   return SmallProgram({std::move(objective), std::move(rows), everywhere(variables, -unbounded),
                        everywhere(variables, unbounded), row_values, row_values});
 }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// True at a point that violates rows and where, to first order, no variable that its bounds leave free can reduce the
+/// violation: with r the amounts by which rows leave their bounds, a step of max(1, |ξᵢ|) along (∂a/∂ξ)ᵀr changes ½|r|²
+/// by less than `least_violation_share` · |r|². Solvers that know no infeasible programs are asked for it where they
+/// end. `primal` has variable_count() entries; false where something is not a number.
+[[nodiscard]] bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
+
+/// See above; what a solve that fails leaves of a vanishing slope.
+inline constexpr double least_violation_share = 1e-3;
+
+}  // namespace dmocbench

@@ -1,0 +1,386 @@
+#include "methods/solvers/nlopt_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlopt.h>
+
+#include "methods/error.hpp"
+#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/least_violation.hpp"
+#include "methods/solvers/one_sided_rows.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Why we stopped NLopt, if we did.
+enum class OwnStop : std::uint8_t { none, converged, interrupted, not_finite, exception };
+
+/// How near a point is to what is asked for: points that meet the rows before those that do not.
+struct Nearness {
+  bool violates = true;
+  double misses = std::numeric_limits<double>::infinity();  // times the tolerance
+
+  [[nodiscard]] bool is_nearer_than(const Nearness& other) const {
+    return violates == other.violates ? misses < other.misses : other.violates;
+  }
+};
+
+/// True if `after` is nearer than `before` by a tenth.
+bool helped(const Nearness& before, const Nearness& after) {
+  return after.is_nearer_than({before.violates, 0.9 * before.misses});
+}
+
+/// The variables that NLopt sees.
+struct FreeVariables {
+  std::vector<Eigen::Index> indices;
+  std::vector<Eigen::Index> numbers;  // the inverse: -1 of a fixed variable
+
+  explicit FreeVariables(const NonlinearProgram& program) {
+    for (Eigen::Index i = 0; i < program.variable_lower().size(); ++i) {
+      const bool is_fixed = program.variable_lower()[i] == program.variable_upper()[i];
+      numbers.push_back(is_fixed ? -1 : static_cast<Eigen::Index>(indices.size()));
+      if (!is_fixed) indices.push_back(i);
+    }
+  }
+  [[nodiscard]] std::vector<double> of(const Eigen::VectorXd& all) const {
+    std::vector<double> result;
+    result.reserve(indices.size());
+    for (const Eigen::Index i : indices) result.push_back(all[i]);
+    return result;
+  }
+};
+
+/// NLopt's view of a program; it counts, judges the points that NLopt visits and keeps the best one.
+class ProgramForNlopt {
+ public:
+  ProgramForNlopt(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+                  Solution& solution)
+      : program_(program),
+        options_(options),
+        solution_(solution),
+        free_(program),
+        equalities_(program, OneSidedRows::Kind::equalities, free_.numbers, free_.indices.size()),
+        inequalities_(program, OneSidedRows::Kind::inequalities, free_.numbers, free_.indices.size()),
+        point_(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper())),
+        gradient_(point_.size()),
+        rows_(static_cast<Eigen::Index>(program.constraint_count())),
+        jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())) {
+    solution.primal = point_;
+  }
+
+  [[nodiscard]] std::vector<double> best_point() const { return free_.of(solution_.primal); }
+  [[nodiscard]] const Nearness& nearest() const noexcept { return nearest_; }
+  [[nodiscard]] std::size_t equality_count() const noexcept { return equalities_.size(); }
+  [[nodiscard]] OwnStop own_stop() const noexcept { return own_stop_; }
+  [[nodiscard]] const std::exception_ptr& exception() const noexcept { return exception_; }
+
+  /// States the program to NLopt, which must not outlive this.
+  void state(nlopt_opt handle) {
+    handle_ = handle;
+    nlopt_set_lower_bounds(handle, free_.of(program_.variable_lower()).data());
+    nlopt_set_upper_bounds(handle, free_.of(program_.variable_upper()).data());
+    nlopt_set_min_objective(handle, objective, this);
+    const std::vector<double> all_allowed(std::max(equalities_.size(), inequalities_.size()), row_tolerance());
+    if (!equalities_.empty()) {
+      nlopt_add_equality_mconstraint(handle, static_cast<unsigned>(equalities_.size()), equalities, this,
+                                     all_allowed.data());
+    }
+    if (!inequalities_.empty()) {
+      nlopt_add_inequality_mconstraint(handle, static_cast<unsigned>(inequalities_.size()), inequalities, this,
+                                       all_allowed.data());
+    }
+  }
+
+ private:
+  static ProgramForNlopt& from(void* data) { return *static_cast<ProgramForNlopt*>(data); }
+
+  static double objective(unsigned /*n*/, const double* x, double* gradient, void* data) noexcept {
+    ProgramForNlopt& self = from(data);
+    try {
+      return self.visit(x, gradient);
+    } catch (...) {  // NLopt is C: the exception waits until it has returned
+      self.exception_ = std::current_exception();
+      return self.stop(OwnStop::exception);
+    }
+  }
+  static void equalities(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
+                         void* data) noexcept {
+    from(data).copy(from(data).equalities_, values, gradient);
+  }
+  static void inequalities(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
+                           void* data) noexcept {
+    from(data).copy(from(data).inequalities_, values, gradient);
+  }
+
+  [[nodiscard]] double row_tolerance() const { return std::max(options_.tolerance, program_.rounding_floor()); }
+
+  double stop(OwnStop why) noexcept {
+    own_stop_ = why;
+    nlopt_force_stop(handle_);
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// The objective; infinity, from which SLSQP's line search turns back, where it or a row is not a number.
+  double visit(const double* x, double* gradient) {
+    if (options_.stop_requested && options_.stop_requested()) return stop(OwnStop::interrupted);
+    const bool is_start = !solution_.evaluations.has_value();
+    solution_.evaluations = solution_.evaluations.value_or(0) + 1;
+    const double value = evaluate(x, gradient != nullptr);
+    if (!std::isfinite(value) || !rows_.allFinite()) {
+      return is_start ? stop(OwnStop::not_finite) : std::numeric_limits<double>::infinity();
+    }
+    if (gradient == nullptr) return value;
+    if (!gradient_.allFinite() || !jacobian_.allFinite()) return stop(OwnStop::not_finite);
+    for (const Eigen::Index i : free_.indices) *gradient++ = gradient_[i];
+    return meets_the_tolerance() ? stop(OwnStop::converged) : value;
+  }
+
+  double evaluate(const double* x, bool with_derivatives) {
+    const auto start = Clock::now();
+    for (const Eigen::Index i : free_.indices) point_[i] = *x++;
+    const double value = program_.objective(point_);
+    program_.constraints(point_, rows_);
+    if (with_derivatives) {
+      program_.gradient(point_, gradient_);
+      program_.jacobian(point_, jacobian_);
+    }
+    solution_.evaluation_seconds += seconds_since(start);
+    return value;
+  }
+
+  bool meets_the_tolerance() {
+    Solution here;
+    here.primal = point_;
+    measure(program_, here);
+    const bool violates = !(here.constraint_violation.value_or(unbounded) <= row_tolerance());
+    const Nearness nearness{violates, times_the_tolerance(program_, options_.tolerance, here)};
+    if (nearness.is_nearer_than(nearest_)) {
+      nearest_ = nearness;
+      solution_.primal = point_;
+    }
+    return nearness.misses <= 1.0;
+  }
+
+  /// SLSQP asks for the rows where it has just asked for the objective, with the same wish for derivatives.
+  void copy(const OneSidedRows& rows, double* values, double* gradient) const noexcept {
+    rows.values(rows_, values);
+    if (gradient != nullptr) rows.jacobian(jacobian_, gradient);
+  }
+
+  NonlinearProgram& program_;
+  const SolverOptions& options_;
+  Solution& solution_;
+  FreeVariables free_;
+  OneSidedRows equalities_;
+  OneSidedRows inequalities_;
+  Eigen::VectorXd point_;
+  Eigen::VectorXd gradient_;
+  Eigen::VectorXd rows_;
+  Eigen::VectorXd jacobian_;
+  nlopt_opt handle_ = nullptr;
+  Nearness nearest_;
+  OwnStop own_stop_ = OwnStop::none;
+  std::exception_ptr exception_;
+};
+
+struct Setting {
+  std::string_view name;
+  nlopt_result (*set)(nlopt_opt, double);
+};
+
+constexpr std::array settings{
+    Setting{"ftol_rel", nlopt_set_ftol_rel},
+    Setting{"ftol_abs", nlopt_set_ftol_abs},
+    Setting{"xtol_rel", nlopt_set_xtol_rel},
+    Setting{"xtol_abs", nlopt_set_xtol_abs1},
+    Setting{"maxeval",
+            [](nlopt_opt handle, double value) { return nlopt_set_maxeval(handle, static_cast<int>(value)); }},
+    Setting{"maxtime", nlopt_set_maxtime},
+};
+
+const Setting& setting_named(std::string_view name) {
+  std::string known;
+  for (const Setting& setting : settings) {
+    if (setting.name == name) return setting;
+    known += (known.empty() ? "" : ", ") + std::string(setting.name);
+  }
+  throw Error("NLopt's SLSQP has no option \"" + std::string(name) + "\" here; choose one of " + known);
+}
+
+/// A number that is not negative, whole for maxeval.
+double value_of(const std::string& name, const std::string& text) {
+  const char* end = text.data() + text.size();
+  double value = 0.0;
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
+  if (error != std::errc() || read != end || !std::isfinite(value) || value < 0.0 || !is_whole) {
+    throw Error("NLopt does not take the option " + name + "=" + text + "; give a number that is not negative" +
+                (name == "maxeval" ? " and whole" : ""));
+  }
+  return value;
+}
+
+void set_options(nlopt_opt handle, const SolverOptions& options) {
+  nlopt_set_xtol_rel(handle, std::numeric_limits<double>::epsilon());
+  nlopt_set_maxeval(handle, options.most_iterations);
+  if (options.most_seconds > 0.0) nlopt_set_maxtime(handle, options.most_seconds);
+  for (const auto& [name, text] : options.passed_on) setting_named(name).set(handle, value_of(name, text));
+}
+
+/// True if what is allowed is not used up; allows NLopt the rest.
+bool allow_the_rest(nlopt_opt handle, int most_evaluations, int evaluations, double most_seconds, double seconds) {
+  if (most_evaluations > 0) nlopt_set_maxeval(handle, std::max(most_evaluations - evaluations, 1));
+  if (most_seconds > 0.0) nlopt_set_maxtime(handle, std::max(most_seconds - seconds, 1e-9));
+  return (most_evaluations <= 0 || evaluations < most_evaluations) && (most_seconds <= 0.0 || seconds < most_seconds);
+}
+
+/// Runs SLSQP. Where it can make no more of its digits, it starts afresh from its best point, without its quasi-Newton
+/// matrix, as long as that helps and is allowed; a tolerance that was passed on is the last word.
+nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const SolverOptions& options,
+                      const Solution& solution) {
+  const auto start_time = Clock::now();
+  const bool is_last_word = std::any_of(options.passed_on.begin(), options.passed_on.end(), [](const auto& option) {
+    return option.first.find("tol") != std::string::npos;
+  });
+  const int most_evaluations = nlopt_get_maxeval(handle);
+  const double most_seconds = nlopt_get_maxtime(handle);
+  const auto run = [&] {
+    std::vector<double> x = view.best_point();
+    double value = 0.0;
+    return nlopt_optimize(handle, x.data(), &value);
+  };
+  const nlopt_result first = run();
+  nlopt_result last = first;
+  while (!is_last_word && view.nearest().misses > confirmation_factor &&
+         (last == NLOPT_XTOL_REACHED || last == NLOPT_ROUNDOFF_LIMITED) &&
+         allow_the_rest(handle, most_evaluations, solution.evaluations.value_or(0), most_seconds,
+                        seconds_since(start_time))) {
+    const Nearness before = view.nearest();
+    last = run();
+    if (!helped(before, view.nearest())) break;
+  }
+  return first;
+}
+
+/// What NLopt says, unless we stopped it ourselves. It judges no KKT residual, so it cannot claim more than that it
+/// stopped: "acceptable", for our residual to confirm.
+Status claim_of(OwnStop own_stop, nlopt_result result) {
+  switch (own_stop) {
+    case OwnStop::none:
+      break;
+    case OwnStop::converged:
+      return Status::solved;
+    case OwnStop::interrupted:
+      return Status::interrupted;
+    case OwnStop::not_finite:
+      return Status::evaluation_failed;
+    case OwnStop::exception:
+      return Status::solver_error;
+  }
+  switch (result) {
+    case NLOPT_MAXEVAL_REACHED:
+      return Status::iteration_limit;
+    case NLOPT_MAXTIME_REACHED:
+      return Status::time_limit;
+    case NLOPT_OUT_OF_MEMORY:
+      return Status::out_of_memory;
+    case NLOPT_INVALID_ARGS:
+      return Status::invalid_program;
+    default:
+      return Status::acceptable;
+  }
+}
+
+Solution refused(Status status, std::string message) {
+  Solution solution;
+  solution.status = status;
+  solution.message = std::move(message);
+  return solution;
+}
+
+}  // namespace
+
+NloptSolver::NloptSolver(SolverOptions options) : options_(std::move(options)) {
+  options_.validate();
+  for (const auto& [name, text] : options_.passed_on) {
+    static_cast<void>(setting_named(name));
+    static_cast<void>(value_of(name, text));
+  }
+}
+
+std::string NloptSolver::description() const {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  nlopt_version(&major, &minor, &patch);
+  return "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt " + std::to_string(major) +
+         "." + std::to_string(minor) + "." + std::to_string(patch) + "), at most " +
+         std::to_string(most_free_variables) + " free variables";
+}
+
+Solution NloptSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
+  if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
+    throw Error("the start has " + std::to_string(start.size()) + " entries, the program " +
+                std::to_string(program.variable_count()) + " variables");
+  }
+  const std::size_t free_count = free_variable_count(program);
+  if (free_count > most_free_variables) {
+    return refused(Status::too_large, "NLopt's SLSQP is dense and takes at most " +
+                                          std::to_string(most_free_variables) + " free variables, the program has " +
+                                          std::to_string(free_count) + "; take fewer intervals or another solver.");
+  }
+  Solution solution;
+  ProgramForNlopt view(program, start, options_, solution);
+  if (free_count == 0) {  // NLopt wants a variable
+    solution.status = Status::acceptable;
+    confirm(program, options_.tolerance, solution);
+    return solution;
+  }
+  if (view.equality_count() > free_count) {
+    return refused(Status::invalid_program,
+                   "NLopt's SLSQP takes no more equalities than free variables, the program has " +
+                       std::to_string(view.equality_count()) + " and " + std::to_string(free_count) +
+                       "; free some variables.");
+  }
+  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> handle(
+      nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(free_count)), &nlopt_destroy);
+  if (!handle) return refused(Status::out_of_memory, std::string(sentence_of(Status::out_of_memory)));
+  view.state(handle.get());
+  set_options(handle.get(), options_);
+
+  const auto start_time = Clock::now();
+  const nlopt_result result = optimize(handle.get(), view, options_, solution);
+  solution.seconds = seconds_since(start_time);
+  if (view.exception()) std::rethrow_exception(view.exception());
+
+  solution.status = claim_of(view.own_stop(), result);
+  solution.message = sentence_of(solution.status);
+  confirm(program, options_.tolerance, solution);
+  if (solution.status == Status::not_confirmed) {
+    if (is_point_of_least_violation(program, solution.primal)) {
+      solution.status = Status::infeasible;
+    } else if (result < 0) {
+      solution.status = Status::step_failed;  // it did not claim to have solved anything
+    }
+    solution.message = sentence_of(solution.status);
+  }
+  return solution;
+}
+
+}  // namespace dmocbench
