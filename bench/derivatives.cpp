@@ -81,7 +81,7 @@ class Derivatives final : public Experiment {
   void complete(SolvedCase& solved) override {
     const Case& what = solved.what;
     solved.row.set("hessian", what.variant.empty() ? "exact" : what.variant);
-    if (what.derivatives == "tape" && what.variant.empty() && is_usable(solved.row)) {
+    if (solved.trajectory && what.derivatives == "tape" && what.variant.empty() && is_usable(solved.row)) {
       answers_.push_back({what, *solved.trajectory, solved.solution.seconds});
     }
     compare(solved);
