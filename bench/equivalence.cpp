@@ -57,7 +57,7 @@ class Equivalence final : public Experiment {
                            dmoc.what.stages == solved.what.stages && dmoc.what.solver == solved.what.solver &&
                            dmoc.what.derivatives == solved.what.derivatives &&
                            dmoc.trajectory.node_times == solved.trajectory->node_times;
-      if (partner) compare(dmoc.trajectory, solved);
+      if (partner) compare(dmoc.trajectory, *solved.trajectory, solved.what, solved.row);
     }
   }
 
@@ -67,9 +67,7 @@ class Equivalence final : public Experiment {
     Trajectory trajectory;
   };
 
-  static void compare(const Trajectory& dmoc, SolvedCase& solved) {
-    const Trajectory& here = *solved.trajectory;
-    Row& row = solved.row;
+  static void compare(const Trajectory& dmoc, const Trajectory& here, const Case& what, Row& row) {
     row.set("configuration_difference", relative_difference(here.q, dmoc.q));
     row.set("momentum_difference", relative_difference(here.p, dmoc.p));
     row.set("control_difference", relative_difference(here.stage_u, dmoc.stage_u));
@@ -80,8 +78,8 @@ class Equivalence final : public Experiment {
     row.set("objective_difference", std::abs(here.cost - dmoc.cost) / std::abs(dmoc.cost));
     double rounding_there = 0.0;
     double rounding_here = 0.0;
-    row.set("violation_in_rows_of_dmoc", foreign_violation(solved.what, "dmoc", here, rounding_there));
-    row.set("violation_of_dmoc_here", foreign_violation(solved.what, solved.what.method, dmoc, rounding_here));
+    row.set("violation_in_rows_of_dmoc", foreign_violation(what, "dmoc", here, rounding_there));
+    row.set("violation_of_dmoc_here", foreign_violation(what, what.method, dmoc, rounding_here));
     row.set("rounding_in_rows_of_dmoc", rounding_there);
     row.set("rounding_here", rounding_here);
   }

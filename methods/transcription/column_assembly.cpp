@@ -29,7 +29,7 @@ ColumnAssembly::ColumnAssembly(std::vector<std::size_t> firsts, std::size_t size
   scratch_.resize(additions_.size() * intervals_);
 }
 
-std::span<double* const> ColumnAssembly::open(VectorOut result) {
+std::span<double* const> ColumnAssembly::open(VectorOut& result) {
   if (static_cast<std::size_t>(result.size()) != size_)
     throw Error("columns are assembled to an array of wrong length");
   for (std::size_t column = 0; column < columns_.size(); ++column) columns_[column] = result.data() + firsts_[column];
@@ -37,7 +37,7 @@ std::span<double* const> ColumnAssembly::open(VectorOut result) {
   return columns_;
 }
 
-void ColumnAssembly::close(VectorOut result) const {
+void ColumnAssembly::close(VectorOut& result) const {
   for (const std::size_t entry : zeros_) result.data()[entry] = 0.0;
   for (const Addition& addition : additions_) {
     double* target = result.data() + addition.first;

@@ -21,9 +21,9 @@ class ColumnAssembly {
 
   /// Where the columns are to be written: most of them in `result` itself. Valid until the next call. Allocates
   /// nothing. Throws `Error` if `result` has not `size` entries.
-  [[nodiscard]] std::span<double* const> open(VectorOut result);
+  [[nodiscard]] std::span<double* const> open(VectorOut& result);
   /// Makes `result` whole, once every column has been written. Allocates nothing.
-  void close(VectorOut result) const;
+  void close(VectorOut& result) const;
 
   [[nodiscard]] std::size_t columns() const noexcept { return firsts_.size(); }
   [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }

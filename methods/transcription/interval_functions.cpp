@@ -112,7 +112,7 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   for (const ControlledState& stage : trace.stages) {
     stages.push_back(stage.q);
     stages.push_back(stage.v);
-    stages.push_back(ExpressionVector::Constant(1, stage.t));
+    stages.emplace_back(ExpressionVector::Constant(1, stage.t));
   }
   functions.stages = Schedule(stacked(stages));
   return functions;

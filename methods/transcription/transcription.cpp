@@ -62,9 +62,9 @@ void require_finite(const Eigen::VectorXd& values, const Problem& problem, const
 
 }  // namespace
 
-Transcription::Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid,
+Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
                              std::string_view derivatives)
-    : tableau_(tableau),
+    : tableau_(std::move(tableau)),
       cost_scale_(problem.cost_scale()),
       traced_(problem),
       functions_(trace_interval(traced_, element, tableau_, cost_scale_)),

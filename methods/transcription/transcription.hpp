@@ -32,7 +32,7 @@ class Transcription final : public NonlinearProgram {
   /// intervals (fewer free variables than rows; the sentence names the smallest number), or the problem is not well
   /// posed. `derivatives` names the back end of gradient, Jacobian and Hessian (`derivative_back_end_names`; the
   /// default is exact); values, momenta and costates come from the formulas whatever it is.
-  Transcription(const Problem& problem, const Element& element, const Tableau& tableau, const Grid& grid,
+  Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
                 std::string_view derivatives = "tape");
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
