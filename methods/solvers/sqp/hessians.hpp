@@ -14,7 +14,7 @@ namespace dmocbench::sqp {
 class ShiftedHessian final : public Hessian {
  public:
   /// `lower`: its lower triangle, n x n.
-  ShiftedHessian(Eigen::SparseMatrix<double> lower, double shift) : lower_(std::move(lower)), shift_(shift) {}
+  ShiftedHessian(const Eigen::SparseMatrix<double>& lower, double shift) : lower_(lower), shift_(shift) {}
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const override {
     return lower_.selfadjointView<Eigen::Lower>() * vectors + shift_ * vectors;
   }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
 #include <utility>
 
-#include "methods/program/kkt_residual.hpp"
+#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench::sqp {
 
@@ -47,8 +50,10 @@ Solution SequentialRun::run() {
   if (at_.has_finite_values() && at_.gradient.allFinite()) {
     std::optional<Status> end;
     while (!end) end = major_iteration();
-    const bool gave_up = *end == Status::step_failed || *end == Status::iteration_limit;
-    solution.status = gave_up && is_stuck_outside() ? Status::infeasible : *end;
+    const bool gave_up = end == Status::step_failed || end == Status::iteration_limit;
+    const bool is_outside = evaluator_.violation(at_.constraints) > tolerance_;
+    const bool is_stuck = gave_up && is_outside && is_point_of_least_violation(program_, at_.point);
+    solution.status = is_stuck ? Status::infeasible : end.value_or(Status::solver_error);
   }
   solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
   solution.primal = at_.point;
@@ -77,22 +82,11 @@ bool SequentialRun::observe(MinorIteration minor) {
 }
 
 bool SequentialRun::has_converged() {
-  constexpr double multiplier_scale = 100.0;  // as `confirm` scales
-  const KktResidual residual = kkt_residual(program_, at_.point, multipliers_);
-  const double mean = multipliers_.size() > 0 ? multipliers_.cwiseAbs().mean() : 0.0;
-  return residual.constraint_violation <= tolerance_ &&
-         residual.stationarity <= tolerance_ * std::max(1.0, mean / multiplier_scale);
-}
-
-bool SequentialRun::is_stuck_outside() const {
-  const Eigen::VectorXd violations = evaluator_.violations(at_.constraints);
-  if (violations.size() == 0 || violations.lpNorm<Eigen::Infinity>() <= tolerance_) return false;
-  // The gradient of half the sum of squares; a step against it must leave the bounds, or is none.
-  const Eigen::VectorXd downhill = -(at_.jacobian.transpose() * violations);
-  const Eigen::VectorXd moved =
-      (at_.point + downhill).cwiseMax(program_.variable_lower()).cwiseMin(program_.variable_upper()) - at_.point;
-  constexpr double stationary = 1e-4;
-  return moved.lpNorm<Eigen::Infinity>() <= stationary * violations.lpNorm<Eigen::Infinity>();
+  Solution now;
+  now.primal = at_.point;
+  now.multipliers = multipliers_;
+  measure(program_, now);
+  return times_the_tolerance(program_, options_.tolerance, now) <= 1.0;
 }
 
 void SequentialRun::choose_hessian() {
@@ -135,13 +129,17 @@ std::optional<Status> SequentialRun::major_iteration() {
   if (search.share == 0.0) {
     return quadratic.status == QuadraticSolution::Status::infeasible ? Status::infeasible : Status::step_failed;
   }
-  if (options_.verbose) {
-    std::printf("major %3d  minors %6d  merit weight %9.2e  shift %9.2e  |d| %9.2e  share %9.2e  objective %.10e\n",
-                majors_, phase_one_minors_ + phase_two_minors_, globalisation_.weight(), shift_,
-                quadratic.step.lpNorm<Eigen::Infinity>(), search.share, search.accepted.objective);
-  }
+  if (options_.verbose) print(quadratic.step.lpNorm<Eigen::Infinity>(), search.share, search.accepted.objective);
   take(search, quadratic);
   return std::nullopt;
+}
+
+void SequentialRun::print(double longest, double share, double objective) const {
+  std::ostringstream line;
+  line << "major " << majors_ << ", minors " << phase_one_minors_ << " + " << phase_two_minors_ << std::scientific
+       << std::setprecision(2) << ", merit weight " << globalisation_.weight() << ", shift " << shift_ << ", step "
+       << longest << " taken by " << share << ", objective " << std::setprecision(10) << objective << '\n';
+  std::cout << line.str();
 }
 
 void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution& quadratic) {

@@ -41,8 +41,7 @@ class SequentialRun {
   void take(const LineSearchResult& search, const QuadraticSolution& quadratic);
   void adapt_shift(double share);
   [[nodiscard]] bool has_converged();
-  /// True if the violation of the rows is stationary where it is not zero.
-  [[nodiscard]] bool is_stuck_outside() const;
+  void print(double longest, double share, double objective) const;
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool observe(MinorIteration minor);
 

@@ -1,6 +1,7 @@
 #include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
 
 #include <cmath>
+#include <ranges>
 
 namespace dmocbench::sqp {
 
@@ -55,13 +56,12 @@ Eigen::VectorXd BasisFactorisation::solve(const Eigen::VectorXd& y) const {
 Eigen::VectorXd BasisFactorisation::solve_transposed(const Eigen::VectorXd& y) const {
   if (y.size() == 0) return y;
   Eigen::VectorXd x = y;
-  for (auto replacement = replacements_.rbegin(); replacement != replacements_.rend(); ++replacement) {
-    double sum = x[replacement->position];
-    for (std::size_t e = 0; e < replacement->rows.size(); ++e) sum -= replacement->values[e] * x[replacement->rows[e]];
-    x[replacement->position] = sum / replacement->pivot;
+  for (const Replacement& replacement : std::views::reverse(replacements_)) {
+    double sum = x[replacement.position];
+    for (std::size_t e = 0; e < replacement.rows.size(); ++e) sum -= replacement.values[e] * x[replacement.rows[e]];
+    x[replacement.position] = sum / replacement.pivot;
   }
-  // Eigen's view of the transposed factors is not const; it changes nothing.
-  return const_cast<Eigen::SparseLU<Eigen::SparseMatrix<double>>&>(factors_).transpose().solve(x);
+  return factors_.transpose().solve(x);
 }
 
 }  // namespace dmocbench::sqp

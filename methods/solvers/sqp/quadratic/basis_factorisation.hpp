@@ -37,7 +37,8 @@ class BasisFactorisation {
     std::vector<double> values;
   };
 
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors_;
+  // Mutable because Eigen's view of the transposed factors is not const; it changes nothing.
+  mutable Eigen::SparseLU<Eigen::SparseMatrix<double>> factors_;
   std::vector<Replacement> replacements_;
 };
 

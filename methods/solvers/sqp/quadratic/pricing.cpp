@@ -18,6 +18,7 @@ constexpr std::array<std::pair<std::string_view, PricingRule>, 4> rules{{{"large
 
 std::vector<std::string> pricing_names() {
   std::vector<std::string> names;
+  names.reserve(rules.size());
   for (const auto& [name, rule] : rules) names.emplace_back(name);
   return names;
 }

@@ -13,6 +13,12 @@ WorkingSet slack_start(const QuadraticProgram& program) {
   return WorkingSet::slack_start(program.variable_count(), program.row_count());
 }
 
+/// The same free columns, with a well-conditioned basis among them.
+WorkingSet warm_start(const QuadraticProgram& program, const WorkingSet& sets) {
+  BasisChoice choice = choose_basis(program, sets.basics(), sets.superbasics());
+  return {program.column_count(), std::move(choice.basics), std::move(choice.others)};
+}
+
 bool leaves_variable_outside(const Iterate& iterate) {
   for (Eigen::Index j = 0; j < iterate.program().variable_count(); ++j) {
     const double value = iterate.values()[j];
@@ -24,13 +30,8 @@ bool leaves_variable_outside(const Iterate& iterate) {
 
 }  // namespace
 
-WorkingSet QuadraticSolver::warm_start(const QuadraticProgram& program) const {
-  BasisChoice choice = choose_basis(program, sets_->basics(), sets_->superbasics());
-  return {program.column_count(), std::move(choice.basics), std::move(choice.others)};
-}
-
 QuadraticSolution QuadraticSolver::solve(const QuadraticProgram& program) {
-  if (sets_) return solve_from(program, warm_start(program), true);
+  if (sets_) return solve_from(program, warm_start(program, *sets_), true);
   if (options_.crash == Crash::none) return solve_from(program, slack_start(program), false);
   return solve_from(program, {program.column_count(), crash_basis(program).basics, {}}, true);
 }

@@ -43,8 +43,8 @@ struct QuadraticOptions {
 /// Solves the quadratic programs of one SQP run by the active-set method and remembers the sets from one to the next.
 class QuadraticSolver {
  public:
-  QuadraticSolver(QuadraticOptions options, Pricing pricing, MinorObserver observer)
-      : options_(options), pricing_(std::move(pricing)), observer_(std::move(observer)) {}
+  QuadraticSolver(const QuadraticOptions& options, const Pricing& pricing, MinorObserver observer)
+      : options_(options), pricing_(pricing), observer_(std::move(observer)) {}
 
   /// Solves from the sets of the last call (the basis chosen anew from the basic and superbasic columns), or from a
   /// start by `Crash` at the first call. If these sets leave variables outside their bounds, or break down, it starts
@@ -56,7 +56,6 @@ class QuadraticSolver {
 
  private:
   [[nodiscard]] QuadraticSolution solve_from(const QuadraticProgram& program, WorkingSet start, bool may_restart);
-  [[nodiscard]] WorkingSet warm_start(const QuadraticProgram& program) const;
 
   QuadraticOptions options_;
   Pricing pricing_;
