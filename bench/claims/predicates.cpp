@@ -49,6 +49,7 @@ std::vector<Claim> judge_claims(const ResultTables& tables) {
     claims.push_back(agreement_claim(tables, problem));
     claims.push_back(crash_claim(tables, problem));
     claims.push_back(derivatives_claim(tables, problem));
+    claims.push_back(adolc_claim(tables, problem));
   }
   for (const Row* row : tables.rows("slips")) claims.push_back(slip_claim(*row));
   for (Claim& claim : claims_without_experiment()) claims.push_back(std::move(claim));

@@ -36,6 +36,8 @@ namespace dmocbench {
 [[nodiscard]] Claim crash_claim(const ResultTables& tables, const std::string& problem);
 /// Derivatives by automatic differentiation against finite differences.
 [[nodiscard]] Claim derivatives_claim(const ResultTables& tables, const std::string& problem);
+/// The paper's own tool against central differences, by time.
+[[nodiscard]] Claim adolc_claim(const ResultTables& tables, const std::string& problem);
 /// A row of the table of slips.
 [[nodiscard]] Claim slip_claim(const Row& row);
 
