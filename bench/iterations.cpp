@@ -63,14 +63,14 @@ class Iterations final : public Experiment {
     return common;
   }
   void check(const std::vector<Case>& cases) override {
-    if (cases.empty()) {
-      throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
-                              most_free_variables_for_slsqp));
-    }
     for (const std::string& crash : crashes_) {
       if (std::find(crash_names.begin(), crash_names.end(), crash) == crash_names.end()) {
         throw Error(fmt::format("--crash takes {}, not {}", fmt::join(crash_names, " or "), crash));
       }
+    }
+    if (cases.empty()) {
+      throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
+                              most_free_variables_for_slsqp));
     }
   }
 
