@@ -116,8 +116,10 @@ class Iterations final : public Experiment {
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.
   static std::optional<long long> predicted(const SolvedCase& solved) {
-    if (!solved.solution.minor_iterations) return std::nullopt;
-    const auto number = [&](const char* column) { return static_cast<long long>(*solved.row.number(column)); };
+    if (!solved.solution.minor_iterations || !solved.solution.major_iterations) return std::nullopt;
+    const auto number = [&](const char* column) {
+      return static_cast<long long>(solved.row.number(column).value_or(0.0));
+    };
     const long long first = number("free_variables") - (solved.what.variant == "basis" ? number("constraints") : 0);
     return first + *solved.solution.major_iterations - 1;
   }

@@ -42,7 +42,7 @@ class Solve final : public Experiment {
 
   void complete(SolvedCase& solved) override {
     if (!trace_file_.empty()) {
-      const auto variables = static_cast<Eigen::Index>(*solved.row.number("variables"));
+      const auto variables = static_cast<Eigen::Index>(solved.row.number("variables").value_or(0.0));
       write_file(trace_file_, trace_table(trace_, variables).csv());
     }
     if (!solved.trajectory) return;

@@ -51,9 +51,9 @@ Record record_of(const Rows& rows, const std::string& derivatives, const std::st
     if (!is_usable(*row)) continue;
     ++record.solved;
     const Row* exact = tape_row(rows, *row);
-    if (exact != nullptr && exact->number("seconds") && row->number("seconds")) {
-      record.slowdowns.push_back(*row->number("seconds") / *exact->number("seconds"));
-    }
+    const auto seconds = row->number("seconds");
+    const auto seconds_of_tape = exact == nullptr ? std::nullopt : exact->number("seconds");
+    if (seconds && seconds_of_tape) record.slowdowns.push_back(*seconds / *seconds_of_tape);
   }
   return record;
 }

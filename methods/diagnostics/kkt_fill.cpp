@@ -33,6 +33,8 @@ KktFill kkt_fill(const Transcription& transcription) {
 
   // Numbers that make it diagonally dominant: only the pattern matters, and it has a Cholesky factor then.
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(size) + transcription.hessian_structure().size() +
+                  transcription.jacobian_structure().size());
   for (int i = 0; i < size; ++i) entries.emplace_back(i, i, static_cast<double>(size));
   const SparsityPattern& hessian = transcription.hessian_structure();
   for (std::size_t e = 0; e < hessian.size(); ++e) {

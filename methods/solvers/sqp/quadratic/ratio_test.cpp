@@ -16,10 +16,12 @@ constexpr double smallest_rate = 1e-11;
 double bound_ahead(const MovingColumn& column, double tolerance) {
   if (column.rate > 0.0) {
     if (column.value < column.lower - tolerance) return column.lower;
-    return column.value > column.upper + tolerance ? never : column.upper;
+    if (column.value > column.upper + tolerance) return never;
+    return column.upper;
   }
   if (column.value > column.upper + tolerance) return column.upper;
-  return column.value < column.lower - tolerance ? -never : column.lower;
+  if (column.value < column.lower - tolerance) return -never;
+  return column.lower;
 }
 
 /// The step at which it is reached if `slack` beyond it is allowed.
