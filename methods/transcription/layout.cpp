@@ -3,14 +3,22 @@
 namespace dmocbench {
 
 Layout::Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::Index control_size, NodeState node_state,
-               Eigen::Index stages, Eigen::Index node_rows, Eigen::Index private_rows)
-    : intervals_(intervals), n_(configuration_size), m_(control_size), node_state_(node_state), stages_(stages) {
-  const bool has_second = node_state_ != NodeState::configuration;
-  const Eigen::Index node_columns = has_second ? 2 * n_ : n_;
-  const Eigen::Index interval_columns = (stages_ - 1) * node_columns + stages_ * m_;
+               Eigen::Index stages, bool shares_controls, Eigen::Index node_rows, Eigen::Index private_rows)
+    : intervals_(intervals),
+      n_(configuration_size),
+      m_(control_size),
+      node_state_(node_state),
+      stages_(stages),
+      shares_controls_(shares_controls) {
+  const Eigen::Index node_columns = node_state_ == NodeState::configuration ? n_ : 2 * n_;
+  const Eigen::Index slope_columns = (stages_ - 1) * node_columns;
+  const Eigen::Index shared_columns = shares_controls_ ? m_ : 0;
+  const Eigen::Index control_columns = (shares_controls_ ? stages_ - 2 : stages_) * m_;
   structure_.intervals = intervals_;
   for (Eigen::Index i = 0; i < node_columns; ++i) append_column(structure_.unknowns, Place::Kind::node);
-  for (Eigen::Index i = 0; i < interval_columns; ++i) append_column(structure_.unknowns, Place::Kind::interval);
+  for (Eigen::Index i = 0; i < slope_columns; ++i) append_column(structure_.unknowns, Place::Kind::interval);
+  for (Eigen::Index i = 0; i < shared_columns; ++i) append_column(structure_.unknowns, Place::Kind::node);
+  for (Eigen::Index i = 0; i < control_columns; ++i) append_column(structure_.unknowns, Place::Kind::interval);
   for (Eigen::Index i = 0; i < node_rows; ++i) append_column(structure_.rows, Place::Kind::node);
   for (Eigen::Index i = 0; i < private_rows; ++i) append_column(structure_.rows, Place::Kind::interval);
 
@@ -18,9 +26,9 @@ Layout::Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::In
     for (Eigen::Index i = 0; i < node_columns; ++i) unknown_firsts_.push_back(configuration_column(i) + right);
     for (Eigen::Index i = 0; i < node_rows; ++i) row_firsts_.push_back(node_row_column(i) + right);
   }
-  const std::size_t first_interval_column = configuration_column(node_columns);
-  for (Eigen::Index i = 0; i < interval_columns; ++i) {
-    unknown_firsts_.push_back(first_interval_column + static_cast<std::size_t>(i) * intervals_);
+  for (Eigen::Index i = 0; i < slope_columns; ++i) unknown_firsts_.push_back(slope_q_column(0, i));
+  for (Eigen::Index stage = 0; stage < stages_; ++stage) {
+    for (Eigen::Index i = 0; i < m_; ++i) unknown_firsts_.push_back(control_column(stage, i));
   }
   for (Eigen::Index i = 0; i < private_rows; ++i) {
     row_firsts_.push_back(node_row_column(node_rows) + static_cast<std::size_t>(i) * intervals_);
@@ -49,7 +57,11 @@ std::size_t Layout::slope_y_column(Eigen::Index stage, Eigen::Index i) const noe
 
 std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noexcept {
   const Eigen::Index slopes = (node_state_ == NodeState::configuration ? 1 : 2) * (stages_ - 1);
-  return slope_q_column(slopes, 0) + static_cast<std::size_t>(stage * m_ + i) * intervals_;
+  const std::size_t head = slope_q_column(slopes, 0);
+  if (!shares_controls_) return head + static_cast<std::size_t>(stage * m_ + i) * intervals_;
+  if (stage == 0) return head + static_cast<std::size_t>(i) * (intervals_ + 1);
+  if (stage == stages_ - 1) return control_column(0, i) + 1;
+  return control_column(0, m_) + static_cast<std::size_t>((stage - 1) * m_ + i) * intervals_;
 }
 
 std::size_t Layout::node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }

@@ -20,7 +20,7 @@ namespace dmocbench {
 class Layout {
  public:
   Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::Index control_size, NodeState node_state,
-         Eigen::Index stages, Eigen::Index node_rows, Eigen::Index private_rows);
+         Eigen::Index stages, bool shares_controls, Eigen::Index node_rows, Eigen::Index private_rows);
 
   [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
   [[nodiscard]] std::size_t variable_count() const noexcept { return structure_.unknowns.size(); }
@@ -53,6 +53,7 @@ class Layout {
   Eigen::Index m_;
   NodeState node_state_;
   Eigen::Index stages_;
+  bool shares_controls_;
   IntervalStructure structure_;
   std::vector<std::size_t> unknown_firsts_;
   std::vector<std::size_t> row_firsts_;

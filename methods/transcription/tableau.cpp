@@ -1,10 +1,14 @@
 #include "methods/transcription/tableau.hpp"
 
-#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/LU>
 #include <boost/math/special_functions/legendre.hpp>
+#include <boost/math/tools/roots.hpp>
 
 #include "methods/error.hpp"
 
@@ -15,7 +19,8 @@ namespace {
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-constexpr int most_gauss_stages = 3;
+constexpr int most_stages = 4;
+constexpr int fewest_lobatto_stages = 2;
 
 /// The zeros of the Legendre polynomial of degree `stages`, carried from [-1, 1] to [0, 1].
 std::vector<long double> gauss_nodes(int stages) {
@@ -25,6 +30,23 @@ std::vector<long double> gauss_nodes(int stages) {
     if (*zero > 0.0L) nodes.push_back((1.0L - *zero) / 2.0L);
   }
   for (const long double zero : positive) nodes.push_back((1.0L + zero) / 2.0L);
+  return nodes;
+}
+
+/// 0, 1 and the zeros of the derivative of the Legendre polynomial of degree `stages` - 1, which lie between those of
+/// the polynomial itself; carried from [-1, 1] to [0, 1].
+std::vector<long double> lobatto_nodes(int stages) {
+  std::vector<long double> nodes{0.0L};
+  const std::vector<long double> zeros = gauss_nodes(stages - 1);
+  const auto derivative = [&](long double c) { return boost::math::legendre_p_prime(stages - 1, 2.0L * c - 1.0L); };
+  for (std::size_t i = 0; i + 1 < zeros.size(); ++i) {
+    constexpr int bits = std::numeric_limits<long double>::digits;
+    std::uintmax_t most_steps = 100;
+    const auto bracket = boost::math::tools::toms748_solve(
+        derivative, zeros[i], zeros[i + 1], boost::math::tools::eps_tolerance<long double>(bits), most_steps);
+    nodes.push_back(std::midpoint(bracket.first, bracket.second));
+  }
+  nodes.push_back(1.0L);
   return nodes;
 }
 
@@ -64,22 +86,34 @@ Tableau collocation_tableau(std::string family, const std::vector<long double>& 
 }
 
 Tableau gauss_tableau(int stages) {
-  if (stages < 1 || stages > most_gauss_stages) {
-    throw Error("gauss has 1 to " + std::to_string(most_gauss_stages) + " stages, got " + std::to_string(stages));
+  if (stages < 1 || stages > most_stages) {
+    throw Error("gauss has 1 to " + std::to_string(most_stages) + " stages, got " + std::to_string(stages));
   }
   return collocation_tableau("gauss", gauss_nodes(stages), 2 * stages);
 }
 
-std::vector<std::string> tableau_names() { return {"gauss"}; }
+Tableau lobatto_tableau(int stages, bool shares_controls) {
+  if (stages < fewest_lobatto_stages || stages > most_stages) {
+    throw Error("lobatto has " + std::to_string(fewest_lobatto_stages) + " to " + std::to_string(most_stages) +
+                " stages, got " + std::to_string(stages));
+  }
+  Tableau tableau =
+      collocation_tableau(shares_controls ? "lobatto_shared" : "lobatto", lobatto_nodes(stages), 2 * stages - 2);
+  tableau.shares_controls = shares_controls;
+  return tableau;
+}
+
+std::vector<std::string> tableau_names() { return {"gauss", "lobatto", "lobatto_shared"}; }
 
 std::vector<int> tableau_stages(std::string_view family) {
-  if (family == "gauss") return {1, 2, 3};
-  throw Error("there is no tableau \"" + std::string(family) + "\"; choose one of gauss");
+  if (family == "gauss") return {1, 2, 3, 4};
+  if (family == "lobatto" || family == "lobatto_shared") return {2, 3, 4};
+  throw Error("there is no tableau \"" + std::string(family) + "\"; choose one of gauss, lobatto, lobatto_shared");
 }
 
 Tableau make_tableau(std::string_view family, int stages) {
   static_cast<void>(tableau_stages(family));
-  return gauss_tableau(stages);
+  return family == "gauss" ? gauss_tableau(stages) : lobatto_tableau(stages, family == "lobatto_shared");
 }
 
 }  // namespace dmocbench

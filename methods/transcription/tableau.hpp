@@ -11,12 +11,15 @@ namespace dmocbench {
 /// A Butcher tableau (A, b, c) and its conjugate Ã, which makes the pair symplectic (eq:DMOC_RK_symp):
 /// b_i ã_ij + b_j a_ji = b_i b_j. Configurations use A, momenta Ã.
 struct Tableau {
-  std::string family;           ///< "gauss"
+  std::string family;           ///< "gauss", "lobatto" or "lobatto_shared"
   Eigen::MatrixXd a;            ///< A, s × s
   Eigen::MatrixXd a_conjugate;  ///< Ã, s × s
   Eigen::VectorXd b;            ///< weights, s entries, all > 0
   Eigen::VectorXd c;            ///< stage times relative to the interval, s entries in [0, 1]
   int order = 0;                ///< classical order of the pair
+  /// The last stage of an interval and the first of the next, which are the same time, have one control: possible where
+  /// c_1 = 0 and c_s = 1. Otherwise every stage has its own.
+  bool shares_controls = false;
 
   [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
 };
@@ -28,6 +31,10 @@ struct Tableau {
 
 /// Gauss-Legendre, order 2s. s = 1 is the midpoint rule.
 [[nodiscard]] Tableau gauss_tableau(int stages);
+
+/// Lobatto IIIA with Lobatto IIIB for the momenta, order 2s - 2, s >= 2: the ends of an interval are stages. With
+/// `shares_controls`, tangent-space collocation by s = 2 is trapezoidal and by s = 3 Hermite-Simpson collocation.
+[[nodiscard]] Tableau lobatto_tableau(int stages, bool shares_controls = false);
 
 /// Names of the tableau families.
 [[nodiscard]] std::vector<std::string> tableau_names();

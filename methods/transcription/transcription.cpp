@@ -69,7 +69,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       traced_(problem),
       functions_(trace_interval(traced_, element, tableau_, cost_scale_)),
       layout_(grid.intervals(), traced_.configuration_size(), traced_.control_size(), element.node_state(),
-              tableau_.stages(), functions_.node_rows, functions_.private_rows),
+              tableau_.stages(), tableau_.shares_controls, functions_.node_rows, functions_.private_rows),
       node_times_(problem.horizon() * grid.relative_times()),
       steps_(problem.horizon() * grid.relative_widths()),
       inputs_(functions_.inputs.count()),
@@ -99,7 +99,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
   const std::size_t fixed = (element.node_state() == NodeState::configuration ? 2 : 4) * n;
   const auto enough = [&](std::size_t intervals) {
     const Layout layout(intervals, traced_.configuration_size(), traced_.control_size(), element.node_state(),
-                        tableau_.stages(), functions_.node_rows, functions_.private_rows);
+                        tableau_.stages(), tableau_.shares_controls, functions_.node_rows, functions_.private_rows);
     return layout.variable_count() >= fixed + layout.row_count();
   };
   if (enough(layout_.intervals())) return;

@@ -65,6 +65,68 @@ TEST_P(GaussTableau, IsSymmetricInTimeWithPositiveWeights) {
 INSTANTIATE_TEST_SUITE_P(Stages, GaussTableau, testing::ValuesIn(tableau_stages("gauss")),
                          testing::PrintToStringParamName());
 
+class LobattoTableau : public testing::TestWithParam<int> {
+ protected:
+  Tableau tableau_ = lobatto_tableau(GetParam());
+};
+
+TEST_P(LobattoTableau, IntegratesPolynomialsOfDegreeTwiceItsStagesMinusThree) {
+  const int order = 2 * GetParam() - 2;
+  EXPECT_EQ(tableau_.order, order);
+  for (int q = 1; q <= order; ++q) {
+    EXPECT_NEAR(tableau_.b.dot(tableau_.c.array().pow(q - 1).matrix()), 1.0 / q, rounding) << q;
+  }
+  EXPECT_GT(std::abs(tableau_.b.dot(tableau_.c.array().pow(order).matrix()) - 1.0 / (order + 1)), 1e-5);
+}
+
+TEST_P(LobattoTableau, HasTheEndsOfTheIntervalAmongItsStages) {
+  const Eigen::Index last = tableau_.stages() - 1;
+  EXPECT_EQ(tableau_.c[0], 0.0);
+  EXPECT_EQ(tableau_.c[last], 1.0);
+  EXPECT_LT(tableau_.a.row(0).lpNorm<Eigen::Infinity>(), rounding);                                // Q_1 = q_k
+  EXPECT_LT((tableau_.a.row(last).transpose() - tableau_.b).lpNorm<Eigen::Infinity>(), rounding);  // Q_s = q_{k+1}
+  EXPECT_LT(tableau_.a_conjugate.col(last).lpNorm<Eigen::Infinity>(), rounding);                   // IIIB
+  EXPECT_LT((tableau_.a_conjugate.col(0).array() - tableau_.b[0]).matrix().lpNorm<Eigen::Infinity>(), rounding);
+}
+
+TEST_P(LobattoTableau, HasStageOrderSForConfigurationsAndTwoLessForMomenta) {
+  const int s = GetParam();
+  const auto defect = [&](const Eigen::MatrixXd& a, int q) {  // C(q)
+    const Eigen::VectorXd powers = tableau_.c.array().pow(q - 1).matrix();
+    return (a * powers - tableau_.c.array().pow(q).matrix() / q).lpNorm<Eigen::Infinity>();
+  };
+  for (int q = 1; q <= s; ++q) EXPECT_LT(defect(tableau_.a, q), rounding) << q;
+  for (int q = 1; q <= s - 2; ++q) EXPECT_LT(defect(tableau_.a_conjugate, q), rounding) << q;
+  EXPECT_GT(defect(tableau_.a_conjugate, s - 1), 1e-3);  // why momenta at the stages are of low order
+}
+
+TEST_P(LobattoTableau, FormsASymplecticPairWithItsConjugate) {
+  EXPECT_GT(tableau_.b.minCoeff(), 0.0);
+  const Eigen::MatrixXd weights = tableau_.b.asDiagonal();
+  const Eigen::MatrixXd defect = weights * tableau_.a_conjugate + (weights * tableau_.a).transpose() -
+                                 tableau_.b * tableau_.b.transpose();  // (eq:DMOC_RK_symp)
+  EXPECT_LT(defect.cwiseAbs().maxCoeff(), rounding);
+  EXPECT_GT((tableau_.a - tableau_.a_conjugate).cwiseAbs().maxCoeff(), 0.1);  // it is not symplectic by itself
+}
+
+TEST_P(LobattoTableau, SharesControlsOnlyUnderItsOtherName) {
+  EXPECT_FALSE(tableau_.shares_controls);
+  const Tableau shared = make_tableau("lobatto_shared", GetParam());
+  EXPECT_TRUE(shared.shares_controls);
+  EXPECT_EQ(shared.family, "lobatto_shared");
+  EXPECT_EQ(shared.a, tableau_.a);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, LobattoTableau, testing::ValuesIn(tableau_stages("lobatto")),
+                         testing::PrintToStringParamName());
+
+TEST(Tableau, OfTwoLobattoStagesIsTheTrapezoidalRule) {
+  const Tableau lobatto = lobatto_tableau(2);
+  Eigen::Matrix2d trapezoidal;
+  trapezoidal << 0.0, 0.0, 0.5, 0.5;
+  EXPECT_LT((lobatto.a - trapezoidal).cwiseAbs().maxCoeff(), rounding);
+}
+
 TEST(Tableau, OfOneGaussStageIsTheMidpointRuleExactly) {
   const Tableau midpoint = make_tableau("gauss", 1);
   EXPECT_EQ(midpoint.a(0, 0), 0.5);
@@ -102,9 +164,13 @@ TEST(Tableau, RefusesUnknownFamiliesAndStagesNamingWhatThereIs) {
   for (const std::string& name : tableau_names()) {
     tests::expect_error_naming({"radau", name}, [] { static_cast<void>(make_tableau("radau", 2)); });
   }
-  for (const int stages : {-1, 0, 4}) {
-    tests::expect_error_naming({"1 to 3", std::to_string(stages)},
+  for (const int stages : {-1, 0, 5}) {
+    tests::expect_error_naming({"1 to 4", std::to_string(stages)},
                                [&] { static_cast<void>(make_tableau("gauss", stages)); });
+  }
+  for (const int stages : {1, 5}) {
+    tests::expect_error_naming({"2 to 4", std::to_string(stages)},
+                               [&] { static_cast<void>(make_tableau("lobatto", stages)); });
   }
 }
 
