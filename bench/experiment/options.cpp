@@ -45,6 +45,22 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
   return grids;
 }
 
+/// The families of tableaus with controls as chosen.
+std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
+  if (options.controls == "stage") return options.tableaus;
+  if (options.controls != "shared") {
+    throw Error(fmt::format("--controls takes stage or shared, not {}", options.controls));
+  }
+  std::vector<std::string> tableaus;
+  for (const std::string& family : options.tableaus) {
+    if (family == "gauss") {
+      throw Error("--controls shared: gauss has no stage where two intervals meet; choose --tableau lobatto");
+    }
+    tableaus.push_back(family == "lobatto" ? "lobatto_shared" : family);
+  }
+  return tableaus;
+}
+
 std::vector<int> sorted_stages(std::vector<int> stages, const std::string& tableau) {
   std::sort(stages.begin(), stages.end());
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
@@ -64,6 +80,11 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
   app.add_option("--problem", options.problems, "problems, as `list` names them; default: all")->delimiter(',');
   app.add_option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all")->delimiter(',');
   app.add_option("--tableau", options.tableaus, "families of Butcher tableaus")->delimiter(',')->capture_default_str();
+  app.add_option(
+         "--controls", options.controls,
+         "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
+         "the tables then call lobatto_shared")
+      ->capture_default_str();
   app.add_option("--stages", options.stages, "numbers of stages s")->delimiter(',')->capture_default_str();
   app.add_option("--solver", options.solvers, "solvers, as `list` names them")->delimiter(',')->capture_default_str();
   app.add_option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
@@ -125,7 +146,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
-  const auto tableaus = in_order("tableau", options.tableaus, tableau_names());
+  const auto tableaus = in_order("tableau", chosen_tableaus(options), tableau_names());
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());

@@ -16,6 +16,7 @@ struct ExperimentOptions {
   std::vector<std::string> problems;  ///< empty: all
   std::vector<std::string> methods;   ///< empty: all
   std::vector<std::string> tableaus{"gauss"};
+  std::string controls = "stage";  ///< stage, or shared: one control where two intervals meet
   std::vector<int> stages{1};
   std::vector<std::string> solvers{"ipopt"};
   std::vector<std::string> derivatives{"tape"};

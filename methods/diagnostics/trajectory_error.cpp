@@ -39,7 +39,9 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
     }
   }
   for (Eigen::Index i = 0; i < trajectory.stage_times.size(); ++i) {
-    const Eigen::VectorXd u = control_at(reference, trajectory.stage_times[i]);
+    const bool ends_interval = trajectory.tableau.c[i % trajectory.stages()] == 1.0;
+    const Eigen::VectorXd u =
+        control_at(reference, trajectory.stage_times[i], ends_interval ? Side::left : Side::right);
     error.control = std::max(error.control, (trajectory.stage_u.row(i).transpose() - u).norm());
   }
   error.objective = std::abs(trajectory.cost - reference.cost);

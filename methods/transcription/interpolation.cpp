@@ -58,9 +58,12 @@ Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index i
   return trajectory.stage_u.middleRows(interval * s, s).transpose() * lagrange(trajectory.tableau.c, tau);
 }
 
-Eigen::VectorXd control_at(const Trajectory& trajectory, double t) {
+Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {
   if (trajectory.stages() > 1) {
-    return control_on_interval(trajectory, interval_of(trajectory.node_times, t), t);
+    constexpr double rounding_of_times = 1e-12;
+    const Eigen::VectorXd& times = trajectory.node_times;
+    const double nudge = rounding_of_times * (times[times.size() - 1] - times[0]);
+    return control_on_interval(trajectory, interval_of(times, side == Side::left ? t - nudge : t + nudge), t);
   }
   if (trajectory.intervals() == 1) return trajectory.stage_u.row(0).transpose();
   const Eigen::Index k = interval_of(trajectory.stage_times, t);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "methods/mechanics/state.hpp"
@@ -14,9 +15,13 @@ using Motion = std::function<MotionPoint(double t)>;
 /// Times outside the horizon are moved to its ends.
 [[nodiscard]] Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t);
 
+/// From which side a time is approached: controls may jump at the nodes.
+enum class Side : std::uint8_t { left, right };
+
 /// The control at time t, m entries: with one stage, linear between the two nearest stage times (order 2; beyond the
-/// first and last of them the same line goes on); with several, the polynomial through the stages of the interval.
-[[nodiscard]] Eigen::VectorXd control_at(const Trajectory& trajectory, double t);
+/// first and last of them the same line goes on); with several, the polynomial through the stages of the interval, at a
+/// node of the one on that side.
+[[nodiscard]] Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side = Side::right);
 
 /// The control as the discrete system feels it: the polynomial through the stages of the interval [t_k, t_{k+1}] that
 /// `interval` names, constant for one stage.

@@ -83,6 +83,8 @@ class Spiral final : public tests::CentralForce {
 TEST(MomentumConsistency, CountsTheChangeOfAGeneratorThatDependsOnTheConfiguration) {
   const Spiral problem;
   for (const Scheme& scheme : tests::all_schemes()) {
+    // Its mass is constant, so tangent-space collocation is symplectic where its tableau is: not by Lobatto IIIA alone.
+    if (scheme.method == "tangent" && scheme.family == "lobatto") continue;
     const Trajectory trajectory =
         tests::solve(problem, scheme, tests::graded_grid(16), guessed_motion(problem), 1e-11).trajectory;
     EXPECT_LT(momentum_consistency(problem, trajectory).largest, 1e-10) << scheme.label();

@@ -16,24 +16,38 @@
 
 namespace dmocbench::tests {
 
-/// A family of elements with a number of Gauss stages.
+/// A family of elements with a tableau.
 struct Scheme {
   std::string method;
   int stages = 1;
-  [[nodiscard]] std::string label() const { return method + " s=" + std::to_string(stages); }
+  std::string family = "gauss";
+  [[nodiscard]] std::string label() const { return method + " " + family + " s=" + std::to_string(stages); }
+  [[nodiscard]] Tableau tableau() const { return make_tableau(family, stages); }
 };
 
-/// Every family with every number of stages up to `most_stages`.
-inline std::vector<Scheme> all_schemes(int most_stages = 3) {
+/// Every family of elements with every tableau of one of the families of tableaus and up to `most_stages` stages.
+inline std::vector<Scheme> schemes_of(const std::vector<std::string>& families, int most_stages) {
   std::vector<Scheme> schemes;
   for (const std::string& method : element_names()) {
-    for (int s = 1; s <= most_stages; ++s) schemes.push_back({method, s});
+    for (const std::string& family : families) {
+      for (const int s : tableau_stages(family)) {
+        if (s <= most_stages) schemes.push_back({method, s, family});
+      }
+    }
   }
   return schemes;
 }
 
+/// Gauss and Lobatto, each stage with a control of its own.
+inline std::vector<Scheme> all_schemes(int most_stages = 3) { return schemes_of({"gauss", "lobatto"}, most_stages); }
+
+/// Lobatto with one control at each node that two intervals share.
+inline std::vector<Scheme> schemes_with_shared_controls(int most_stages = 3) {
+  return schemes_of({"lobatto_shared"}, most_stages);
+}
+
 inline std::unique_ptr<Transcription> transcribe(const Problem& problem, const Scheme& scheme, const Grid& grid) {
-  return std::make_unique<Transcription>(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid);
+  return std::make_unique<Transcription>(problem, *make_element(scheme.method), scheme.tableau(), grid);
 }
 
 /// A transcription with its solution; the transcription lives on because rows and costates are asked of it.
@@ -60,7 +74,7 @@ inline Solved solve(const Problem& problem, const std::string& method, const Tab
 
 inline Solved solve(const Problem& problem, const Scheme& scheme, const Grid& grid, const Motion& start,
                     double tolerance = 1e-10) {
-  return solve(problem, scheme.method, gauss_tableau(scheme.stages), grid, start, tolerance);
+  return solve(problem, scheme.method, scheme.tableau(), grid, start, tolerance);
 }
 
 /// One motion from which all methods and grids start, so that they end on the same branch: DMOC's answer on 96

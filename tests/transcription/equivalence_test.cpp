@@ -67,12 +67,14 @@ TEST(Equivalence, HoldsForThePairLobattoIIIAAndIIIB) {
 
 TEST(Equivalence, DmocAndHamiltonianHaveTheSameOptimum) {
   for (const auto& problem : problems()) {
-    for (const int s : {1, 2, 3}) {
-      SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
+    for (const tests::Scheme& scheme : tests::all_schemes()) {
+      if (scheme.method != "dmoc") continue;
+      SCOPED_TRACE(problem->name() + ", " + scheme.label());
       const Grid grid = Grid::uniform(48);
       const Motion& start = tests::common_start(*problem);
-      const Trajectory a = tests::solve(*problem, {"dmoc", s}, grid, start, 1e-11).trajectory;
-      const Trajectory b = tests::solve(*problem, {"hamiltonian", s}, grid, start, 1e-11).trajectory;
+      const Trajectory a = tests::solve(*problem, scheme, grid, start, 1e-11).trajectory;
+      const Trajectory b =
+          tests::solve(*problem, {"hamiltonian", scheme.stages, scheme.family}, grid, start, 1e-11).trajectory;
       EXPECT_NEAR(a.cost, b.cost, 1e-10 * b.cost);
       const double scale = b.q.lpNorm<Eigen::Infinity>();
       EXPECT_LT((a.q - b.q).lpNorm<Eigen::Infinity>(), 1e-9 * scale);

@@ -77,7 +77,7 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
     constexpr Eigen::Index m = 2;
     constexpr Eigen::Index s = 3;
     const bool second = state != NodeState::configuration;
-    const Layout layout(intervals, n, m, state, s, second ? 0 : n, second ? 2 * n * s : n * (s - 1));
+    const Layout layout(intervals, n, m, state, s, false, second ? 0 : n, second ? 2 * n * s : n * (s - 1));
     std::multiset<std::size_t> covered;
     const auto cover = [&](std::size_t head, std::size_t length) {
       for (std::size_t k = 0; k < length; ++k) covered.insert(head + k);
@@ -99,6 +99,34 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
   }
 }
 
+TEST(Layout, WithSharedControlsHasOneFewerPerIntervalAndTheSameRows) {
+  const auto problem = make_problem("two_link_manipulator");  // m = 2
+  for (const Scheme& shared : tests::schemes_with_shared_controls(4)) {
+    SCOPED_TRACE(shared.label());
+    constexpr std::size_t intervals = 10;
+    const Counts with = counts(*problem, shared, intervals);
+    const Counts without = counts(*problem, {shared.method, shared.stages, "lobatto"}, intervals);
+    EXPECT_EQ(without.variables - with.variables, 2 * (intervals - 1));
+    EXPECT_EQ(without.rows, with.rows);
+  }
+}
+
+TEST(Layout, SharedControlsOfNeighboursAreTheSameUnknown) {
+  constexpr std::size_t intervals = 5;
+  const Layout layout(intervals, 2, 2, NodeState::velocity, 3, true, 0, 12);
+  std::set<std::size_t> covered;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k + 1 < intervals; ++k) {
+      EXPECT_EQ(layout.control_column(2, i) + k, layout.control_column(0, i) + k + 1);
+    }
+    for (std::size_t k = 0; k < intervals; ++k) {
+      for (const Eigen::Index stage : {0, 1, 2}) covered.insert(layout.control_column(stage, i) + k);
+    }
+  }
+  EXPECT_EQ(covered.size(), 2 * (intervals + 1 + intervals));
+  EXPECT_EQ(*covered.rbegin() + 1, layout.variable_count());
+}
+
 /// A row of interval k reads unknowns of nodes k and k + 1 and of interval k; a row of node k those beside it.
 bool may_read(const Place& row, const Place& unknown) {
   const auto near = [](std::size_t a, std::size_t b, std::size_t below, std::size_t above) {
@@ -113,7 +141,9 @@ bool may_read(const Place& row, const Place& unknown) {
 
 TEST(Layout, IntervalStructureHoldsForEveryEntryOfTheJacobian) {
   const auto problem = make_problem("two_link_manipulator");
-  for (const Scheme& scheme : all_schemes()) {
+  std::vector<Scheme> schemes = all_schemes();
+  for (Scheme& shared : tests::schemes_with_shared_controls()) schemes.push_back(std::move(shared));
+  for (const Scheme& scheme : schemes) {
     SCOPED_TRACE(scheme.label());
     const auto program = transcribe(*problem, scheme, Grid::uniform(9));
     const IntervalStructure* structure = program->interval_structure();

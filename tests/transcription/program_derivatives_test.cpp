@@ -121,10 +121,12 @@ std::unique_ptr<Problem> problem_named(const std::string& name) {
   return make_problem(name);
 }
 
-class ProgramDerivatives : public testing::TestWithParam<std::tuple<std::string, std::string, int>> {
+using FamilyAndStages = std::pair<std::string, int>;
+
+class ProgramDerivatives : public testing::TestWithParam<std::tuple<std::string, std::string, FamilyAndStages>> {
  protected:
   std::unique_ptr<Problem> problem_ = problem_named(std::get<0>(GetParam()));
-  Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam())};
+  Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam()).second, std::get<2>(GetParam()).first};
 };
 
 TEST_P(ProgramDerivatives, AgreeWithHyperDualNumbers) {
@@ -192,10 +194,16 @@ TEST_P(ProgramDerivatives, HaveNoPositionTwiceAndTheHessianOnlyItsLowerTriangle)
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
-                                          testing::ValuesIn(element_names()), testing::Values(1, 2, 3)),
+                                          testing::ValuesIn(element_names()),
+                                          testing::Values(FamilyAndStages{"gauss", 1}, FamilyAndStages{"gauss", 2},
+                                                          FamilyAndStages{"gauss", 3}, FamilyAndStages{"lobatto", 2},
+                                                          FamilyAndStages{"lobatto", 3},
+                                                          FamilyAndStages{"lobatto_shared", 2},
+                                                          FamilyAndStages{"lobatto_shared", 3})),
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +
-                                  std::to_string(std::get<2>(instance.param));
+                                  std::get<2>(instance.param).first +
+                                  std::to_string(std::get<2>(instance.param).second);
                          });
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/solvers/sqp/kkt_matrix.hpp"
+#include "methods/solvers/kkt_matrix.hpp"
 
 namespace dmocbench::sqp {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/linearisation.hpp"
-#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -6,7 +6,7 @@
 #include <Eigen/SparseCore>
 
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
-#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

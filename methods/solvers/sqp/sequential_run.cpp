@@ -9,6 +9,7 @@
 
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
+#include "methods/solvers/sqp/linearised_program.hpp"
 
 namespace dmocbench::sqp {
 

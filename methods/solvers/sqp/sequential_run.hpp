@@ -10,10 +10,10 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
-#include "methods/solvers/sqp/linearisation.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 
 namespace dmocbench::sqp {

@@ -6,9 +6,10 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
-#include "methods/solvers/sqp/linearisation.hpp"
+#include "methods/solvers/sqp/linearised_program.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"

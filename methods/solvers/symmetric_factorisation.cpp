@@ -1,4 +1,4 @@
-#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
 
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 #include "methods/error.hpp"
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 namespace {
 
@@ -121,4 +121,4 @@ Eigen::VectorXd SymmetricFactorisation::solve(Eigen::VectorXd right_hand_side) {
   return right_hand_side;
 }
 
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

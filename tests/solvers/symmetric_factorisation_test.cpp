@@ -1,14 +1,14 @@
-#include "methods/solvers/sqp/symmetric_factorisation.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 namespace {
 
-using tests::random_matrix;
+using sqp::tests::random_matrix;
 
 Eigen::SparseMatrix<double> lower_of(const Eigen::MatrixXd& matrix) {
   const Eigen::MatrixXd triangle = matrix.triangularView<Eigen::Lower>();
@@ -46,4 +46,4 @@ TEST(SymmetricFactorisation, TellsASingularMatrix) {
 }
 
 }  // namespace
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

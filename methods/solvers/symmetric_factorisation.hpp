@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 /// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS).
 class SymmetricFactorisation {
@@ -30,4 +30,4 @@ class SymmetricFactorisation {
   std::unique_ptr<Mumps> mumps_;
 };
 
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

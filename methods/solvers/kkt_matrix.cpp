@@ -1,8 +1,8 @@
-#include "methods/solvers/sqp/kkt_matrix.hpp"
+#include "methods/solvers/kkt_matrix.hpp"
 
 #include <cstddef>
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 Eigen::SparseMatrix<double> kkt_matrix(const Eigen::SparseMatrix<double>& hessian, double shift,
                                        const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
@@ -30,4 +30,4 @@ Eigen::SparseMatrix<double> kkt_matrix(const Eigen::SparseMatrix<double>& hessia
   return matrix;
 }
 
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

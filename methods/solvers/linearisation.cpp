@@ -1,10 +1,10 @@
-#include "methods/solvers/sqp/linearisation.hpp"
+#include "methods/solvers/linearisation.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <vector>
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 namespace {
 
@@ -77,14 +77,4 @@ double Evaluator::violation(const Eigen::VectorXd& constraints) const {
   return constraints.size() > 0 ? violations(constraints).lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
-                                      const Hessian& hessian) {
-  QuadraticProgram result{.hessian = &hessian, .gradient = at.gradient, .rows = at.jacobian, .lower = {}, .upper = {}};
-  result.lower.resize(result.column_count());
-  result.upper.resize(result.column_count());
-  result.lower << program.variable_lower() - at.point, program.constraint_lower() - at.constraints;
-  result.upper << program.variable_upper() - at.point, program.constraint_upper() - at.constraints;
-  return result;
-}
-
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

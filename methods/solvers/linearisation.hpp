@@ -7,9 +7,8 @@
 #include <Eigen/SparseCore>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 /// Values and first derivatives of a nonlinear program at a point.
 struct Linearisation {
@@ -57,8 +56,4 @@ class Evaluator {
   double seconds_ = 0.0;
 };
 
-/// The quadratic program at a point with derivatives; `hessian` must outlive it.
-[[nodiscard]] QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
-                                                    const Hessian& hessian);
-
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

@@ -4,7 +4,7 @@
 
 #include <Eigen/SparseCore>
 
-namespace dmocbench::sqp {
+namespace dmocbench {
 
 /// Lower triangle of (H + δI, Eᵀ; E, 0), where E are the rows of the Jacobian that count. Fixed variables and the other
 /// rows are replaced by unit rows (1 and -1), so that the pattern is the same at every point and the number of negative
@@ -14,4 +14,4 @@ namespace dmocbench::sqp {
                                                      const Eigen::SparseMatrix<double>& jacobian,
                                                      const std::vector<bool>& free, const std::vector<bool>& counts);
 
-}  // namespace dmocbench::sqp
+}  // namespace dmocbench

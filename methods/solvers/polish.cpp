@@ -1,0 +1,85 @@
+#include "methods/solvers/polish.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/kkt_matrix.hpp"
+#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+bool has_only_equalities(const NonlinearProgram& program) {
+  return (program.constraint_lower().array() == program.constraint_upper().array()).all();
+}
+
+/// True if no free variable is at a bound, where the KKT system would be another one.
+bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& x) {
+  constexpr double margin = 1e-6;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const double lower = program.variable_lower()[j];
+    const double upper = program.variable_upper()[j];
+    if (lower != upper && !(x[j] > lower + margin && x[j] < upper - margin)) return false;
+  }
+  return true;
+}
+
+/// The larger of both residuals; infinity where they are no numbers.
+double residual_of(const Solution& solution) {
+  const double residual =
+      std::max(solution.kkt_residual.value_or(unbounded), solution.constraint_violation.value_or(unbounded));
+  return std::isfinite(residual) ? residual : unbounded;
+}
+
+/// The solution after one Newton step; with an infinite residual if there is none.
+Solution stepped(Evaluator& evaluator, NonlinearProgram& program, SymmetricFactorisation& factorisation,
+                 const Solution& solution) {
+  Solution next = solution;
+  Linearisation at = evaluator.values_at(solution.primal);
+  evaluator.differentiate(at);
+  const std::vector<bool> free = free_variables(program);
+  const Eigen::Index n = at.point.size();
+  const Eigen::Index m = at.constraints.size();
+  const Eigen::SparseMatrix<double> matrix =
+      kkt_matrix(evaluator.hessian_at(at.point, solution.multipliers), 0.0, at.jacobian, free, equality_rows(program));
+  Eigen::VectorXd right_hand_side(n + m);
+  right_hand_side << -(at.gradient + at.jacobian.transpose() * solution.multipliers),
+      program.constraint_lower() - at.constraints;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!free[static_cast<std::size_t>(j)]) right_hand_side[j] = 0.0;
+  }
+  if (!factorisation.factorise(matrix)) {
+    next.kkt_residual = unbounded;
+    return next;
+  }
+  const Eigen::VectorXd step = factorisation.solve(std::move(right_hand_side));
+  next.primal += step.head(n);
+  next.multipliers += step.tail(m);
+  measure(program, next);
+  return next;
+}
+
+}  // namespace
+
+int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
+  const bool fits = is_solved(solution.status) && !solution.multipliers_are_estimated && has_only_equalities(program) &&
+                    static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count() &&
+                    is_away_from_bounds(program, solution.primal);
+  if (!fits) return 0;
+  Evaluator evaluator(program);
+  SymmetricFactorisation factorisation;
+  int steps = 0;
+  while (steps < most_steps) {
+    Solution next = stepped(evaluator, program, factorisation, solution);
+    if (!(residual_of(next) < residual_of(solution))) break;
+    solution = std::move(next);
+    ++steps;
+  }
+  return steps;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,55 @@
+#include "methods/solvers/polish.hpp"
+
+#include <gtest/gtest.h>
+
+#include "problems/registry.hpp"
+#include "tests/support/small_programs.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+TEST(Polish, CarriesALooseSolutionToRounding) {
+  for (const std::string& name : problem_names()) {
+    for (const std::string& method : element_names()) {
+      SCOPED_TRACE(name + " " + method);
+      const auto problem = make_problem(name);
+      tests::Solved loose = tests::solve(*problem, {method, 2}, Grid::uniform(48), tests::common_start(*problem), 1e-6);
+      const tests::Solved tight =
+          tests::solve(*problem, {method, 2}, Grid::uniform(48), tests::common_start(*problem), 1e-11);
+      const int steps = polish(*loose.transcription, loose.solution);
+      EXPECT_GE(steps, 1);
+      EXPECT_LE(steps, 4);
+      EXPECT_LT(*loose.solution.kkt_residual, 1e-9);
+      EXPECT_LT(*loose.solution.constraint_violation, 1e-11);
+      EXPECT_LT((loose.solution.primal - tight.solution.primal).lpNorm<Eigen::Infinity>(), 1e-7);
+      EXPECT_NEAR(loose.solution.objective / tight.solution.objective, 1.0, 1e-11);
+    }
+  }
+}
+
+TEST(Polish, NeverMakesASolutionWorse) {
+  const auto problem = make_problem("two_link_manipulator");
+  tests::Solved solved = tests::solve(*problem, {"dmoc", 1}, Grid::uniform(64), tests::common_start(*problem), 1e-11);
+  polish(*solved.transcription, solved.solution);
+  const double residual = std::max(*solved.solution.kkt_residual, *solved.solution.constraint_violation);
+  polish(*solved.transcription, solved.solution);
+  EXPECT_LE(std::max(*solved.solution.kkt_residual, *solved.solution.constraint_violation), residual);
+}
+
+TEST(Polish, LeavesAloneWhatItIsNotFor) {
+  // HS 71 has an inequality and active bounds.
+  const tests::KnownProgram known = tests::hock_schittkowski().back();
+  tests::SmallProgram program(known.statement);
+  Solution solution = make_solver("ipopt")->solve(program, known.start);
+  ASSERT_EQ(solution.status, Status::solved);
+  const Eigen::VectorXd before = solution.primal;
+  EXPECT_EQ(polish(program, solution), 0);
+  EXPECT_EQ(solution.primal, before);
+  Solution failed;
+  failed.status = Status::iteration_limit;
+  EXPECT_EQ(polish(program, failed), 0);
+}
+
+}  // namespace
+}  // namespace dmocbench
