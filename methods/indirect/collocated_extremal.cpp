@@ -127,9 +127,9 @@ class NewtonOnGrid {
   double correct(const Eigen::MatrixXd& correction) {
     const Eigen::Index s = tableau_.stages();
     const Eigen::Index half = size_ / 2;
-    const auto relative = [](const auto& change, const auto& values) {
+    const auto relative = [](const Eigen::MatrixXd& change, const Eigen::MatrixXd& values) {
       constexpr double vanishing = 1e-6;  // costates of a free motion are 0
-      return change.template lpNorm<Eigen::Infinity>() / std::max(vanishing, values.template lpNorm<Eigen::Infinity>());
+      return change.lpNorm<Eigen::Infinity>() / std::max(vanishing, values.lpNorm<Eigen::Infinity>());
     };
     const double change = std::max(relative(correction.topRows(half), extremal_.nodes.topRows(half)),
                                    relative(correction.bottomRows(half), extremal_.nodes.bottomRows(half)));

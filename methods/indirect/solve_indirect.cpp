@@ -49,6 +49,12 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
   return point;
 }
 
+/// The largest value, but not 0: costates of a free motion vanish.
+double size_of(const Eigen::MatrixXd& values) {
+  constexpr double vanishing = 1e-6;
+  return std::max(vanishing, values.lpNorm<Eigen::Infinity>());
+}
+
 void require_fit(const Problem& problem, const Trajectory& start) {
   if (!start.has_costates()) {
     throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
@@ -95,6 +101,43 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
   }
   if (!best) throw Error("the indirect method needs at least " + std::to_string(coarsest) + " intervals");
   return *std::move(best);
+}
+
+double boundary_value_residual(const Problem& problem, const IndirectSolution& solution) {
+  const CollocatedExtremal& extremal = solution.extremal();
+  const PontryaginFunction function(problem);
+  const Eigen::Index half = function.state_size() / 2;
+  const double horizon = problem.horizon();
+  if (extremal.nodes.rows() != 2 * half || extremal.algebraic.rows() != function.algebraic_size()) {
+    throw Error("the indirect solution is one of another problem than " + problem.name());
+  }
+  const auto relative = [half](const Eigen::VectorXd& residual, const Eigen::MatrixXd& values) {
+    return std::max(residual.head(half).lpNorm<Eigen::Infinity>() / size_of(values.topRows(half)),
+                    residual.tail(half).lpNorm<Eigen::Infinity>() / size_of(values.bottomRows(half)));
+  };
+
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::Index intervals = extremal.intervals();
+  Eigen::VectorXd ends = Eigen::VectorXd::Zero(2 * half);
+  ends.head(half) = extremal.nodes.col(0).head(half) - phase_point(legendre, problem.initial_state(), 0.0);
+  double largest = std::max(relative(ends, extremal.nodes), std::abs(extremal.horizon / horizon - 1.0));
+  ends.head(half) = extremal.nodes.col(intervals).head(half) - phase_point(legendre, problem.final_state(), horizon);
+  largest = std::max(largest, relative(ends, extremal.nodes));
+
+  const Tableau tableau = high_order_gauss_tableau(extremal.stages);
+  const double step = extremal.horizon / static_cast<double>(intervals);
+  for (Eigen::Index k = 0; k < intervals; ++k) {
+    const auto slopes = extremal.slopes.middleCols(k * extremal.stages, extremal.stages);
+    const Eigen::VectorXd jump = extremal.nodes.col(k) + step * (slopes * tableau.b) - extremal.nodes.col(k + 1);
+    largest = std::max(largest, relative(jump, extremal.nodes));
+    for (Eigen::Index i = 0; i < extremal.stages; ++i) {
+      const Eigen::VectorXd y = extremal.nodes.col(k) + step * (slopes * tableau.a.row(i).transpose());
+      const double t = step * (static_cast<double>(k) + tableau.c[i]);
+      Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages + i);
+      largest = std::max(largest, relative(function.evaluate(y, t, z).rate - slopes.col(i), extremal.slopes));
+    }
+  }
+  return largest;
 }
 
 }  // namespace dmocbench

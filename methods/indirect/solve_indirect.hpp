@@ -25,4 +25,10 @@ struct IndirectOptions {
 [[nodiscard]] IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
                                               const IndirectOptions& options = {});
 
+/// How far a solution, e.g. one read from a file, is from solving this problem: the largest residual of slopes against
+/// the equations, of steps between nodes and of both ends, relative to the largest value of its kind (state or
+/// costate). Rounding for a solution of the problem. Throws `Error` if the control cannot be found there, or sizes do
+/// not fit.
+[[nodiscard]] double boundary_value_residual(const Problem& problem, const IndirectSolution& solution);
+
 }  // namespace dmocbench

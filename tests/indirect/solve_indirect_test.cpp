@@ -38,6 +38,19 @@ class WithCost final : public SmallProblem {
   std::function<Expression(const Expression&)> cost_;
 };
 
+/// Another problem with twice its running cost.
+class WithDoubleCost final : public tests::WithEnds {
+ public:
+  explicit WithDoubleCost(const Problem& base)
+      : WithEnds(base, base.initial_state(), base.final_state()), base_of_cost_(base) {}
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return 2.0 * base_of_cost_.running_cost(x);
+  }
+
+ private:
+  const Problem& base_of_cost_;
+};
+
 std::unique_ptr<Problem> problem_named(const std::string& name) {
   if (name == "moving_frame") return std::make_unique<tests::MovingFrame>();
   if (name == "relativistic_spring") return std::make_unique<tests::RelativisticSpring>();
@@ -171,6 +184,26 @@ TEST(SolveIndirect, TooFewIntervalsAreSaidToReachWhatTheyReach) {
   EXPECT_LT(compare(coarse, fine, 1.0).worst(), coarse.agreement().worst());
   tests::expect_error_naming({"at least"},
                              [&] { static_cast<void>(solve_indirect(*problem, start, {.most_intervals = 8})); });
+}
+
+TEST(IndirectSolution, SolvesItsOwnProblemAndNoOther) {
+  for (const std::string name : {"orbital_transfer", "two_link_manipulator"}) {
+    const auto problem = make_problem(name);
+    const IndirectSolution solution = solve_indirect(*problem, direct_solution(*problem));
+    EXPECT_LT(boundary_value_residual(*problem, solution), 1e-12) << name;
+    const auto other = make_problem(name);
+    const Parameter& last = other->parameters().back();
+    other->set_parameter(last.name, last.value * (1.0 + 1e-6));
+    if (name == "orbital_transfer") other->set_parameter("target_altitude", 330.01);  // its last one is a unit only
+    EXPECT_GT(boundary_value_residual(*other, solution), 1e-8) << name;
+    // Another cost leaves state equations and ends as they are.
+    EXPECT_GT(boundary_value_residual(WithDoubleCost(*problem), solution), 1e-2) << name;
+  }
+  const auto orbit = make_problem("orbital_transfer");
+  const tests::DoubleIntegrator small;
+  const IndirectSolution solution = solve_indirect(small, direct_solution(small));
+  tests::expect_error_naming({"another problem"},
+                             [&] { static_cast<void>(boundary_value_residual(*orbit, solution)); });
 }
 
 TEST(IndirectSolution, IsTheSameFromItsNumbers) {
