@@ -8,6 +8,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
+#include "methods/indirect/shooting_defect.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 
 namespace dmocbench {
@@ -16,10 +17,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> common_columns{
-    "problem",           "cost",           "certified_digits",  "state_agreement", "costate_agreement",
-    "control_agreement", "cost_agreement", "hamiltonian_drift", "replay_error",    "stages",
-    "intervals",         "seconds"};
+const std::vector<std::string> common_columns{"problem",
+                                              "cost",
+                                              "certified_digits",
+                                              "state_agreement",
+                                              "costate_agreement",
+                                              "control_agreement",
+                                              "cost_agreement",
+                                              "hamiltonian_drift",
+                                              "shooting_defect",
+                                              "replay_error",
+                                              "stages",
+                                              "intervals",
+                                              "seconds"};
 
 Json parameters_of(const Problem& problem) {
   Json parameters = Json::object();
@@ -137,6 +147,7 @@ const IndirectSolution& IndirectReference::near(const Problem& problem, const Tr
   row.set("hamiltonian_drift", solution->hamiltonian_drift());
   constexpr double replay_tolerance = 1e-13;
   row.set("replay_error", replay_error(problem, solution->trajectory(), replay_tolerance).norm());
+  row.set("shooting_defect", shooting_defect(problem, *solution));
   row.set("stages", static_cast<long long>(solution->extremal().stages));
   row.set("intervals", static_cast<long long>(solution->extremal().intervals()));
   row.set("seconds", seconds);
@@ -173,6 +184,7 @@ nlohmann::ordered_json IndirectReference::metadata() const {
     references.push_back({{"problem", name},
                           {"cost", entry.solution.cost()},
                           {"certified_digits", entry.solution.certified_digits()},
+                          {"shooting_defect", *entry.row.number("shooting_defect")},
                           {"replay_error", *entry.row.number("replay_error")},
                           {"initial_costate", std::move(costate)}});
   }

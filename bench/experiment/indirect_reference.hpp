@@ -27,9 +27,9 @@ class IndirectReference {
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
   /// A row per problem that was asked for: problem,cost,certified_digits,state_agreement,costate_agreement,
-  /// control_agreement,cost_agreement,hamiltonian_drift,replay_error,stages,intervals,seconds, then the costate at t =
-  /// 0, psi_q_NAME and psi_p_NAME of every configuration. Agreements are relative; seconds are empty where a file was
-  /// used.
+  /// control_agreement,cost_agreement,hamiltonian_drift,shooting_defect,replay_error,stages,intervals,seconds, then
+  /// the costate at t = 0, psi_q_NAME and psi_p_NAME of every configuration. Agreements, drift and defect are relative;
+  /// seconds are empty where a file was used.
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.
   [[nodiscard]] nlohmann::ordered_json metadata() const;

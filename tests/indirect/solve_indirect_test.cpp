@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/replay_error.hpp"
+#include "methods/indirect/shooting_defect.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -117,6 +118,13 @@ TEST_P(IndirectSolutionOf, TheProblemHasAConstantHamiltonianUnlessTimeEnters) {
 
 TEST_P(IndirectSolutionOf, TheProblemEndsWhereItShouldWhenItsControlIsReplayed) {
   EXPECT_LT(replay_error(*problem_, solution_.trajectory(), 1e-13).norm(), 1e-10);
+}
+
+TEST_P(IndirectSolutionOf, TheProblemGoesFromNodeToNodeWhenItsStateAndCostateAreIntegrated) {
+  EXPECT_LT(shooting_defect(*problem_, solution_), 1e-12);
+  CollocatedExtremal disturbed = solution_.extremal();
+  disturbed.nodes(disturbed.nodes.rows() - 1, 1) *= 1.0 + 1e-6;  // one costate at one node
+  EXPECT_GT(shooting_defect(*problem_, IndirectSolution(*problem_, disturbed, {})), 1e-8);
 }
 
 TEST_P(IndirectSolutionOf, TheProblemDoesNotDependOnTheDirectSolutionItStartedFrom) {
