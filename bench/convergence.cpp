@@ -116,14 +116,17 @@ class Convergence final : public Experiment {
     if (indirect_) {
       write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
       metadata["references"] = indirect_->metadata();
+      for (const std::string& note : indirect_->notes()) tell(note, metadata);
     }
-    for (const std::string& note : slopes.notes) {
-      metadata["notes"].push_back(note);
-      fmt::print("convergence: {}\n", note);
-    }
+    for (const std::string& note : slopes.notes) tell(note, metadata);
   }
 
  private:
+  static void tell(const std::string& note, nlohmann::ordered_json& metadata) {
+    metadata["notes"].push_back(note);
+    fmt::print("convergence: {}\n", note);
+  }
+
   static void set_errors(SolvedCase& solved, const Trajectory& reference) {
     const TrajectoryError error = trajectory_error(*solved.trajectory, reference);
     solved.row.set("state_error", error.state);

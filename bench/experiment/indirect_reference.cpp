@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "bench/experiment/result_file.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
@@ -86,6 +88,13 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
   return true;
 }
 
+void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
+  if (is_near(solution, direct)) return;
+  throw Error("the indirect solution of " + problem.name() +
+              " is on another branch than this row, which has no errors therefore; run its method alone, on finer "
+              "grids");
+}
+
 /// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
 std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
                                               const Trajectory& direct) {
@@ -120,7 +129,10 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
 
 const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
   const auto known = entries_.find(problem.name());
-  if (known != entries_.end()) return known->second.solution;
+  if (known != entries_.end()) {
+    require_near(problem, known->second.solution, direct);
+    return known->second.solution;
+  }
 
   const std::filesystem::path path = folder_ / (problem.name() + "_indirect.json");
   std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
@@ -129,10 +141,7 @@ const IndirectSolution& IndirectReference::near(const Problem& problem, const Tr
     const auto begin = std::chrono::steady_clock::now();
     solution = solve_indirect(problem, direct);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (!is_near(*solution, direct)) {
-      throw Error("the indirect solution of " + problem.name() +
-                  " is on another branch than the direct one it started from; start from a finer grid");
-    }
+    require_near(problem, *solution, direct);
     write_file(path, written(problem, *solution));
   }
 
@@ -189,6 +198,20 @@ nlohmann::ordered_json IndirectReference::metadata() const {
                           {"initial_costate", std::move(costate)}});
   }
   return references;
+}
+
+std::vector<std::string> IndirectReference::notes() const {
+  constexpr double wanted_digits = 11.0;
+  std::vector<std::string> notes;
+  for (const auto& [name, entry] : entries_) {
+    const double digits = entry.solution.certified_digits();
+    if (digits >= wanted_digits) continue;
+    notes.push_back(
+        fmt::format("{}: the indirect reference is certified to {:.1f} digits only; smaller relative "
+                    "errors say nothing",
+                    name, digits));
+  }
+  return notes;
 }
 
 }  // namespace dmocbench

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -23,7 +24,8 @@ class IndirectReference {
   /// `folder` is where the files are; it exists.
   explicit IndirectReference(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The solution near a direct one. Throws `Error` if there is none (see `solve_indirect`).
+  /// The solution near a direct one. Throws `Error` if there is none (see `solve_indirect`) or the problem's reference
+  /// is on another branch.
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
   /// A row per problem that was asked for: problem,cost,certified_digits,state_agreement,costate_agreement,
@@ -33,6 +35,8 @@ class IndirectReference {
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.
   [[nodiscard]] nlohmann::ordered_json metadata() const;
+  /// A sentence for every problem whose reference is certified to fewer than 11 digits.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   struct Entry {

@@ -79,7 +79,11 @@ SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& r
         const auto error = row->number(quantity + "_error");
         const bool in_range =
             intervals >= static_cast<double>(fit.coarsest) && intervals <= static_cast<double>(fit.finest);
-        if (!is_usable(*row) || !in_range || !error || *error < smallest_error(row, quantity)) continue;
+        if (!is_usable(*row) || !in_range || !error) continue;
+        if (*error < smallest_error(row, quantity)) {
+          if (reference == exact_reference) break;
+          continue;
+        }
         grids.push_back(intervals);
         points.push_back({number_of(row, "step"), *error});
       }

@@ -31,8 +31,8 @@ struct SlopeTable {
 /// to a quarter of the reference are taken: against a reference of N_ref intervals an error of order 2 is proportional
 /// to h² - h_ref², which bends the slope of finer grids; a range that goes beyond gets a note. `reference` is the
 /// reference's number of intervals, 0 for the finest grid of a curve; `exact_reference` bends nothing, and grids are
-/// taken up to the finest one, or to where an error begins to fall at less than two thirds of its order before: there
-/// it is the solver's tolerance. Errors at the level of rounding are left out.
+/// taken up to the finest one, or to where an error reaches rounding or begins to fall at less than two thirds of its
+/// order before: there it is the solver's tolerance. Errors at the level of rounding are left out.
 [[nodiscard]] SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& range,
                                     long long reference);
 
