@@ -1,9 +1,13 @@
 // Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
-#include <cmath>
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/indirect_reference.hpp"
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/equal_accuracy.hpp"
@@ -16,37 +20,58 @@ namespace dmocbench {
 
 namespace {
 
+/// What --reference says: N, 0 for the finest grid of each curve, or `exact_reference`.
+long long parse_reference(const std::string& text) {
+  if (text.empty()) return 0;
+  if (text == "indirect") return exact_reference;
+  long long intervals = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), intervals);
+  if (failure != std::errc() || end != text.data() + text.size() || intervals <= 0) {
+    throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
+  }
+  return intervals;
+}
+
 class Convergence final : public Experiment {
  public:
   [[nodiscard]] std::string name() const override { return "convergence"; }
   [[nodiscard]] std::string description() const override {
-    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method, with fitted "
-           "slopes "
-           "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).";
+    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
+           "indirect "
+           "solution (NAME_reference.csv), with fitted slopes (NAME_slopes.csv) and the cost of equal accuracy "
+           "(NAME_equal_accuracy.csv).";
   }
   [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
     return {"state_error", "control_error", "momentum_error", "costate_error", "objective_error", "replay_error"};
   }
   void add_options(CLI::App& app) override {
-    app.add_option("--reference", reference_, "N of the reference grid; default: the finest one of each curve");
+    app.add_option(
+        "--reference", reference_text_,
+        "what errors are measured against: N of a grid of the same method (default: the finest one of each "
+        "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
+        "kept in the output folder");
     app.add_option(
         "--fit", fit_,
         "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
-        "the reference");
+        "the reference, or to the finest grid against the indirect solution");
   }
 
   void check(const std::vector<Case>& cases) override {
-    if (reference_ < 0) throw Error(fmt::format("--reference must be a number of intervals, got {}", reference_));
+    reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
       const std::vector<long long> range = parse_intervals("--fit", fit_);
       fit_range_ = {range.front(), range.back()};
     }
-    if (reference_ == 0) return;
+    if (reference_ <= 0) return;
     const bool present = std::any_of(cases.begin(), cases.end(), [&](const Case& what) {
       return static_cast<long long>(what.intervals()) == reference_;
     });
     if (!present) throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+  }
+
+  void prepare(const std::filesystem::path& folder) override {
+    if (reference_ == exact_reference) indirect_.emplace(folder);
   }
 
   [[nodiscard]] std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const override {
@@ -73,12 +98,37 @@ class Convergence final : public Experiment {
       solved.row.set("message", solved.row.text("message") + " " + error.what());
     }
     const bool usable = is_usable(solved.row);
+    if (indirect_) {
+      if (usable) measure_against_indirect(solved);
+      return;
+    }
     if (is_first) {
       if (usable) reference_trajectory_ = *solved.trajectory;
       return;
     }
-    if (!usable || !reference_trajectory_) return;
-    const TrajectoryError error = trajectory_error(*solved.trajectory, *reference_trajectory_);
+    if (usable && reference_trajectory_) set_errors(solved, *reference_trajectory_);
+  }
+
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    const SlopeTable slopes = fit_slopes(table, fit_range_, reference_);
+    write_file(prefix.string() + "_slopes.csv", slopes.table.csv());
+    write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
+    if (indirect_) {
+      write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
+      metadata["references"] = indirect_->metadata();
+      for (const std::string& note : indirect_->notes()) tell(note, metadata);
+    }
+    for (const std::string& note : slopes.notes) tell(note, metadata);
+  }
+
+ private:
+  static void tell(const std::string& note, nlohmann::ordered_json& metadata) {
+    metadata["notes"].push_back(note);
+    fmt::print("convergence: {}\n", note);
+  }
+
+  static void set_errors(SolvedCase& solved, const Trajectory& reference) {
+    const TrajectoryError error = trajectory_error(*solved.trajectory, reference);
     solved.row.set("state_error", error.state);
     solved.row.set("control_error", error.control);
     solved.row.set("momentum_error", error.momentum);
@@ -86,18 +136,18 @@ class Convergence final : public Experiment {
     solved.row.set("objective_error", error.objective);
   }
 
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    const SlopeTable slopes = fit_slopes(table, fit_range_, reference_);
-    write_file(prefix.string() + "_slopes.csv", slopes.table.csv());
-    write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
-    for (const std::string& note : slopes.notes) {
-      metadata["notes"].push_back(note);
-      fmt::print("convergence: {}\n", note);
+  void measure_against_indirect(SolvedCase& solved) {
+    try {
+      const IndirectSolution& exact = indirect_->near(*solved.what.problem, *solved.trajectory);
+      set_errors(solved, exact.sampled_like(*solved.trajectory));
+    } catch (const Error& error) {
+      solved.row.set("message", solved.row.text("message") + " " + error.what());
     }
   }
 
- private:
-  long long reference_ = 0;
+  std::string reference_text_;
+  long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
+  std::optional<IndirectReference> indirect_;
   std::string fit_;
   std::optional<FitRange> fit_range_;
   std::optional<Case> curve_;

@@ -75,6 +75,7 @@ class Run {
 
   int run() {
     prepare_folder(options_.out);
+    experiment_.prepare(options_.out);
     listen_for_interrupt();
     Progress progress(cases_.size());
     starts_.on_progress = [&](const std::string& what) { progress.show(what); };

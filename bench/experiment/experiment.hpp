@@ -45,6 +45,8 @@ class Experiment {
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
+  /// Called when the output folder is there and before anything is solved.
+  virtual void prepare(const std::filesystem::path& /*folder*/) {}
   /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.
   [[nodiscard]] virtual std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const;
   /// Fills in the own columns of a solved case. Called in the order of solving.

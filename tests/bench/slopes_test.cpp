@@ -65,6 +65,30 @@ TEST(Slopes, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
   EXPECT_EQ(slope_of(bent, "state").text("finest"), "256");
 }
 
+TEST(Slopes, GoToTheFinestGridAgainstAnExactReference) {
+  const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
+  const Row row = slope_of(fit_slopes(table, std::nullopt, exact_reference), "state");
+  EXPECT_EQ(row.text("coarsest"), "32");
+  EXPECT_EQ(row.text("finest"), "1024");
+  EXPECT_EQ(row.text("points"), "6");
+  EXPECT_TRUE(fit_slopes(table, FitRange{32, 1024}, exact_reference).notes.empty());
+}
+
+TEST(Slopes, EndAtTheSolversToleranceAgainstAnExactReference) {
+  const auto floored = [](double n) { return 1e3 * std::pow(n, -6.0) + 1e-10; };
+  const Table table = convergence_of({{.error = floored}}, sixteen_to_1024);
+  const Row row = slope_of(fit_slopes(table, std::nullopt, exact_reference), "state");
+  EXPECT_EQ(row.text("finest"), "128");
+  EXPECT_NEAR(*row.number("slope"), 6.0, 0.3);
+  // 256 is at rounding, and what lies above it on finer grids is noise.
+  const auto noisy = [](double n) { return n < 256.0 ? 1e3 * std::pow(n, -6.0) : (n == 256.0 ? 5e-12 : 2e-11); };
+  const Row before =
+      slope_of(fit_slopes(convergence_of({{.error = noisy}}, sixteen_to_1024), std::nullopt, exact_reference), "state");
+  EXPECT_EQ(before.text("finest"), "128");
+  EXPECT_NEAR(*before.number("slope"), 6.0, 1e-9);
+  EXPECT_EQ(slope_of(fit_slopes(table, FitRange{32, 1024}, exact_reference), "state").text("finest"), "1024");
+}
+
 TEST(Slopes, UnsolvedRowsAndOtherBranchesAreLeftOut) {
   const Table good = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const Table wrong = with_field(good, 64, "state_error", Cell(1.0));

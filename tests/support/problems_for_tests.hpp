@@ -150,7 +150,7 @@ class CentralForce : public SmallProblem {
 };
 
 /// Another problem with its ends replaced.
-class WithEnds final : public Problem {
+class WithEnds : public Problem {
  public:
   WithEnds(const Problem& base, BoundaryState first, BoundaryState last)
       : base_(base), first_(std::move(first)), last_(std::move(last)) {}

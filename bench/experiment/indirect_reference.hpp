@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/table.hpp"
+#include "methods/indirect/indirect_solution.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// Indirect solutions that errors are measured against, one per problem, kept in the output folder.
+///
+/// PROBLEM_indirect.json holds all numbers of a solution. It is used again if it was made with the same parameters, its
+/// numbers still solve the boundary value problem (so that a changed formula is noticed) and it is on the branch of the
+/// direct solution; otherwise the problem is solved anew and the file written whole.
+class IndirectReference {
+ public:
+  /// `folder` is where the files are; it exists.
+  explicit IndirectReference(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// The solution near a direct one. Throws `Error` if there is none (see `solve_indirect`) or the problem's reference
+  /// is on another branch.
+  [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
+
+  /// A row per problem that was asked for: problem,cost,certified_digits,state_agreement,costate_agreement,
+  /// control_agreement,cost_agreement,hamiltonian_drift,shooting_defect,replay_error,stages,intervals,seconds, then
+  /// the costate at t = 0, psi_q_NAME and psi_p_NAME of every configuration. Agreements, drift and defect are relative;
+  /// seconds are empty where a file was used.
+  [[nodiscard]] Table table() const;
+  /// The same for metadata: an array with an object per problem.
+  [[nodiscard]] nlohmann::ordered_json metadata() const;
+  /// A sentence for every problem whose reference is certified to fewer than 11 digits.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  struct Entry {
+    IndirectSolution solution;
+    Row row;
+    std::vector<std::string> costate_columns;
+  };
+
+  std::filesystem::path folder_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace dmocbench

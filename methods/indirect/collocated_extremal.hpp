@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "methods/indirect/pontryagin_function.hpp"
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+/// A point of an extremal: y = (q, p, ψ_q, ψ_p) and z = (v, u, w) of `PontryaginFunction`, scaled like there.
+struct ExtremalPoint {
+  Eigen::VectorXd y;  ///< 4n entries
+  Eigen::VectorXd z;  ///< 2n + m entries
+};
+
+/// An extremal by Gauss collocation on a uniform grid: plain numbers, from which the polynomials can be made again.
+struct CollocatedExtremal {
+  int stages = 0;
+  double horizon = 0.0;
+  Eigen::MatrixXd nodes;      ///< y at t_0 .. t_N, 4n × (N + 1)
+  Eigen::MatrixXd slopes;     ///< ẏ at the stages, 4n × N s
+  Eigen::MatrixXd algebraic;  ///< z at the stages, (2n + m) × N s
+  double cost = 0.0;          ///< ∫ C dt by the method's quadrature, scaled
+
+  [[nodiscard]] Eigen::Index intervals() const noexcept { return nodes.cols() - 1; }
+};
+
+/// Gauss-Legendre with any number of stages (order 2s): nodes are zeros of Legendre polynomials.
+[[nodiscard]] Tableau high_order_gauss_tableau(int stages);
+
+/// The collocation polynomial at time t: y of uniform order s + 1 (at nodes y_k itself, order 2s), z between stages
+/// of order s, good enough to start Newton's method from.
+[[nodiscard]] ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tableau, double t);
+
+/// Pontryagin's boundary value problem by Gauss collocation with `stages` stages on `intervals` equal intervals:
+/// (q, p) fixed at both ends (`first`, `last`, 2n entries each), ψ free. Newton's method on all nodes and slopes at
+/// once from `start` (called with times in [0, horizon]); an interval's slopes are eliminated first, what is left is a
+/// multiple shooting system in the y_k. Throws `Error` if Newton's method does not converge.
+[[nodiscard]] CollocatedExtremal collocate_extremal(const PontryaginFunction& function, const Eigen::VectorXd& first,
+                                                    const Eigen::VectorXd& last, double horizon, int stages,
+                                                    Eigen::Index intervals,
+                                                    const std::function<ExtremalPoint(double t)>& start);
+
+}  // namespace dmocbench

@@ -1,0 +1,75 @@
+#include "methods/indirect/control_from_costate.hpp"
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+ControlFromCostate::ControlFromCostate(const Problem& problem)
+    : n_(problem.configuration_size()), m_(problem.control_size()), cost_scale_(problem.cost_scale()) {
+  const auto n = static_cast<std::size_t>(n_);
+  const auto m = static_cast<std::size_t>(m_);
+  const ControlledState point{input_vector(0, n_), input_vector(n, n_), input_vector(2 * n, m_),
+                              Expression::input(2 * n + m)};
+  const ExpressionVector psi_p = input_vector(2 * n + m + 1, n_);
+  const TracedProblem::Values values = TracedProblem(problem).at(point);
+  Expression hamiltonian = cost_scale_ * values.running_cost;
+  for (Eigen::Index i = 0; i < n_; ++i) hamiltonian += psi_p[i] * values.generalised_force[i];
+  ExpressionVector outputs(m_ + m_ * m_);
+  outputs << gradient(hamiltonian, point.u), hessian(hamiltonian, point.u).reshaped();
+  schedule_ = Schedule(outputs);
+}
+
+Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                            const Eigen::VectorXd& psi_p, double t,
+                                            const Eigen::VectorXd& start) const {
+  constexpr int most_steps = 50;
+  // Convergence is quadratic: a step of this size leaves an error of rounding.
+  constexpr double last_step = 1e-10;
+  if (q.size() != n_ || v.size() != n_ || psi_p.size() != n_ || start.size() != m_) {
+    throw Error("the control from the costate got vectors of the wrong size");
+  }
+  std::vector<double> inputs(static_cast<std::size_t>(3 * n_ + m_ + 1));
+  Eigen::Map<Eigen::VectorXd> point(inputs.data(), 3 * n_ + m_ + 1);
+  Eigen::VectorXd u = start;
+  for (int step = 0; step < most_steps; ++step) {
+    point << q, v, u, t, cost_scale_ * psi_p;
+    const std::vector<double> outputs = replay<double>(schedule_, inputs);
+    const Eigen::Map<const Eigen::VectorXd> slope(outputs.data(), m_);
+    const Eigen::Map<const Eigen::MatrixXd> curvature(outputs.data() + m_, m_, m_);
+    const Eigen::LLT<Eigen::MatrixXd> factors(curvature);
+    if (factors.info() != Eigen::Success) {
+      throw Error(
+          "H_u = 0 does not give the control: H_uu is not positive definite; the running cost must be strictly convex "
+          "in the control");
+    }
+    const Eigen::VectorXd correction = factors.solve(slope);
+    u -= correction;
+    if (correction.norm() <= last_step * (1e-3 + u.norm())) return u;
+  }
+  throw Error("Newton's method for the control from H_u = 0 did not converge");
+}
+
+Eigen::MatrixXd ControlFromCostate::at_nodes(const Trajectory& trajectory) const {
+  if (!trajectory.has_costates()) {
+    throw Error("the control from the costate needs costates: give it a solution of a solver that has multipliers");
+  }
+  const Eigen::Index nodes = trajectory.node_times.size();
+  Eigen::MatrixXd controls(nodes, m_);
+  for (Eigen::Index k = 0; k < nodes; ++k) {
+    const double t = trajectory.node_times[k];
+    controls.row(k) = control(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(),
+                              trajectory.psi_p.row(k).transpose(), t, control_at(trajectory, t))
+                          .transpose();
+  }
+  return controls;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/expression/schedule.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// The control that the maximum principle gives: u(q, v, ψ_p, t) with H_u = C_u + f_uᵀ ψ_p = 0, by Newton's method with
+/// the exact H_uu.
+///
+/// At the nodes of a Gauss method with s stages this control has the order 2s of state and costate, where the stage
+/// controls have order s + 1 and their polynomial order s.
+class ControlFromCostate {
+ public:
+  /// Traces the problem.
+  explicit ControlFromCostate(const Problem& problem);
+
+  /// m entries; Newton's method starts from `start`. ψ_p is the gradient of the true cost-to-go. Throws `Error` if
+  /// vectors have the wrong size, H_uu is not positive definite or the iteration does not converge.
+  [[nodiscard]] Eigen::VectorXd control(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::VectorXd& psi_p, double t, const Eigen::VectorXd& start) const;
+
+  /// At all nodes of a trajectory with costates, (N + 1) × m. Throws `Error` without costates.
+  [[nodiscard]] Eigen::MatrixXd at_nodes(const Trajectory& trajectory) const;
+
+ private:
+  Eigen::Index n_;
+  Eigen::Index m_;
+  double cost_scale_;
+  Schedule schedule_;  // inputs q, v, u, t, ψ_p; outputs H_u, then H_uu column by column, scaled
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,143 @@
+#include "methods/indirect/solve_indirect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// A direct solution as a start: node values joined by straight lines.
+class StartingPoint {
+ public:
+  StartingPoint(const Trajectory& trajectory, double cost_scale) : trajectory_(trajectory), cost_scale_(cost_scale) {}
+
+  ExtremalPoint operator()(double t) const {
+    const Eigen::VectorXd& times = trajectory_.node_times;
+    const auto above = std::upper_bound(times.begin(), times.end(), t);
+    const Eigen::Index k = std::clamp<Eigen::Index>(above - times.begin() - 1, 0, trajectory_.intervals() - 1);
+    const double step = times[k + 1] - times[k];
+    const double tau = (t - times[k]) / step;
+    const auto between = [&](const Eigen::MatrixXd& table) -> Eigen::VectorXd {
+      return ((1.0 - tau) * table.row(k) + tau * table.row(k + 1)).transpose();
+    };
+    const Eigen::VectorXd adjoint_rate = (trajectory_.psi_p.row(k + 1) - trajectory_.psi_p.row(k)).transpose() / step;
+    const Eigen::VectorXd u = control_at(trajectory_, t);
+    const Eigen::Index n = trajectory_.q.cols();
+    ExtremalPoint point{Eigen::VectorXd(4 * n), Eigen::VectorXd(2 * n + u.size())};
+    point.y << between(trajectory_.q), between(trajectory_.p), cost_scale_ * between(trajectory_.psi_q),
+        cost_scale_ * between(trajectory_.psi_p);
+    point.z << between(trajectory_.v), u, cost_scale_ * adjoint_rate;
+    return point;
+  }
+
+ private:
+  const Trajectory& trajectory_;
+  double cost_scale_;
+};
+
+/// (q, L_v(q, v)) at an end.
+Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& end, double t) {
+  Eigen::VectorXd point(2 * end.q.size());
+  point << end.q, legendre.momentum(end.q, end.v, t);
+  return point;
+}
+
+/// The largest value, but not 0: costates of a free motion vanish.
+double size_of(const Eigen::MatrixXd& values) {
+  constexpr double vanishing = 1e-6;
+  return std::max(vanishing, values.lpNorm<Eigen::Infinity>());
+}
+
+void require_fit(const Problem& problem, const Trajectory& start) {
+  if (!start.has_costates()) {
+    throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
+  }
+  const Eigen::Index n = problem.configuration_size();
+  const double horizon = problem.horizon();
+  constexpr double coincidence = 1e-9;
+  if (start.q.cols() != n || start.stage_u.cols() != problem.control_size() ||
+      std::abs(start.node_times[start.intervals()] - horizon) > coincidence * horizon) {
+    throw Error("the start of the indirect method is a solution of another problem than " + problem.name());
+  }
+}
+
+}  // namespace
+
+IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start, const IndirectOptions& options) {
+  constexpr Eigen::Index coarsest = 16;
+  constexpr int lower_stages = 8;
+  constexpr int higher_stages = 10;
+  require_fit(problem, start);
+  const PontryaginFunction function(problem);
+  LegendreTransform legendre{TracedProblem(problem)};
+  const double horizon = problem.horizon();
+  const Eigen::VectorXd first = phase_point(legendre, problem.initial_state(), 0.0);
+  const Eigen::VectorXd last = phase_point(legendre, problem.final_state(), horizon);
+
+  std::function<ExtremalPoint(double)> begin = StartingPoint(start, function.cost_scale());
+  std::optional<IndirectSolution> best;
+  for (Eigen::Index intervals = coarsest; intervals <= options.most_intervals; intervals *= 2) {
+    const auto solved = [&](int stages, Eigen::Index on_intervals) {
+      return IndirectSolution(problem, collocate_extremal(function, first, last, horizon, stages, on_intervals, begin),
+                              {});
+    };
+    const IndirectSolution lower = solved(lower_stages, intervals);
+    const IndirectSolution higher = solved(higher_stages, intervals * 3 / 2);
+    const IndirectAgreement agreement = compare(lower, higher, function.cost_scale());
+    begin = [extremal = higher.extremal(), tableau = high_order_gauss_tableau(higher_stages)](double t) {
+      return point_on(extremal, tableau, t);
+    };
+    if (!best || agreement.worst() < best->agreement().worst()) {
+      best.emplace(problem, higher.extremal(), agreement);
+    }
+    if (agreement.worst() <= options.tolerance) break;
+  }
+  if (!best) throw Error("the indirect method needs at least " + std::to_string(coarsest) + " intervals");
+  return *std::move(best);
+}
+
+double boundary_value_residual(const Problem& problem, const IndirectSolution& solution) {
+  const CollocatedExtremal& extremal = solution.extremal();
+  const PontryaginFunction function(problem);
+  const Eigen::Index half = function.state_size() / 2;
+  const double horizon = problem.horizon();
+  if (extremal.nodes.rows() != 2 * half || extremal.algebraic.rows() != function.algebraic_size()) {
+    throw Error("the indirect solution is one of another problem than " + problem.name());
+  }
+  const auto relative = [half](const Eigen::VectorXd& residual, const Eigen::MatrixXd& values) {
+    return std::max(residual.head(half).lpNorm<Eigen::Infinity>() / size_of(values.topRows(half)),
+                    residual.tail(half).lpNorm<Eigen::Infinity>() / size_of(values.bottomRows(half)));
+  };
+
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::Index intervals = extremal.intervals();
+  Eigen::VectorXd ends = Eigen::VectorXd::Zero(2 * half);
+  ends.head(half) = extremal.nodes.col(0).head(half) - phase_point(legendre, problem.initial_state(), 0.0);
+  double largest = std::max(relative(ends, extremal.nodes), std::abs(extremal.horizon / horizon - 1.0));
+  ends.head(half) = extremal.nodes.col(intervals).head(half) - phase_point(legendre, problem.final_state(), horizon);
+  largest = std::max(largest, relative(ends, extremal.nodes));
+
+  const Tableau tableau = high_order_gauss_tableau(extremal.stages);
+  const double step = extremal.horizon / static_cast<double>(intervals);
+  for (Eigen::Index k = 0; k < intervals; ++k) {
+    const auto slopes = extremal.slopes.middleCols(k * extremal.stages, extremal.stages);
+    const Eigen::VectorXd jump = extremal.nodes.col(k) + step * (slopes * tableau.b) - extremal.nodes.col(k + 1);
+    largest = std::max(largest, relative(jump, extremal.nodes));
+    for (Eigen::Index i = 0; i < extremal.stages; ++i) {
+      const Eigen::VectorXd y = extremal.nodes.col(k) + step * (slopes * tableau.a.row(i).transpose());
+      const double t = step * (static_cast<double>(k) + tableau.c[i]);
+      Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages + i);
+      largest = std::max(largest, relative(function.evaluate(y, t, z).rate - slopes.col(i), extremal.slopes));
+    }
+  }
+  return largest;
+}
+
+}  // namespace dmocbench

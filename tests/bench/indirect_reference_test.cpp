@@ -1,0 +1,118 @@
+#include "bench/experiment/indirect_reference.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bench/experiment/result_file.hpp"
+#include "methods/indirect/solve_indirect.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// The double integrator under the same name and parameters, but with another formula.
+class HeavierIntegrator final : public tests::SmallProblem {
+ public:
+  HeavierIntegrator() : SmallProblem("double_integrator", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+Trajectory direct_solution(const Problem& problem) {
+  return tests::solve(problem, {"dmoc", 2}, Grid::uniform(64), tests::common_start(problem)).trajectory;
+}
+
+class IndirectReferenceIn : public testing::Test {
+ protected:
+  IndirectReferenceIn() { std::filesystem::create_directories(folder_); }
+  ~IndirectReferenceIn() override { std::filesystem::remove_all(folder_); }
+  IndirectReferenceIn(const IndirectReferenceIn&) = delete;
+  IndirectReferenceIn& operator=(const IndirectReferenceIn&) = delete;
+  IndirectReferenceIn(IndirectReferenceIn&&) = delete;
+  IndirectReferenceIn& operator=(IndirectReferenceIn&&) = delete;
+
+  /// The row of the one problem asked for.
+  Row row_for(const Problem& problem, const Trajectory& direct) {
+    IndirectReference reference(folder_);
+    static_cast<void>(reference.near(problem, direct));
+    EXPECT_EQ(reference.table().rows().size(), 1U);
+    return reference.table().rows().front();
+  }
+  static bool was_solved(const Row& row) { return row.number("seconds").has_value(); }
+
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("indirect_reference_" + std::to_string(getpid()));
+  tests::DoubleIntegrator problem_;
+  Trajectory direct_ = direct_solution(problem_);
+};
+
+TEST_F(IndirectReferenceIn, AFolderIsSolvedOnceAndReadWithAllDigits) {
+  const Row first = row_for(problem_, direct_);
+  const Row second = row_for(problem_, direct_);
+  EXPECT_TRUE(was_solved(first));
+  EXPECT_FALSE(was_solved(second));
+  for (const std::string column : {"cost", "certified_digits", "replay_error", "psi_q_q1", "psi_p_q1"}) {
+    EXPECT_EQ(first.text(column), second.text(column)) << column;
+  }
+  EXPECT_NEAR(*second.number("cost"), 6.0, 1e-12);
+  EXPECT_NEAR(*second.number("psi_q_q1"), -12.0, 1e-11);
+  EXPECT_NEAR(*second.number("psi_p_q1"), -6.0, 1e-11);
+}
+
+TEST_F(IndirectReferenceIn, AFolderIsNotUsedForAChangedFormula) {
+  static_cast<void>(row_for(problem_, direct_));
+  const HeavierIntegrator changed;
+  const Row row = row_for(changed, direct_solution(changed));
+  EXPECT_TRUE(was_solved(row));
+  EXPECT_NEAR(*row.number("cost"), 24.0, 1e-11);
+}
+
+TEST_F(IndirectReferenceIn, AFolderIsNotUsedForOtherParameters) {
+  const auto orbit = make_problem("orbital_transfer");
+  static_cast<void>(row_for(*orbit, direct_solution(*orbit)));
+  EXPECT_FALSE(was_solved(row_for(*orbit, direct_solution(*orbit))));
+  // Only a unit: the equations stay, the key does not.
+  orbit->set_parameter("gravitational_parameter", 398601.0);
+  EXPECT_TRUE(was_solved(row_for(*orbit, direct_solution(*orbit))));
+}
+
+TEST_F(IndirectReferenceIn, AFolderIsNotUsedForAnotherBranch) {
+  static_cast<void>(row_for(problem_, direct_));
+  Trajectory elsewhere = direct_;
+  elsewhere.q.array() += 0.2;
+  // There is no other branch to find: the answer is refused instead of being taken for it.
+  tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(row_for(problem_, elsewhere)); });
+  IndirectReference reference(folder_);
+  static_cast<void>(reference.near(problem_, direct_));
+  tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(reference.near(problem_, elsewhere)); });
+}
+
+TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {
+  static_cast<void>(row_for(problem_, direct_));
+  const std::filesystem::path file = folder_ / "double_integrator_indirect.json";
+  const std::string good = read_file(file);
+  for (const std::string& damaged : {good.substr(0, good.size() / 2), std::string("[]"), std::string()}) {
+    write_file(file, damaged);
+    EXPECT_TRUE(was_solved(row_for(problem_, direct_)));
+    EXPECT_FALSE(was_solved(row_for(problem_, direct_)));
+  }
+}
+
+TEST_F(IndirectReferenceIn, MetadataTellTheInitialCostate) {
+  IndirectReference reference(folder_);
+  static_cast<void>(reference.near(problem_, direct_));
+  const auto metadata = reference.metadata();
+  ASSERT_EQ(metadata.size(), 1U);
+  EXPECT_EQ(metadata[0]["problem"], "double_integrator");
+  EXPECT_GE(metadata[0]["certified_digits"].get<double>(), 11.0);
+  EXPECT_NEAR(metadata[0]["initial_costate"]["psi_q_q1"].get<double>(), -12.0, 1e-11);
+}
+
+}  // namespace
+}  // namespace dmocbench
