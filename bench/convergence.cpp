@@ -15,6 +15,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
+#include "methods/indirect/node_control_error.hpp"
 
 namespace dmocbench {
 
@@ -43,14 +44,24 @@ class Convergence final : public Experiment {
   }
   [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"state_error", "control_error", "momentum_error", "costate_error", "objective_error", "replay_error"};
+    return {"state_error",
+            "control_error",
+            "momentum_error",
+            "costate_error",
+            "objective_error",
+            "replay_error",
+            "control_from_costate_error",
+            "polish_steps"};
   }
+  [[nodiscard]] bool polishes() const override { return polishes_; }
   void add_options(CLI::App& app) override {
     app.add_option(
         "--reference", reference_text_,
         "what errors are measured against: N of a grid of the same method (default: the finest one of each "
         "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
         "kept in the output folder");
+    app.add_flag("--polish,!--no-polish", polishes_,
+                 "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
     app.add_option(
         "--fit", fit_,
         "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
@@ -134,6 +145,13 @@ class Convergence final : public Experiment {
     solved.row.set("momentum_error", error.momentum);
     solved.row.set("costate_error", error.costate);
     solved.row.set("objective_error", error.objective);
+    if (!error.costate) return;
+    try {
+      solved.row.set("control_from_costate_error",
+                     node_control_error(*solved.what.problem, *solved.trajectory, reference));
+    } catch (const Error& failure) {
+      solved.row.set("message", solved.row.text("message") + " " + failure.what());
+    }
   }
 
   void measure_against_indirect(SolvedCase& solved) {
@@ -145,6 +163,7 @@ class Convergence final : public Experiment {
     }
   }
 
+  bool polishes_ = true;
   std::string reference_text_;
   long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
   std::optional<IndirectReference> indirect_;

@@ -125,7 +125,8 @@ class Run {
     try {
       const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
       progress.show(what.label());
-      return solve_case(what, start, experiment_.options_for(what, solver_options_), options_.repeats);
+      return solve_case(what, start, experiment_.options_for(what, solver_options_), options_.repeats,
+                        experiment_.polishes());
     } catch (const NoStart& reason) {
       return unsolved_case(what, reason.what());
     }

@@ -43,6 +43,8 @@ class Experiment {
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
+  /// Whether solved cases are tightened by Newton steps (polish.hpp).
+  [[nodiscard]] virtual bool polishes() const { return false; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
   /// Called when the output folder is there and before anything is solved.

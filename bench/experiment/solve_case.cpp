@@ -5,6 +5,7 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
+#include "methods/solvers/polish.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -101,7 +102,7 @@ SolvedCase unsolved_case(const Case& what, const std::string& reason) {
   return result;
 }
 
-SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats) {
+SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats, bool polishes) {
   SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
   const auto setup_start = Clock::now();
   Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
@@ -111,6 +112,7 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
   result.solution = solve_repeatedly(transcription, result.start, what, options, repeats);
   Solution& solution = result.solution;
   if (what.derivatives != "tape") judge_exactly(what, options.tolerance, solution);
+  if (polishes) result.row.set("polish_steps", static_cast<long long>(polish(transcription, solution)));
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
     try {
