@@ -108,16 +108,14 @@ class Convergence final : public Experiment {
     } catch (const Error& error) {
       solved.row.set("message", solved.row.text("message") + " " + error.what());
     }
-    const bool usable = is_usable(solved.row);
+    if (!is_usable(solved.row)) return;
     if (indirect_) {
-      if (usable) measure_against_indirect(solved);
-      return;
+      measure_against_indirect(*indirect_, *solved.what.problem, *solved.trajectory, solved.row);
+    } else if (is_first) {
+      reference_trajectory_ = *solved.trajectory;
+    } else if (reference_trajectory_) {
+      set_errors(*solved.what.problem, *solved.trajectory, *reference_trajectory_, solved.row);
     }
-    if (is_first) {
-      if (usable) reference_trajectory_ = *solved.trajectory;
-      return;
-    }
-    if (usable && reference_trajectory_) set_errors(solved, *reference_trajectory_);
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
@@ -138,28 +136,27 @@ class Convergence final : public Experiment {
     fmt::print("convergence: {}\n", note);
   }
 
-  static void set_errors(SolvedCase& solved, const Trajectory& reference) {
-    const TrajectoryError error = trajectory_error(*solved.trajectory, reference);
-    solved.row.set("state_error", error.state);
-    solved.row.set("control_error", error.control);
-    solved.row.set("momentum_error", error.momentum);
-    solved.row.set("costate_error", error.costate);
-    solved.row.set("objective_error", error.objective);
+  static void set_errors(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference, Row& row) {
+    const TrajectoryError error = trajectory_error(trajectory, reference);
+    row.set("state_error", error.state);
+    row.set("control_error", error.control);
+    row.set("momentum_error", error.momentum);
+    row.set("costate_error", error.costate);
+    row.set("objective_error", error.objective);
     if (!error.costate) return;
     try {
-      solved.row.set("control_from_costate_error",
-                     node_control_error(*solved.what.problem, *solved.trajectory, reference));
+      row.set("control_from_costate_error", node_control_error(problem, trajectory, reference));
     } catch (const Error& failure) {
-      solved.row.set("message", solved.row.text("message") + " " + failure.what());
+      row.set("message", row.text("message") + " " + failure.what());
     }
   }
 
-  void measure_against_indirect(SolvedCase& solved) {
+  static void measure_against_indirect(IndirectReference& reference, const Problem& problem,
+                                       const Trajectory& trajectory, Row& row) {
     try {
-      const IndirectSolution& exact = indirect_->near(*solved.what.problem, *solved.trajectory);
-      set_errors(solved, exact.sampled_like(*solved.trajectory));
+      set_errors(problem, trajectory, reference.near(problem, trajectory).sampled_like(trajectory), row);
     } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
+      row.set("message", row.text("message") + " " + error.what());
     }
   }
 

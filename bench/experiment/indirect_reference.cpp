@@ -162,13 +162,15 @@ const IndirectSolution& IndirectReference::near(const Problem& problem, const Tr
   row.set("seconds", seconds);
   std::vector<std::string> costate_columns;
   const IndirectPoint start = solution->at(0.0);
-  for (const auto& [prefix, values] : {std::pair{"psi_q_", start.psi_q}, std::pair{"psi_p_", start.psi_p}}) {
+  const auto add_costate = [&](const std::string& prefix, const Eigen::VectorXd& values) {
     Eigen::Index i = 0;
     for (const std::string& name : problem.configuration_names()) {
       costate_columns.push_back(prefix + name);
       row.set(costate_columns.back(), values[i++]);
     }
-  }
+  };
+  add_costate("psi_q_", start.psi_q);
+  add_costate("psi_p_", start.psi_p);
   return entries_.emplace(problem.name(), Entry{*std::move(solution), std::move(row), std::move(costate_columns)})
       .first->second.solution;
 }

@@ -17,8 +17,8 @@ struct IndirectOptions {
 /// doubled until both agree (`IndirectAgreement`). The finer run is returned.
 ///
 /// `start` is a direct solution with costates on the branch that is wanted; a few dozen intervals do. What is found is
-/// an extremal near it: Legendre's condition is checked, optimality is not. Bounds and path constraints are none of
-/// this class of problems.
+/// an extremal near it: Legendre's condition is checked, optimality is not. A problem of this class has no bounds
+/// and no path constraints; where they come, they are to be refused here.
 ///
 /// Throws `Error` if the start has no costates or another horizon, the running cost is not strictly convex in the
 /// control, or Newton's method does not converge.

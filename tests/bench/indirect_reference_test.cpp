@@ -30,12 +30,8 @@ Trajectory direct_solution(const Problem& problem) {
 
 class IndirectReferenceIn : public testing::Test {
  protected:
-  IndirectReferenceIn() { std::filesystem::create_directories(folder_); }
-  ~IndirectReferenceIn() override { std::filesystem::remove_all(folder_); }
-  IndirectReferenceIn(const IndirectReferenceIn&) = delete;
-  IndirectReferenceIn& operator=(const IndirectReferenceIn&) = delete;
-  IndirectReferenceIn(IndirectReferenceIn&&) = delete;
-  IndirectReferenceIn& operator=(IndirectReferenceIn&&) = delete;
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// The row of the one problem asked for.
   Row row_for(const Problem& problem, const Trajectory& direct) {

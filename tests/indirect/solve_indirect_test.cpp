@@ -140,12 +140,14 @@ TEST_P(IndirectSolutionOf, TheProblemHasTheSlopeOfTheOptimalCostAsCostate) {
   const BoundaryState first = problem_->initial_state();
   const Eigen::VectorXd p = legendre.momentum(first.q, first.v, 0.0);
   const IndirectPoint start = solution_.at(0.0);
+  const Trajectory near = solution_.trajectory();
   const auto cost_from = [&](Eigen::Index i, double moved) {
     Eigen::VectorXd momentum = p;
     momentum[i] += moved;
     const tests::WithEnds neighbour(*problem_, {first.q, legendre.velocity(first.q, momentum, 0.0, first.v)},
                                     problem_->final_state());
-    return solve_indirect(neighbour, solution_.trajectory()).cost();
+    constexpr IndirectOptions enough_for_the_cost{.tolerance = 1e-12, .most_intervals = 32};
+    return solve_indirect(neighbour, near, enough_for_the_cost).cost();
   };
   for (Eigen::Index i = 0; i < p.size(); ++i) {
     constexpr double step = 1e-3;
