@@ -1,0 +1,74 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "bench/structure/long_time_energy.hpp"
+#include "bench/structure/simulated_tables.hpp"
+
+namespace dmocbench {
+namespace {
+
+TEST(NoetherTable, BalanceHoldsToRoundingForDmocAndHamiltonianAndNotForTangent) {
+  const Table table = noether_table(50);
+  ASSERT_FALSE(table.rows().empty());
+  for (const Row& row : table.rows()) {
+    const double defect = row.number("defect").value();
+    const std::string label = row.text("problem") + " " + row.text("method") + " " + row.text("stages");
+    if (row.text("method") == "tangent") {
+      EXPECT_GT(defect, 1e-13) << label;
+    } else {
+      EXPECT_LT(defect, 3e-12) << label;
+    }
+    if (row.text("method") == "tangent" && row.text("stages") == "1") {
+      EXPECT_GT(defect, 1e-9) << label;
+    }
+    if (row.text("method") == "dmoc") {
+      EXPECT_NEAR(row.number("work_of_discrete_forces").value(), row.number("work").value(), 1e-14) << label;
+    }
+    if (row.text("force") == "orthogonal") {
+      EXPECT_EQ(row.number("work").value(), 0.0) << label;
+    } else {
+      EXPECT_GT(std::abs(row.number("work").value()), 1e-6) << label;
+    }
+  }
+}
+
+TEST(SymplecticityTable, OnlyTangentWithAMovingMassIsNotSymplectic) {
+  const Table table = symplecticity_table();
+  for (const Row& row : table.rows()) {
+    if (row.text("tableau") != "gauss") continue;  // constant mass saves tangent-space collocation for Gauss alone
+    const bool symplectic = row.number("defect").value() < 100.0 * row.number("rounding").value();
+    EXPECT_EQ(symplectic, row.text("method") != "tangent" || row.text("problem") == "kepler")
+        << row.text("problem") << " " << row.text("method") << " " << row.text("stages");
+  }
+}
+
+TEST(LongTimeEnergy, OscillationFallsWithTheOrderAndOnlyExplicitMethodsLeaveIt) {
+  for (const LongTimeMethod& method : long_time_methods()) {
+    const EnergyBehaviour coarse = energy_behaviour(long_time_energy(method, 64, 100));
+    if (method.name != "dmoc") {
+      EXPECT_GT(std::abs(coarse.change), 3.0 * coarse.oscillation) << method.name;
+      continue;
+    }
+    EXPECT_LT(coarse.range, 1.01 * coarse.oscillation) << method.order;
+    const EnergyBehaviour fine = energy_behaviour(long_time_energy(method, 128, 100));
+    EXPECT_NEAR(std::log2(coarse.oscillation / fine.oscillation), method.order, 0.1);
+  }
+}
+
+TEST(EnergyBehaviour, TellsDriftFromOscillation) {
+  std::vector<PeriodEnergy> periods;
+  for (int k = 0; k < 50; ++k) {
+    const double mean = 0.25 * k;
+    periods.push_back({.period = k, .smallest = mean - 1.0, .mean = mean, .largest = mean + 1.0});
+  }
+  const EnergyBehaviour behaviour = energy_behaviour(periods);
+  EXPECT_NEAR(behaviour.drift_per_period, 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.oscillation, 2.0 + 9 * 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.range, 2.0 + 49 * 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.change, 49 * 0.25, 1e-13);
+  EXPECT_LT(behaviour.standard_error, 1e-13);
+}
+
+}  // namespace
+}  // namespace dmocbench
