@@ -32,7 +32,7 @@ do for [where in problems_of("structure_energy", "energy_largest")] {
     set xlabel "period"
     set ylabel "largest |E − E_0| of a period"
     set key bottom right
-    set title "64 steps per period"
+    set title entry(distinct("structure_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
     plot for [method in methods] rows("structure_energy", method, "")\
          using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
          with lines linecolor rgb colour(method) linewidth (is_dmoc(method) ? 2.5 : 1.5) dashtype dashes_of(method)\

@@ -73,30 +73,43 @@ Row row_of(const Problem& problem, const Element& element, const Tableau& tablea
   return row;
 }
 
-Row simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+bool is_discrete_mechanics(const Element& element) { return element.node_state() == NodeState::configuration; }
+
+/// The momentum along one simulated motion and the forces that change it.
+struct MomentumBalance {
+  double change = 0.0;
+  double work = 0.0;
+  double work_of_discrete_forces = 0.0;
+  double defect = 0.0;
+};
+
+template <class Scalar>
+MomentumBalance simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+  using Vector = typename OneStepMap<Scalar>::Vector;
   const Problem& problem = *system.problem;
   const TracedProblem traced(problem);
-  const Map map(traced, element, tableau);
+  const OneStepMap<Scalar> map(traced, element, tableau);
   const DiscreteLagrangian discrete(problem, tableau);
   const ExpressionVector generator = *problem.symmetry(input_vector(0, problem.configuration_size()));
-  Eigen::VectorXd xi(generator.size());
+  Vector xi(generator.size());
   for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = generator[i].constant_value().value();
-  const bool is_dmoc = element.node_state() == NodeState::configuration;
 
-  Eigen::VectorXd q = system.q;
-  Eigen::VectorXd p = LegendreTransform(traced).momentum(q, system.v, 0.0);
-  Eigen::VectorXd velocity = system.v;
-  const double first = p.dot(xi);
-  double work = 0.0;
+  Vector q = system.q.cast<Scalar>();
+  Vector p = LegendreTransform(traced).momentum(system.q, system.v, 0.0).template cast<Scalar>();
+  Vector velocity = system.v.cast<Scalar>();
+  const Scalar first = p.dot(xi);
+  const Scalar h = system.step;
+  Scalar work = 0.0;
   long double work_of_discrete_forces = 0.0L;
-  double defect = 0.0;
+  Scalar defect = 0.0;
   for (int k = 0; k < steps; ++k) {
     const Eigen::MatrixXd controls = arbitrary_controls(tableau.stages(), problem.control_size(), k, system.amplitude);
-    const Map::Step step = map.advance(q, p, velocity, controls, system.step, k * system.step);
-    if (is_dmoc) {
-      const DiscreteObjects objects = discrete.at(q.cast<long double>(), step.q.cast<long double>(),
-                                                  controls.cast<long double>(), system.step, k * system.step);
-      work_of_discrete_forces += (objects.left_force + objects.right_force).dot(xi.cast<long double>());
+    const Scalar t = Scalar(k) * h;
+    const auto step = map.advance(q, p, velocity, controls.cast<Scalar>(), h, t);
+    if (is_discrete_mechanics(element)) {
+      const DiscreteObjects objects = discrete.at(q.template cast<long double>(), step.q.template cast<long double>(),
+                                                  controls.cast<long double>(), h, t);
+      work_of_discrete_forces += (objects.left_force + objects.right_force).dot(xi.template cast<long double>());
     }
     q = step.q;
     p = step.p;
@@ -104,14 +117,23 @@ Row simulate(const Invariant& system, const Element& element, const Tableau& tab
     work += step.impulse.dot(xi);
     defect = std::max(defect, std::abs(p.dot(xi) - first - work));
   }
-  Row row = row_of(problem, element, tableau);
+  return {.change = static_cast<double>(p.dot(xi) - first),
+          .work = static_cast<double>(work),
+          .work_of_discrete_forces = static_cast<double>(work_of_discrete_forces),
+          .defect = static_cast<double>(defect)};
+}
+
+Row forced(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+  const auto balance = simulate<double>(system, element, tableau, steps);
+  Row row = row_of(*system.problem, element, tableau);
   row.set("force", system.orthogonal ? "orthogonal" : "along");
   row.set("steps", static_cast<long long>(steps));
   row.set("h", system.step);
-  row.set("momentum_change", p.dot(xi) - first);
-  row.set("work", work);
-  if (is_dmoc) row.set("work_of_discrete_forces", static_cast<double>(work_of_discrete_forces));
-  row.set("defect", defect);
+  row.set("momentum_change", balance.change);
+  row.set("work", balance.work);
+  if (is_discrete_mechanics(element)) row.set("work_of_discrete_forces", balance.work_of_discrete_forces);
+  row.set("defect", balance.defect);
+  row.set("defect_in_long_double", simulate<long double>(system, element, tableau, steps).defect);
   return row;
 }
 
@@ -146,11 +168,11 @@ Row unforced(const Problem& problem, const BoundaryState& start, double h, const
 
 Table noether_table(int steps) {
   Table table({"problem", "method", "tableau", "stages", "force", "steps", "h", "momentum_change", "work",
-               "work_of_discrete_forces", "defect"});
+               "work_of_discrete_forces", "defect", "defect_in_long_double"});
   for (const Invariant& system : invariant_systems()) {
     for (const std::string& method : element_names()) {
       for_all_tableaus(
-          [&](const Tableau& tableau) { table.append(simulate(system, *make_element(method), tableau, steps)); });
+          [&](const Tableau& tableau) { table.append(forced(system, *make_element(method), tableau, steps)); });
     }
   }
   return table;
