@@ -66,6 +66,19 @@ EnergyBehaviour follow(const LongTimeMethod& method, int steps_per_period, long 
   return behaviour;
 }
 
+/// `curve` names problem, method, tableau and stages.
+void append_slope(Row curve, const char* quantity, const std::vector<GridError>& points, Table& slopes) {
+  const auto order = fit_order(points);
+  if (!order) return;
+  curve.set("quantity", quantity);
+  curve.set("slope", order->slope);
+  curve.set("standard_error", order->standard_error);
+  curve.set("finest", order->finest);
+  curve.set("coarsest", order->coarsest);
+  curve.set("points", static_cast<long long>(order->points));
+  slopes.append(std::move(curve));
+}
+
 /// How the oscillation shrinks with the step: a few periods on ever finer steps.
 void oscillation_over_step(const LongTimeMethod& method, EnergyTables& tables) {
   constexpr long long few_periods = 20;
@@ -73,16 +86,7 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyTables& tables) {
   for (const int steps : {128, 192, 256, 384, 512}) {
     points.push_back({Kepler::period / steps, follow(method, steps, few_periods, false, tables).oscillation});
   }
-  const auto order = fit_order(points);
-  if (!order) return;
-  Row row = row_of(method, 0);
-  row.set("quantity", "oscillation");
-  row.set("slope", order->slope);
-  row.set("standard_error", order->standard_error);
-  row.set("finest", order->finest);
-  row.set("coarsest", order->coarsest);
-  row.set("points", static_cast<long long>(order->points));
-  tables.slopes.append(std::move(row));
+  append_slope(row_of(method, 0), "oscillation", points, tables.slopes);
 }
 
 EnergyTables energy_tables(int steps_per_period, long long periods) {
@@ -94,13 +98,16 @@ EnergyTables energy_tables(int steps_per_period, long long periods) {
   return tables;
 }
 
-/// Energy change against the work of the thrust along the optimal transfer, for all methods.
-Table transfer_table() {
+/// Energy change against the work of the thrust along the optimal transfer, for all methods; the slopes of their gap go
+/// to `slopes`.
+Table transfer_table(Table& slopes) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "h", "energy_change", "work", "gap",
                "largest_gap", "largest_work"});
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
   StartSource starts("common", {});
   for (const std::string& method : element_names()) {
+    Row curve;
+    std::vector<GridError> points;
     for (const long long intervals : {32, 64, 128, 256}) {
       const Case what{problem, method, "gauss", 1, "ipopt", "tape", Grid::uniform(intervals), ""};
       const SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
@@ -118,8 +125,11 @@ Table transfer_table() {
       row.set("gap", balance.change - balance.work);
       row.set("largest_gap", balance.largest_gap);
       row.set("largest_work", balance.largest_work);
+      curve = row;
+      points.push_back({problem->horizon() / static_cast<double>(intervals), balance.largest_gap});
       table.append(std::move(row));
     }
+    append_slope(std::move(curve), "transfer_gap", points, slopes);
   }
   return table;
 }
@@ -156,8 +166,8 @@ int main(int argc, char** argv) try {
     };
     write("structure_momentum", noether_table(steps));
     write("structure_symplecticity", symplecticity_table());
-    write("structure_transfer", transfer_table());
-    const EnergyTables energy = energy_tables(steps_per_period, periods);
+    EnergyTables energy = energy_tables(steps_per_period, periods);
+    write("structure_transfer", transfer_table(energy.slopes));
     write("structure_energy", energy.periods);
     write("structure_energy_behaviour", energy.behaviour);
     write("structure_energy_slopes", energy.slopes);
