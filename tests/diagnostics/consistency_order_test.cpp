@@ -15,7 +15,7 @@ double slope_of(const std::vector<std::vector<ConsistencyErrors>>& errors, const
                 std::size_t tableau, double ConsistencyErrors::*quantity) {
   std::vector<GridError> points;
   for (std::size_t k = 0; k < steps.size(); ++k) points.push_back({steps[k], errors[k][tableau].*quantity});
-  return fit_order(points).value().slope;
+  return fit_order(points).value_or(FittedOrder{}).slope;
 }
 
 TEST(ConsistencyOrder, LegendreTransformsAndForcesAreOnePowerOfTheStepBelowLagrangianAndMap) {
@@ -29,6 +29,7 @@ TEST(ConsistencyOrder, LegendreTransformsAndForcesAreOnePowerOfTheStepBelowLagra
   const ConsistencyOrder order(problem, control, {problem.initial_state(), problem.final_state()});
   const std::vector<double> steps{0.02, 0.014, 0.01, 0.007};
   std::vector<std::vector<ConsistencyErrors>> errors;
+  errors.reserve(steps.size());
   for (const double h : steps) errors.push_back(order.errors(tableaus, h));
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
     const auto r = static_cast<double>(tableaus[i].order);
