@@ -1,0 +1,172 @@
+// The order of consistency of DMOC's discrete Lagrangian, forces, Legendre transforms and map: th:ordercalculation.
+#include "methods/diagnostics/consistency_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iterator>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/interval_list.hpp"
+#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "methods/diagnostics/convergence_order.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+struct Quantity {
+  const char* name;
+  double ConsistencyErrors::*error;
+};
+
+constexpr std::array quantities{
+    Quantity{"lagrangian", &ConsistencyErrors::lagrangian},
+    Quantity{"left_force", &ConsistencyErrors::left_force},
+    Quantity{"right_force", &ConsistencyErrors::right_force},
+    Quantity{"left_legendre", &ConsistencyErrors::left_legendre},
+    Quantity{"right_legendre", &ConsistencyErrors::right_legendre},
+    Quantity{"map", &ConsistencyErrors::map},
+};
+
+/// u_j = 1/2 + sin(2πt/T + j): smooth, and nowhere stationary with all its derivatives.
+ControlFormula smooth_control(const Problem& problem) {
+  const double frequency = 2.0 * std::acos(-1.0) / problem.horizon();
+  const Eigen::Index m = problem.control_size();
+  return [=](const Expression& t) {
+    ExpressionVector u(m);
+    for (Eigen::Index j = 0; j < m; ++j) u[j] = 0.5 + sin(frequency * t + static_cast<double>(j));
+    return u;
+  };
+}
+
+/// Initial conditions around the guess a quarter of the way, so that no error vanishes by a coincidence of one motion.
+std::vector<BoundaryState> initial_conditions(const Problem& problem) {
+  constexpr int motions = 8;
+  constexpr double width = 0.1;
+  const MotionPoint centre = problem.guess(problem.horizon() / 4.0);
+  std::vector<BoundaryState> starts(motions, {centre.q, centre.v});
+  for (int k = 1; k < motions; ++k) {
+    BoundaryState& start = starts[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < centre.q.size(); ++i) {
+      start.q[i] += width * std::cos(k * (1.0 + static_cast<double>(i))) * std::max(1.0, std::abs(centre.q[i]));
+      start.v[i] += width * std::sin(k * (2.0 + static_cast<double>(i))) * std::max(1.0, std::abs(centre.v[i]));
+    }
+  }
+  return starts;
+}
+
+std::vector<Tableau> all_tableaus() {
+  std::vector<Tableau> tableaus;
+  for (const std::string& family : tableau_names()) {
+    for (const int stages : tableau_stages(family)) tableaus.push_back(make_tableau(family, stages));
+  }
+  return tableaus;
+}
+
+struct Tables {
+  Table errors{{"problem", "tableau", "stages", "order", "quantity", "h", "error"}};
+  Table slopes{
+      {"problem", "tableau", "stages", "order", "quantity", "slope", "standard_error", "finest", "coarsest", "points"}};
+};
+
+Row row_of(const Problem& problem, const Tableau& tableau, const Quantity& quantity) {
+  Row row;
+  row.set("problem", problem.name());
+  row.set("tableau", tableau.family);
+  row.set("stages", static_cast<long long>(tableau.stages()));
+  row.set("order", static_cast<long long>(tableau.order));
+  row.set("quantity", quantity.name);
+  return row;
+}
+
+/// A line through the finest six points that are clear of rounding. Errors below that are those of the tableau's
+/// coefficients, which are double; with six points, which
+/// span a factor of six in h, the coarse steps, where the next power of h still counts, are left out if possible.
+std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
+  constexpr double rounding = 1e-15;
+  constexpr std::ptrdiff_t fitted = 6;
+  std::erase_if(points, [](const GridError& point) { return point.error < rounding; });
+  std::sort(points.begin(), points.end(), [](const GridError& a, const GridError& b) { return a.step < b.step; });
+  if (std::ssize(points) > fitted) points.erase(points.begin() + fitted, points.end());
+  return fit_order(points);
+}
+
+/// Steps T/N, coarsest first.
+void measure(const Problem& problem, const std::vector<long long>& intervals, Tables& tables) {
+  const std::vector<Tableau> tableaus = all_tableaus();
+  const ConsistencyOrder order(problem, smooth_control(problem), initial_conditions(problem));
+  std::vector<std::vector<ConsistencyErrors>> errors;  // per step, per tableau
+  const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
+  for (std::size_t k = 0; k < intervals.size(); ++k) errors.push_back(order.errors(tableaus, step(k)));
+  for (std::size_t i = 0; i < tableaus.size(); ++i) {
+    for (const Quantity& quantity : quantities) {
+      std::vector<GridError> points;
+      for (std::size_t k = 0; k < intervals.size(); ++k) {
+        const double error = errors[k][i].*quantity.error;
+        Row row = row_of(problem, tableaus[i], quantity);
+        row.set("h", step(k));
+        row.set("error", error);
+        tables.errors.append(std::move(row));
+        points.push_back({step(k), error});
+      }
+      const auto fitted = fit_finest(points);
+      if (!fitted) continue;
+      Row row = row_of(problem, tableaus[i], quantity);
+      row.set("slope", fitted->slope);
+      if (fitted->points > 2) row.set("standard_error", fitted->standard_error);
+      row.set("finest", fitted->finest);
+      row.set("coarsest", fitted->coarsest);
+      row.set("points", static_cast<long long>(fitted->points));
+      tables.slopes.append(std::move(row));
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) try {
+  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
+  CLI::App app(
+      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
+      "exact "
+      "ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
+      "(consistency_order_slopes.csv).",
+      "consistency_order");
+  std::vector<std::string> problems;
+  std::vector<std::string> settings;
+  std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
+  std::filesystem::path out = "results";
+  app.add_option("--problem", problems, "problems (default: all)")->delimiter(',');
+  app.add_option("--set", settings, "parameter=value of a problem");
+  app.add_option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling")
+      ->capture_default_str();
+  app.add_option("--out", out, "folder for the results")->capture_default_str();
+  return run_program(app, argc, argv, [&] {
+    const std::vector<long long> steps = parse_intervals("--intervals", intervals);
+    const auto selected = selected_problems(problems, settings);
+    prepare_folder(out);
+    Tables tables;
+    for (const auto& problem : selected) measure(*problem, steps, tables);
+    write_file(out / "consistency_order.csv", tables.errors.csv());
+    write_file(out / "consistency_order_slopes.csv", tables.slopes.csv());
+    nlohmann::ordered_json metadata = describe_run(std::vector<std::string>(argv, argv + argc));
+    metadata["complete"] = true;
+    write_file(out / "consistency_order.json", metadata.dump(2) + "\n");
+    fmt::print("consistency_order: {} rows: {}\n", tables.errors.rows().size(),
+               (out / "consistency_order.csv").string());
+    return 0;
+  });
+} catch (const std::exception& error) {  // what is set up before run_program can guard it
+  std::fputs(error.what(), stderr);
+  return 2;
+}

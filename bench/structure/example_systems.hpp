@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// A controlled mechanical system without a task: L and f, and the state from which it is simulated. What `Problem`
+/// asks beyond that (final state, cost) is never used.
+class ExampleSystem : public Problem {
+ public:
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::string description() const override { return "a system that is simulated, not optimised"; }
+  [[nodiscard]] std::string source() const override { return "dmocbench"; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return names_; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override { return start_; }
+  [[nodiscard]] BoundaryState final_state() const override { return start_; }
+  [[nodiscard]] double horizon() const override { return horizon_; }
+
+ protected:
+  ExampleSystem(std::string name, std::vector<std::string> names, BoundaryState start, double horizon)
+      : name_(std::move(name)), names_(std::move(names)), start_(std::move(start)), horizon_(horizon) {}
+
+  /// (first, second).
+  static ExpressionVector pair(const Expression& first, const Expression& second) {
+    ExpressionVector both(2);
+    both << first, second;
+    return both;
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::string> names_;
+  BoundaryState start_;
+  double horizon_;
+};
+
+/// A satellite on the orbit of (orb_trans), q = (r, φ), L = ½(ṙ² + r²φ̇²) + 1/r, whose thrust points away from the
+/// centre: f = (u, 0) is orthogonal to the rotations ξ = (0, 1).
+class RadialThrust final : public ExampleSystem {
+ public:
+  RadialThrust()
+      : ExampleSystem("radial_thrust", {"r", "phi"}, {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.1, 1.1)}, 12.0) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.q[0] * x.q[0] * x.v[1] * x.v[1]) + 1.0 / x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return pair(x.u[0], 0.0); }
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    return pair(0.0, 1.0);
+  }
+};
+
+/// A spherical pendulum of unit mass and length, q = (θ, φ), θ measured from below,
+/// L = ½(θ̇² + sin²θ φ̇²) + cos θ, with a torque along the meridian: f = (u, 0) is orthogonal to the rotations about
+/// the vertical, ξ = (0, 1).
+class SphericalPendulum final : public ExampleSystem {
+ public:
+  SphericalPendulum()
+      : ExampleSystem("spherical_pendulum", {"theta", "phi"}, {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.2, 1.3)},
+                      10.0) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression sine = sin(x.q[0]);
+    return 0.5 * (x.v[0] * x.v[0] + sine * sine * x.v[1] * x.v[1]) + cos(x.q[0]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return pair(x.u[0], 0.0); }
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    return pair(0.0, 1.0);
+  }
+};
+
+/// The Kepler problem in Cartesian coordinates, L = ½|q̇|² + 1/|q|: L_vv is constant. From the pericentre of an ellipse
+/// with semi-major axis 1 and eccentricity 0.3, period 2π. The control is a thrust along q.
+class Kepler final : public ExampleSystem {
+ public:
+  static constexpr double eccentricity = 0.3;
+  static constexpr double period = 2.0 * std::numbers::pi;
+  Kepler()
+      : ExampleSystem("kepler", {"x", "y"},
+                      {Eigen::Vector2d(1.0 - eccentricity, 0.0),
+                       Eigen::Vector2d(0.0, std::sqrt((1.0 + eccentricity) / (1.0 - eccentricity)))},
+                      period) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 1.0 / sqrt(x.q[0] * x.q[0] + x.q[1] * x.q[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return pair(x.u[0] * x.q[0], x.u[0] * x.q[1]);
+  }
+};
+
+}  // namespace dmocbench

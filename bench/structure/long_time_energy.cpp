@@ -1,0 +1,145 @@
+#include "bench/structure/long_time_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <boost/numeric/odeint.hpp>
+
+#include "bench/structure/example_systems.hpp"
+#include "methods/diagnostics/energy_balance.hpp"
+#include "methods/diagnostics/one_step_map.hpp"
+#include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+/// Watched whatever the number of periods is.
+constexpr long long first_periods = 10;
+
+/// Moves (q, v) by one step; p = v, because the mass of `Kepler` is the identity.
+using Stepper = std::function<void(Eigen::VectorXd& q, Eigen::VectorXd& v)>;
+
+Stepper discrete_mechanics(const Problem& problem, const Tableau& tableau, double h) {
+  const auto map = std::make_shared<OneStepMap<double>>(TracedProblem(problem), *make_element("dmoc"), tableau);
+  const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
+  return [=](Eigen::VectorXd& q, Eigen::VectorXd& v) {
+    OneStepMap<double>::Step step = map->advance(q, v, v, no_control, h, 0.0);
+    q = std::move(step.q);
+    v = std::move(step.p);
+  };
+}
+
+using PhaseVector = std::vector<double>;
+
+template <class Method>
+Stepper explicit_method(const Problem& problem, Method method, double h) {
+  const auto motion = std::make_shared<EquationsOfMotion>(TracedProblem(problem));
+  const Eigen::VectorXd no_control = Eigen::VectorXd::Zero(problem.control_size());
+  return [=](Eigen::VectorXd& q, Eigen::VectorXd& v) mutable {
+    PhaseVector state{q[0], q[1], v[0], v[1]};
+    const auto equations = [&](const PhaseVector& x, PhaseVector& rate, double t) {
+      const Eigen::Map<const Eigen::VectorXd> at(x.data(), 2);
+      const Eigen::Map<const Eigen::VectorXd> velocity(x.data() + 2, 2);
+      const Eigen::VectorXd acceleration = motion->acceleration(at, velocity, no_control, t);
+      rate.assign({x[2], x[3], acceleration[0], acceleration[1]});
+    };
+    method.do_step(equations, state, 0.0, h);
+    q << state[0], state[1];
+    v << state[2], state[3];
+  };
+}
+
+/// y_{n+1} = y_n + h f(y_n + h/2 f(y_n)).
+auto explicit_midpoint() {
+  return odeint::explicit_generic_rk<2, 2, PhaseVector>(boost::fusion::make_vector(boost::array<double, 1>{{0.5}}),
+                                                        boost::array<double, 2>{{0.0, 1.0}},
+                                                        boost::array<double, 2>{{0.0, 0.5}});
+}
+
+Stepper stepper_of(const LongTimeMethod& method, const Problem& problem, double h) {
+  if (method.name == "dmoc") return discrete_mechanics(problem, make_tableau(method.tableau, method.stages), h);
+  if (method.name == "explicit_midpoint") return explicit_method(problem, explicit_midpoint(), h);
+  if (method.name == "runge_kutta_4") return explicit_method(problem, odeint::runge_kutta4<PhaseVector>(), h);
+  throw Error("there is no integrator \"" + method.name + "\"");
+}
+
+}  // namespace
+
+std::vector<LongTimeMethod> long_time_methods() {
+  return {{.name = "dmoc", .tableau = "gauss", .stages = 1, .order = 2},
+          {.name = "dmoc", .tableau = "gauss", .stages = 2, .order = 4},
+          {.name = "explicit_midpoint", .tableau = "", .stages = 2, .order = 2},
+          {.name = "runge_kutta_4", .tableau = "", .stages = 4, .order = 4}};
+}
+
+std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int steps_per_period, long long periods) {
+  constexpr long long watched = 200;
+  const Kepler problem;
+  const Stepper advance = stepper_of(method, problem, Kepler::period / steps_per_period);
+  Energy energy(problem);
+  Eigen::VectorXd q = problem.initial_state().q;
+  Eigen::VectorXd v = problem.initial_state().v;
+  const double initial = energy.energy(q, v, 0.0);
+  const long long every = std::max(1LL, periods / watched);
+  std::vector<PeriodEnergy> result;
+  for (long long k = 0; k < periods; ++k) {
+    const bool is_watched = k < first_periods || (k + 1) % every == 0;
+    PeriodEnergy period{.period = k,
+                        .smallest = std::numeric_limits<double>::infinity(),
+                        .mean = 0.0,
+                        .largest = -std::numeric_limits<double>::infinity()};
+    for (int i = 0; i < steps_per_period; ++i) {
+      advance(q, v);
+      if (!is_watched) continue;
+      const double error = energy.energy(q, v, 0.0) - initial;
+      period.smallest = std::min(period.smallest, error);
+      period.largest = std::max(period.largest, error);
+      period.mean += error / steps_per_period;
+    }
+    if (is_watched) result.push_back(period);
+  }
+  return result;
+}
+
+EnergyBehaviour energy_behaviour(const std::vector<PeriodEnergy>& periods) {
+  if (periods.size() < 3) throw Error("a drift needs at least three periods");
+  EnergyBehaviour behaviour;
+  const auto count = static_cast<double>(periods.size());
+  double mean_time = 0.0;
+  double mean_energy = 0.0;
+  double smallest = periods.front().smallest;
+  double largest = periods.front().largest;
+  for (const PeriodEnergy& period : periods) {
+    smallest = std::min(smallest, period.smallest);
+    largest = std::max(largest, period.largest);
+    if (period.period < first_periods) behaviour.oscillation = largest - smallest;
+    mean_time += static_cast<double>(period.period) / count;
+    mean_energy += period.mean / count;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const PeriodEnergy& period : periods) {
+    const double x = static_cast<double>(period.period) - mean_time;
+    xx += x * x;
+    xy += x * (period.mean - mean_energy);
+  }
+  behaviour.drift_per_period = xy / xx;
+  double squares = 0.0;
+  for (const PeriodEnergy& period : periods) {
+    const double x = static_cast<double>(period.period) - mean_time;
+    const double residual = period.mean - mean_energy - behaviour.drift_per_period * x;
+    squares += residual * residual;
+  }
+  behaviour.standard_error = std::sqrt(squares / (count - 2.0) / xx);
+  behaviour.range = largest - smallest;
+  behaviour.change = periods.back().mean - periods.front().mean;
+  return behaviour;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench {
+
+/// An integrator of the unforced Kepler ellipse that is followed for many periods.
+struct LongTimeMethod {
+  std::string name;     ///< "dmoc", "explicit_midpoint", "runge_kutta_4"
+  std::string tableau;  ///< of DMOC; empty for the others
+  int stages = 0;
+  int order = 0;
+};
+
+/// DMOC with one and two Gauss stages and explicit Runge-Kutta methods of the same orders.
+[[nodiscard]] std::vector<LongTimeMethod> long_time_methods();
+
+/// The error of the energy during one period, over its steps.
+struct PeriodEnergy {
+  long long period = 0;  ///< 0 is the first
+  double smallest = 0.0;
+  double mean = 0.0;
+  double largest = 0.0;
+};
+
+/// Energy minus the initial energy along the ellipse of `Kepler`, period by period; of many periods the first ten and
+/// 200 evenly spaced ones are watched. Throws `Error` if a step cannot be solved.
+[[nodiscard]] std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int steps_per_period,
+                                                         long long periods);
+
+/// What is seen of it: oscillation within a period, drift of the period's mean.
+struct EnergyBehaviour {
+  double oscillation = 0.0;       ///< max - min over the watched periods among the first ten
+  double range = 0.0;             ///< max - min over all watched periods: the oscillation again, unless energy drifts
+  double drift_per_period = 0.0;  ///< least-squares slope of the mean over the periods
+  double standard_error = 0.0;    ///< of that slope
+  double change = 0.0;            ///< last mean minus first mean
+};
+
+[[nodiscard]] EnergyBehaviour energy_behaviour(const std::vector<PeriodEnergy>& periods);
+
+}  // namespace dmocbench

@@ -1,0 +1,197 @@
+#include "bench/structure/simulated_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "bench/structure/example_systems.hpp"
+#include "methods/diagnostics/discrete_lagrangian.hpp"
+#include "methods/diagnostics/one_step_map.hpp"
+#include "methods/diagnostics/symplecticity.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Map = OneStepMap<double>;
+
+struct Invariant {
+  std::shared_ptr<const Problem> problem;
+  bool orthogonal;
+  double amplitude;  ///< of the controls
+  Eigen::VectorXd q;
+  Eigen::VectorXd v;
+  double step;
+};
+
+/// Systems whose L is invariant under ξ; ξ is constant for all of them.
+std::vector<Invariant> invariant_systems() {
+  std::vector<Invariant> systems;
+  const auto add = [&](std::shared_ptr<const Problem> problem, bool orthogonal, double amplitude,
+                       const BoundaryState& start, double step) {
+    systems.push_back({std::move(problem), orthogonal, amplitude, start.q, start.v, step});
+  };
+  const auto radial = std::make_shared<RadialThrust>();
+  add(radial, true, 0.3, radial->initial_state(), 0.05);
+  const auto pendulum = std::make_shared<SphericalPendulum>();
+  add(pendulum, true, 0.5, pendulum->initial_state(), 0.05);
+  add(make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05);
+  std::shared_ptr<Problem> links = make_problem("two_link_manipulator");
+  links->set_parameter("gravity", 0.0);
+  add(links, false, 1.0, {Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)}, 0.02);
+  return systems;
+}
+
+/// Neither smooth nor random: the theorem asks nothing of the controls.
+Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step, double amplitude) {
+  Eigen::MatrixXd controls(stages, m);
+  for (Eigen::Index i = 0; i < stages; ++i) {
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const double phase = 1.0 + 7.3 * step + 2.1 * static_cast<double>(i) + 3.7 * static_cast<double>(j);
+      controls(i, j) = amplitude * std::sin(phase);
+    }
+  }
+  return controls;
+}
+
+template <class Visit>
+void for_all_tableaus(const Visit& visit) {
+  for (const std::string& family : tableau_names()) {
+    for (const int stages : tableau_stages(family)) visit(make_tableau(family, stages));
+  }
+}
+
+Row row_of(const Problem& problem, const Element& element, const Tableau& tableau) {
+  Row row;
+  row.set("problem", problem.name());
+  row.set("method", element.name());
+  row.set("tableau", tableau.family);
+  row.set("stages", static_cast<long long>(tableau.stages()));
+  return row;
+}
+
+bool is_discrete_mechanics(const Element& element) { return element.node_state() == NodeState::configuration; }
+
+/// The momentum along one simulated motion and the forces that change it.
+struct MomentumBalance {
+  double change = 0.0;
+  double work = 0.0;
+  double work_of_discrete_forces = 0.0;
+  double defect = 0.0;
+};
+
+template <class Scalar>
+MomentumBalance simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+  using Vector = typename OneStepMap<Scalar>::Vector;
+  const Problem& problem = *system.problem;
+  const TracedProblem traced(problem);
+  const OneStepMap<Scalar> map(traced, element, tableau);
+  const DiscreteLagrangian discrete(problem, tableau);
+  const ExpressionVector generator = *problem.symmetry(input_vector(0, problem.configuration_size()));
+  Vector xi(generator.size());
+  for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = generator[i].constant_value().value();
+
+  Vector q = system.q.cast<Scalar>();
+  Vector p = LegendreTransform(traced).momentum(system.q, system.v, 0.0).template cast<Scalar>();
+  Vector velocity = system.v.cast<Scalar>();
+  const Scalar first = p.dot(xi);
+  const Scalar h = system.step;
+  Scalar work = 0.0;
+  long double work_of_discrete_forces = 0.0L;
+  Scalar defect = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    const Eigen::MatrixXd controls = arbitrary_controls(tableau.stages(), problem.control_size(), k, system.amplitude);
+    const Scalar t = Scalar(k) * h;
+    const auto step = map.advance(q, p, velocity, controls.cast<Scalar>(), h, t);
+    if (is_discrete_mechanics(element)) {
+      const DiscreteObjects objects = discrete.at(q.template cast<long double>(), step.q.template cast<long double>(),
+                                                  controls.cast<long double>(), h, t);
+      work_of_discrete_forces += (objects.left_force + objects.right_force).dot(xi.template cast<long double>());
+    }
+    q = step.q;
+    p = step.p;
+    velocity = step.mean_velocity;
+    work += step.impulse.dot(xi);
+    defect = std::max(defect, std::abs(p.dot(xi) - first - work));
+  }
+  return {.change = static_cast<double>(p.dot(xi) - first),
+          .work = static_cast<double>(work),
+          .work_of_discrete_forces = static_cast<double>(work_of_discrete_forces),
+          .defect = static_cast<double>(defect)};
+}
+
+Row forced(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+  const auto balance = simulate<double>(system, element, tableau, steps);
+  Row row = row_of(*system.problem, element, tableau);
+  row.set("force", system.orthogonal ? "orthogonal" : "along");
+  row.set("steps", static_cast<long long>(steps));
+  row.set("h", system.step);
+  row.set("momentum_change", balance.change);
+  row.set("work", balance.work);
+  if (is_discrete_mechanics(element)) row.set("work_of_discrete_forces", balance.work_of_discrete_forces);
+  row.set("defect", balance.defect);
+  row.set("defect_in_long_double", simulate<long double>(system, element, tableau, steps).defect);
+  return row;
+}
+
+Row unforced(const Problem& problem, const BoundaryState& start, double h, const Element& element,
+             const Tableau& tableau) {
+  constexpr int states = 8;
+  const TracedProblem traced(problem);
+  const Map map(traced, element, tableau);
+  LegendreTransform legendre(traced);
+  const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
+  double defect = 0.0;
+  double rounding = 0.0;
+  for (int k = 0; k < states; ++k) {
+    Eigen::VectorXd q = start.q;
+    Eigen::VectorXd v = start.v;
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
+      v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
+    }
+    const Map::Matrix d = map.jacobian(map.advance(q, legendre.momentum(q, v, 0.0), v, no_control, h, 0.0));
+    defect = std::max(defect, symplecticity_defect(d));
+    rounding = std::max(rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
+  }
+  Row row = row_of(problem, element, tableau);
+  row.set("h", h);
+  row.set("defect", defect);
+  row.set("rounding", rounding);
+  return row;
+}
+
+}  // namespace
+
+Table noether_table(int steps) {
+  Table table({"problem", "method", "tableau", "stages", "force", "steps", "h", "momentum_change", "work",
+               "work_of_discrete_forces", "defect", "defect_in_long_double"});
+  for (const Invariant& system : invariant_systems()) {
+    for (const std::string& method : element_names()) {
+      for_all_tableaus(
+          [&](const Tableau& tableau) { table.append(forced(system, *make_element(method), tableau, steps)); });
+    }
+  }
+  return table;
+}
+
+Table symplecticity_table() {
+  Table table({"problem", "method", "tableau", "stages", "h", "defect", "rounding"});
+  const BoundaryState eccentric = RadialThrust().initial_state();
+  const BoundaryState swinging{Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)};
+  const auto add = [&table](const Problem& problem, const BoundaryState& start, double h) {
+    for (const std::string& method : element_names()) {
+      for_all_tableaus(
+          [&](const Tableau& tableau) { table.append(unforced(problem, start, h, *make_element(method), tableau)); });
+    }
+  };
+  add(Kepler(), Kepler().initial_state(), 0.1);
+  add(*make_problem("orbital_transfer"), eccentric, 0.2);
+  add(*make_problem("two_link_manipulator"), swinging, 0.1);
+  return table;
+}
+
+}  // namespace dmocbench

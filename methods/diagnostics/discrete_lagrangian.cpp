@@ -1,0 +1,118 @@
+#include "methods/diagnostics/discrete_lagrangian.hpp"
+
+#include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/dmoc_element.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
+  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
+}
+
+}  // namespace
+
+/// Inputs: q_0, q_1, the interior slopes, the stage controls, h, t.
+struct DiscreteLagrangian::Formulas {
+  Eigen::Index n;
+  Eigen::Index stages;
+  ExpressionVector private_rows;
+  std::vector<Expression> outputs;
+
+  Formulas(const Problem& problem, const Tableau& tableau) : n(problem.configuration_size()), stages(tableau.stages()) {
+    const Eigen::Index m = problem.control_size();
+    const TracedProblem traced(problem);
+    std::size_t next = 0;
+    const auto take = [&next](Eigen::Index count) {
+      ExpressionVector inputs = input_vector(next, count);
+      next += static_cast<std::size_t>(count);
+      return inputs;
+    };
+    IntervalUnknowns unknowns;
+    unknowns.left_q = take(n);
+    unknowns.right_q = take(n);
+    for (Eigen::Index j = 0; j + 1 < stages; ++j) unknowns.slopes_q.push_back(take(n));
+    for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(take(m));
+    unknowns.h = take(1)[0];
+    unknowns.t = take(1)[0];
+    const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);
+    private_rows = trace.private_rows;
+
+    const ExpressionVector slopes = input_vector(static_cast<std::size_t>(2 * n), n * (stages - 1));
+    const auto virtual_work = [&](const ExpressionVector& x) {
+      ExpressionVector work(x.size());
+      for (std::size_t i = 0; i < trace.stages.size(); ++i) {
+        const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
+        const ExpressionMatrix by_configuration = weight * jacobian(trace.stages[i].q, x).transpose();
+        work += by_configuration * traced.at(trace.stages[i]).control_force;
+      }
+      return work;
+    };
+    Expression action;
+    for (std::size_t i = 0; i < trace.stages.size(); ++i) {
+      const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
+      action += weight * problem.lagrangian(trace.stages[i].state());
+    }
+    outputs.push_back(action);
+    append(outputs, trace.left_rows);
+    append(outputs, trace.right_rows);
+    append(outputs, virtual_work(unknowns.left_q));
+    append(outputs, virtual_work(unknowns.right_q));
+    append(outputs, virtual_work(slopes));
+    append(outputs, jacobian(private_rows, slopes));
+    append(outputs, jacobian(private_rows, unknowns.left_q));
+    append(outputs, jacobian(private_rows, unknowns.right_q));
+  }
+};
+
+DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& tableau)
+    : DiscreteLagrangian(Formulas(problem, tableau)) {}
+
+DiscreteLagrangian::DiscreteLagrangian(const Formulas& formulas)
+    : n_(formulas.n),
+      stages_(formulas.stages),
+      interior_slopes_(formulas.private_rows, static_cast<std::size_t>(2 * n_), formulas.private_rows.size()),
+      objects_(formulas.outputs) {}
+
+DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& q_1, const LongMatrix& controls,
+                                       long double h, long double t) const {
+  std::vector<long double> inputs(q_0.begin(), q_0.end());
+  inputs.insert(inputs.end(), q_1.begin(), q_1.end());
+  const LongVector mean_slope = (q_1 - q_0) / h;
+  for (Eigen::Index j = 0; j + 1 < stages_; ++j) inputs.insert(inputs.end(), mean_slope.begin(), mean_slope.end());
+  for (Eigen::Index i = 0; i < controls.rows(); ++i) {
+    for (Eigen::Index j = 0; j < controls.cols(); ++j) inputs.push_back(controls(i, j));
+  }
+  inputs.push_back(h);
+  inputs.push_back(t);
+  interior_slopes_.solve(inputs);
+
+  const std::vector<long double> values = replay<long double>(objects_, std::span<const long double>(inputs));
+  const Eigen::Index interior = n_ * (stages_ - 1);
+  const long double* next = values.data();
+  const auto take = [&next](Eigen::Index rows, Eigen::Index columns) {
+    LongMatrix block = Eigen::Map<const LongMatrix>(next, rows, columns);
+    next += rows * columns;
+    return block;
+  };
+  DiscreteObjects objects;
+  objects.lagrangian = take(1, 1)(0, 0);
+  objects.left_momentum = -take(n_, 1);
+  objects.right_momentum = take(n_, 1);
+  objects.left_force = take(n_, 1);
+  objects.right_force = take(n_, 1);
+  if (interior == 0) return objects;
+  const LongVector work_of_slopes = take(interior, 1);
+  // W[∂Q/∂Q̇]·dQ̇/dq with dQ̇/dq = -(∂R/∂Q̇)⁻¹ ∂R/∂q: one solve with the transposed matrix serves both ends.
+  const LongMatrix rows_by_slopes = take(interior, interior);
+  const LongVector adjoint = rows_by_slopes.transpose().partialPivLu().solve(work_of_slopes);
+  const LongMatrix rows_by_left = take(interior, n_);
+  const LongMatrix rows_by_right = take(interior, n_);
+  objects.left_force -= rows_by_left.transpose() * adjoint;
+  objects.right_force -= rows_by_right.transpose() * adjoint;
+  return objects;
+}
+
+}  // namespace dmocbench

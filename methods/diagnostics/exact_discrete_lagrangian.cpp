@@ -1,0 +1,156 @@
+#include "methods/diagnostics/exact_discrete_lagrangian.hpp"
+
+#include <Eigen/LU>
+#include <boost/numeric/odeint.hpp>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+using PhaseVector = std::vector<long double>;
+
+constexpr long double tolerance = 1e-17L;
+
+void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
+  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
+}
+
+/// The parts of the integrated vector, one behind the other.
+template <class Long>
+struct Parts {
+  Eigen::Map<Eigen::Matrix<Long, Eigen::Dynamic, 1>> q, v;
+  /// ∂q/∂(q(0), q̇(0)) and ∂q̇/∂(q(0), q̇(0)), n × 2n: A and B side by side
+  Eigen::Map<Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>> q_variation, v_variation;
+  Long& action;                                             ///< ∫ L dt
+  Eigen::Map<Eigen::Matrix<Long, Eigen::Dynamic, 1>> work;  ///< ∫ f·(A, B) dt, 2n entries
+
+  Parts(Long* data, Eigen::Index n)
+      : q(data, n),
+        v(data + n, n),
+        q_variation(data + 2 * n, n, 2 * n),
+        v_variation(data + 2 * n + 2 * n * n, n, 2 * n),
+        action(data[2 * n + 4 * n * n]),
+        work(data + 2 * n + 4 * n * n + 1, 2 * n) {}
+
+  static std::size_t size(Eigen::Index n) { return static_cast<std::size_t>(4 * n + 4 * n * n + 1); }
+};
+
+}  // namespace
+
+ExactDiscreteLagrangian::ExactDiscreteLagrangian(const Problem& problem, const ControlFormula& control)
+    : n_(problem.configuration_size()) {
+  control_ = Schedule(control(Expression::input(0)));
+  const ExpressionVector q = input_vector(0, n_);
+  const ExpressionVector v = input_vector(static_cast<std::size_t>(n_), n_);
+  const ExpressionVector a = input_vector(static_cast<std::size_t>(2 * n_), n_);
+  const Expression t = Expression::input(static_cast<std::size_t>(3 * n_));
+  const ControlledState point{q, v, control(t), t};
+  const TracedProblem::Values values = TracedProblem(problem).at(point);
+  ExpressionVector residual = values.mass * a + values.momentum_by_time;
+  residual += values.momentum_by_configuration * v;
+  residual -= values.generalised_force;
+  std::vector<Expression> outputs;
+  append(outputs, residual);
+  append(outputs, values.mass);
+  append(outputs, jacobian(residual, q));
+  append(outputs, jacobian(residual, v));
+  outputs.push_back(problem.lagrangian(point.state()));
+  append(outputs, values.control_force);
+  equation_ = Schedule(outputs);
+  momentum_ = Schedule(values.momentum);
+}
+
+LongVector ExactDiscreteLagrangian::control(long double t) const {
+  const PhaseVector inputs{t};
+  const PhaseVector values = replay<long double>(control_, std::span<const long double>(inputs));
+  return Eigen::Map<const LongVector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& rate, long double t) const {
+  PhaseVector copy = state;
+  const Parts<long double> x(copy.data(), n_);
+  Parts<long double> x_dot(rate.data(), n_);
+  PhaseVector inputs(copy.begin(), copy.begin() + 2 * n_);
+  inputs.resize(static_cast<std::size_t>(3 * n_), 0.0L);
+  inputs.push_back(t);
+  // At a = 0 the residual is what L_vv q̈ has to balance; at the right q̈ its derivatives are the variational equations.
+  PhaseVector values = replay<long double>(equation_, std::span<const long double>(inputs));
+  const auto block = [&](Eigen::Index first, Eigen::Index columns) {
+    return Eigen::Map<const LongMatrix>(values.data() + first, n_, columns);
+  };
+  const Eigen::PartialPivLU<LongMatrix> mass(block(n_, n_));
+  x_dot.q = x.v;
+  x_dot.v = -mass.solve(block(0, 1));
+  std::copy(x_dot.v.begin(), x_dot.v.end(), inputs.begin() + 2 * n_);
+  values = replay<long double>(equation_, std::span<const long double>(inputs));
+  x_dot.q_variation = x.v_variation;
+  x_dot.v_variation =
+      -mass.solve(block(n_ + n_ * n_, n_) * x.q_variation + block(n_ + 2 * n_ * n_, n_) * x.v_variation);
+  const Eigen::Index behind = n_ + 3 * n_ * n_;
+  x_dot.action = values[static_cast<std::size_t>(behind)];
+  x_dot.work = x.q_variation.transpose() * block(behind + 1, 1);
+}
+
+ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVector& v_0, long double h) const {
+  PhaseVector state(Parts<long double>::size(n_), 0.0L);
+  Parts<long double> x(state.data(), n_);
+  x.q = q_0;
+  x.v = v_0;
+  x.q_variation.leftCols(n_).setIdentity();
+  x.v_variation.rightCols(n_).setIdentity();
+  const auto momentum = [&](long double t) {
+    PhaseVector inputs(state.begin(), state.begin() + 2 * n_);
+    inputs.resize(static_cast<std::size_t>(3 * n_), 0.0L);
+    inputs.push_back(t);
+    const PhaseVector values = replay<long double>(momentum_, std::span<const long double>(inputs));
+    return LongVector(Eigen::Map<const LongVector>(values.data(), n_));
+  };
+  ExactInterval interval;
+  interval.q_0 = q_0;
+  interval.v_0 = v_0;
+  interval.objects.left_momentum = momentum(0.0L);
+  using Stepper = odeint::runge_kutta_fehlberg78<PhaseVector, long double, PhaseVector, long double>;
+  try {
+    odeint::integrate_adaptive(
+        odeint::make_controlled<Stepper>(tolerance, tolerance),
+        [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); }, state, 0.0L, h,
+        h / 4.0L);
+  } catch (const odeint::odeint_error&) {
+    throw Error("the exact motion's step size vanished");
+  }
+  const Eigen::PartialPivLU<LongMatrix> by_velocity(x.q_variation.rightCols(n_));
+  interval.q_1 = x.q;
+  interval.right_by_velocity = x.q_variation.rightCols(n_);
+  interval.objects.right_momentum = momentum(h);
+  interval.objects.lagrangian = x.action;
+  interval.objects.right_force = by_velocity.transpose().solve(x.work.tail(n_));
+  interval.objects.left_force = x.work.head(n_) - x.q_variation.leftCols(n_).transpose() * interval.objects.right_force;
+  if (!interval.q_1.allFinite() || !interval.objects.left_force.allFinite()) {
+    throw Error("the exact motion leaves the set where the equations of motion make sense, or h is a conjugate time");
+  }
+  return interval;
+}
+
+ExactInterval ExactDiscreteLagrangian::between(const LongVector& q_0, const LongVector& q_1, const LongVector& v_start,
+                                               long double h) const {
+  constexpr int most_iterations = 30;
+  constexpr long double last_step = 1e-15L;
+  LongVector v_0 = v_start;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const ExactInterval interval = along(q_0, v_0, h);
+    const LongVector step = interval.right_by_velocity.partialPivLu().solve(interval.q_1 - q_1);
+    v_0 -= step;
+    // The next iterate is exact to rounding, because the iteration is quadratic.
+    if (step.lpNorm<Eigen::Infinity>() < last_step * (1.0L + v_0.lpNorm<Eigen::Infinity>())) return along(q_0, v_0, h);
+  }
+  throw Error("shooting for the motion between two configurations does not converge; the step is too large");
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,140 @@
+#include "methods/diagnostics/one_step_map.hpp"
+
+#include "methods/expression/derivatives.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
+  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
+}
+
+}  // namespace
+
+/// Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior slopes), y = p or v where nodes carry them; the stage
+/// controls; h; t; p_0.
+template <class Scalar>
+struct OneStepMap<Scalar>::Formulas {
+  Eigen::Index n;
+  Eigen::Index unknowns;
+  NodeState node_state;
+  Eigen::Index interior;
+  ExpressionVector residual;
+  std::vector<Expression> reading;
+  std::vector<Expression> derivatives;
+
+  Formulas(const TracedProblem& problem, const Element& element, const Tableau& tableau)
+      : n(problem.configuration_size()), node_state(element.node_state()), interior(tableau.stages() - 1) {
+    std::size_t next = 0;
+    const auto take = [&next](Eigen::Index count) {
+      ExpressionVector inputs = input_vector(next, count);
+      next += static_cast<std::size_t>(count);
+      return inputs;
+    };
+    const Eigen::Index second = node_state == NodeState::configuration ? 0 : n;
+    IntervalUnknowns local;
+    local.left_q = take(n);
+    local.left_y = take(second);
+    local.right_q = take(n);
+    local.right_y = take(second);
+    for (Eigen::Index j = 0; j < interior; ++j) local.slopes_q.push_back(take(n));
+    for (Eigen::Index j = 0; j < interior && second > 0; ++j) local.slopes_y.push_back(take(n));
+    unknowns = static_cast<Eigen::Index>(next) - n;
+    for (Eigen::Index i = 0; i <= interior; ++i) local.controls.push_back(take(problem.control_size()));
+    local.h = take(1)[0];
+    local.t = take(1)[0];
+    const ExpressionVector p_0 = take(n);
+
+    const IntervalTrace trace = element.trace(problem, tableau, local);
+    residual.resize(n + trace.private_rows.size());
+    residual << trace.left_momentum - p_0, trace.private_rows;
+    append(reading, trace.right_momentum);
+    ExpressionVector impulse(n);
+    for (std::size_t i = 0; i < trace.stages.size(); ++i) {
+      const Expression weight = local.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
+      impulse += weight * problem.at(trace.stages[i]).control_force;
+    }
+    append(reading, impulse);
+    const ExpressionVector w = input_vector(static_cast<std::size_t>(n), unknowns);
+    append(derivatives, dmocbench::jacobian(residual, w));
+    append(derivatives, dmocbench::jacobian(residual, local.left_q));
+    append(derivatives, dmocbench::jacobian(trace.right_momentum, w));
+    append(derivatives, dmocbench::jacobian(trace.right_momentum, local.left_q));
+  }
+};
+
+template <class Scalar>
+OneStepMap<Scalar>::OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau)
+    : OneStepMap(Formulas(problem, element, tableau)) {}
+
+template <class Scalar>
+OneStepMap<Scalar>::OneStepMap(const Formulas& formulas)
+    : n_(formulas.n),
+      unknowns_(formulas.unknowns),
+      node_state_(formulas.node_state),
+      interior_(formulas.interior),
+      newton_(formulas.residual, static_cast<std::size_t>(n_), unknowns_),
+      reading_(formulas.reading),
+      derivatives_(formulas.derivatives) {}
+
+template <class Scalar>
+typename OneStepMap<Scalar>::Step OneStepMap<Scalar>::advance(const Vector& q_0, const Vector& p_0,
+                                                              const Vector& velocity, const Matrix& controls, Scalar h,
+                                                              Scalar t) const {
+  Step step;
+  std::vector<Scalar>& inputs = step.inputs;
+  const auto add = [&inputs](const auto& values) { inputs.insert(inputs.end(), values.begin(), values.end()); };
+  const Vector second = node_state_ == NodeState::momentum ? p_0 : velocity;
+  const bool has_second = node_state_ != NodeState::configuration;
+  const Vector q_1 = q_0 + h * velocity;
+  add(q_0);
+  if (has_second) add(second);
+  add(q_1);
+  if (has_second) add(second);
+  for (Eigen::Index j = 0; j < interior_; ++j) add(velocity);
+  if (has_second) inputs.resize(inputs.size() + static_cast<std::size_t>(n_ * interior_), Scalar(0));
+  for (Eigen::Index i = 0; i < controls.rows(); ++i) {
+    for (Eigen::Index j = 0; j < controls.cols(); ++j) inputs.push_back(controls(i, j));
+  }
+  inputs.push_back(h);
+  inputs.push_back(t);
+  add(p_0);
+  newton_.solve(inputs);
+
+  const std::vector<Scalar> values = replay<Scalar>(reading_, std::span<const Scalar>(inputs));
+  step.p = Eigen::Map<const Vector>(values.data(), n_);
+  step.impulse = Eigen::Map<const Vector>(values.data() + n_, n_);
+  step.q = Eigen::Map<const Vector>(inputs.data() + (has_second ? 2 * n_ : n_), n_);
+  step.mean_velocity = (step.q - q_0) / h;
+  return step;
+}
+
+template <class Scalar>
+typename OneStepMap<Scalar>::Matrix OneStepMap<Scalar>::jacobian(const Step& step) const {
+  const std::vector<Scalar> values = replay<Scalar>(derivatives_, std::span<const Scalar>(step.inputs));
+  const Scalar* next = values.data();
+  const auto take = [&next](Eigen::Index rows, Eigen::Index columns) {
+    Matrix block = Eigen::Map<const Matrix>(next, rows, columns);
+    next += rows * columns;
+    return block;
+  };
+  const Matrix by_unknowns = take(unknowns_, unknowns_);
+  Matrix by_start(unknowns_, 2 * n_);
+  by_start.leftCols(n_) = take(unknowns_, n_);
+  by_start.rightCols(n_).setZero();
+  by_start.topRightCorner(n_, n_).diagonal().setConstant(Scalar(-1));  // R begins with left momentum - p_0
+  const Matrix momentum_by_unknowns = take(n_, unknowns_);
+  const Matrix momentum_by_left = take(n_, n_);
+  const Matrix unknowns_by_start = -by_unknowns.partialPivLu().solve(by_start);
+  Matrix result(2 * n_, 2 * n_);
+  result.topRows(n_) = unknowns_by_start.middleRows(node_state_ == NodeState::configuration ? 0 : n_, n_);
+  result.bottomRows(n_) = momentum_by_unknowns * unknowns_by_start;
+  result.bottomLeftCorner(n_, n_) += momentum_by_left;
+  return result;
+}
+
+template class OneStepMap<double>;
+template class OneStepMap<long double>;
+
+}  // namespace dmocbench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "methods/diagnostics/traced_newton.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/element.hpp"
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+/// The one-step map (q_0, p_0) ↦ (q_1, p_1) of any element: for DMOC the forced discrete Hamiltonian map.
+///
+/// Solves p_0 = left momentum and the private rows of one interval for everything but q_0 and the controls, by Newton's
+/// method from traced formulas, and reads q_1 and the right momentum. For tangent-space collocation p = L_v(q, v) at
+/// both ends. `Scalar` is double or long double.
+template <class Scalar>
+class OneStepMap {
+ public:
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// Where the map goes from a point.
+  struct Step {
+    Vector q;                    ///< q_1, n entries
+    Vector p;                    ///< p_1
+    Vector mean_velocity;        ///< (q_1 - q_0)/h: a start for the next step
+    Vector impulse;              ///< h Σ b_i f(Q_i, Q̇_i, U_i), n entries
+    std::vector<Scalar> inputs;  ///< the solved interval, for `jacobian`
+  };
+
+  OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau);
+
+  /// One step of length `h` from (q_0, p_0) at time `t`. Row i of `controls` is U_i (s × m). `velocity` is an estimate
+  /// of q̇, from which the iteration starts. Throws `Error` if it does not converge.
+  [[nodiscard]] Step advance(const Vector& q_0, const Vector& p_0, const Vector& velocity, const Matrix& controls,
+                             Scalar h, Scalar t) const;
+
+  /// ∂(q_1, p_1)/∂(q_0, p_0) at a step, 2n × 2n, by the implicit function theorem: exact to rounding.
+  [[nodiscard]] Matrix jacobian(const Step& step) const;
+
+ private:
+  struct Formulas;
+  explicit OneStepMap(const Formulas& formulas);
+
+  Eigen::Index n_ = 0;
+  Eigen::Index unknowns_ = 0;
+  NodeState node_state_ = NodeState::configuration;
+  Eigen::Index interior_ = 0;  // number of interior stages, s - 1
+  TracedNewton<Scalar> newton_;
+  Schedule reading_;      // right momentum, then the impulse
+  Schedule derivatives_;  // R by w, R by q_0, right momentum by w, by q_0, column by column
+};
+
+extern template class OneStepMap<double>;
+extern template class OneStepMap<long double>;
+
+}  // namespace dmocbench

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+
+namespace dmocbench {
+
+/// Newton's method with exact derivatives for equations that were traced: R(w, parameters) = 0, w a block of
+/// consecutive inputs. `Scalar` is double or long double.
+template <class Scalar>
+class TracedNewton {
+ public:
+  /// `residual` has `count` entries; the unknowns are the inputs `first` .. `first + count - 1`.
+  TracedNewton(const ExpressionVector& residual, std::size_t first, Eigen::Index count) : first_(first), count_(count) {
+    if (residual.size() != count) throw Error("Newton's method needs as many equations as unknowns");
+    const ExpressionMatrix derivative = jacobian(residual, input_vector(first, count));
+    std::vector<Expression> outputs(residual.begin(), residual.end());
+    outputs.insert(outputs.end(), derivative.data(), derivative.data() + derivative.size());
+    schedule_ = Schedule(outputs);
+  }
+
+  /// Moves the unknowns among `inputs` from where they are to the root. Throws `Error` if the iteration does not
+  /// converge.
+  void solve(std::vector<Scalar>& inputs) const {
+    using std::abs, std::isfinite, std::pow;
+    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+    if (count_ == 0) return;
+    // The iteration is quadratic: behind a step of this size there is only rounding.
+    const Scalar last_step = pow(std::numeric_limits<Scalar>::epsilon(), Scalar(0.65));
+    Eigen::Map<Vector> unknowns(inputs.data() + first_, count_);
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const std::vector<Scalar> values = replay<Scalar>(schedule_, std::span<const Scalar>(inputs));
+      const Eigen::Map<const Vector> residual(values.data(), count_);
+      const Eigen::Map<const Matrix> derivative(values.data() + count_, count_, count_);
+      const Vector step = derivative.partialPivLu().solve(residual);
+      if (!step.allFinite()) break;
+      unknowns -= step;
+      if (step.template lpNorm<Eigen::Infinity>() <=
+          last_step * (Scalar(1) + unknowns.template lpNorm<Eigen::Infinity>())) {
+        return;
+      }
+    }
+    throw Error("Newton's method does not converge on the equations of an interval; the step is too large");
+  }
+
+ private:
+  static constexpr int most_iterations = 50;
+  std::size_t first_;
+  Eigen::Index count_;
+  Schedule schedule_;  // outputs: R, then ∂R/∂w column by column
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,67 @@
+# Order of consistency of DMOC's discrete objects, th:ordercalculation: the discrete Lagrangian, the one-step map, the
+# discrete forces and the forced discrete Legendre transforms against the exact ones over the step.
+#   gnuplot -e "results='results'" plots/consistency_order.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("consistency_order", "problem,tableau,stages,order,quantity,h,error")
+eval require("consistency_order_slopes", "problem,tableau,stages,order,quantity,slope,standard_error")
+
+# Below this, errors are the rounding of the tableau's coefficients.
+smallest = 1e-16
+panels = "lagrangian map left_force left_legendre"
+panel_title(quantity) = quantity eq "lagrangian" ? "discrete Lagrangian: h^{r+1}"\
+    : quantity eq "map" ? "one-step map (q_0, p_0) ↦ (q_1, p_1): h^{r+1}"\
+    : quantity eq "left_force" ? "discrete forces f_d^{−}: h^{r}, not h^{r+1}"\
+    : "forced discrete Legendre transform 𝔽^{f−}L_d: h^{r}, not h^{r+1}"
+formula(quantity) = quantity eq "lagrangian" ? "|L_d − L_d^E|" : quantity eq "map" ? "distance from the exact (q_1, p_1)"\
+    : quantity eq "left_force" ? "|f_d^{−} − f_d^{E−}|" : "|𝔽^{f−}L_d − 𝔽^{f−}L_d^E|"
+# What a problem's slope of a quantity and a tableau is, as text.
+measured(where, quantity) = system(rows_awk("-v where='".where.",quantity=".quantity."'", "consistency_order_slopes").\
+    " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"slope\") c = i; next } { printf \"%.2f\", $c }'")
+points_of(where) = entry(where, "tableau") eq "gauss" ? 7 : 6
+dashes_of(where) = entry(where, "tableau") eq "gauss" ? 1 : 2
+colour(where) = int(entry(where, "stages")) == 1 ? blue : int(entry(where, "stages")) == 2 ? vermilion\
+    : int(entry(where, "stages")) == 3 ? green : purple
+curve_title(where, quantity) = sprintf("%s, s = %s, r = %s: slope %s", entry(where, "tableau"), entry(where, "stages"),\
+    entry(where, "order"), measured(where, quantity))
+
+do for [problem_word in problems_of("consistency_order", "error")] {
+  problem = entry(problem_word, "problem")
+  curves = distinct("consistency_order", "problem,tableau,stages,order", problem_word, "error")
+  orders = distinct("consistency_order", "order", problem_word, "error")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_consistency_order", 1200, 950)
+    set multiplot layout 2, 2 title title_text(problem_label(problem)\
+        .": at fixed end points a derivative costs one power of the step", "", "Grey: C h^r, and C h^{r+1} dotted.")\
+        offset 0, -0.4 margins 0.075, 0.985, 0.07, 0.88 spacing 0.09, 0.11
+    do for [quantity in panels] {
+      where = problem_word.",quantity=".quantity
+      eval measure("consistency_order", where, "h", "error")
+      # Guides start at the coarsest step's error of each order.
+      guides = ""
+      do for [order in orders] {
+        stats rows("consistency_order", where.",".order, "error")\
+              using (column("h") > 0.99 * x_high ? column("error") : NaN) name 'G' nooutput
+        guides = guides.sprintf(" %.6g,%d", G_min / 2, int(entry(order, "order")))
+      }
+      eval power_axis("xy")
+      eval finer_tics("x")
+      eval set_range("x", x_low, x_high, 1.2)
+      set yrange [smallest * 1e-4:10 * y_high]  # room for the key
+      set title panel_title(quantity) offset 0, -0.5
+      set xlabel (quantity eq "left_force" || quantity eq "left_legendre" ? "step {/:Italic h}, as solved" : "")
+      set ylabel formula(quantity)
+      set key bottom right font ",10" samplen 2.5
+      plot for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**real(guide[strstrt(guide, ",") + 1:*])\
+           with lines linetype 8,\
+           for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**(1 + real(guide[strstrt(guide, ",") + 1:*]))\
+           with lines linetype 9,\
+           for [curve in curves] rows("consistency_order", curve.",quantity=".quantity, "error")\
+           using (column("h")):(column("error") > smallest ? column("error") : NaN)\
+           with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.8\
+           pointtype points_of(curve) dashtype dashes_of(curve) title curve_title(curve, quantity)
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_consistency_order")
+  }
+}

@@ -1,0 +1,57 @@
+# Energy of an eccentric Kepler orbit over many periods, unforced ("Conservation of a Modified Energy"): DMOC against
+# explicit Runge-Kutta methods of the same order, and DMOC's oscillation over the step.
+#   gnuplot -e "results='results'" plots/structure.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("structure_energy", "problem,method,stages,order,period,energy_smallest,energy_largest")
+eval require("structure_energy_behaviour", "problem,method,stages,order,steps_per_period,oscillation,periods")
+eval require("structure_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+
+integrator_label(where) = (entry(where, "method") eq "dmoc" ? "DMOC"\
+    : entry(where, "method") eq "explicit_midpoint" ? "explicit midpoint" : "classical Runge-Kutta")\
+    .", order ".entry(where, "order")
+colour(where) = int(entry(where, "order")) == 2 ? blue : vermilion
+is_dmoc(where) = entry(where, "method") eq "dmoc"
+dashes_of(where) = is_dmoc(where) ? 1 : 2
+magnitude(low, high) = abs(low) > abs(high) ? abs(low) : abs(high)
+few = 20  # periods of the sweep over the step
+
+do for [where in problems_of("structure_energy", "energy_largest")] {
+  problem = entry(where, "problem")
+  methods = distinct("structure_energy", "problem,method,stages,order", where, "")
+  dmoc = distinct("structure_energy_behaviour", "problem,method,stages,order", where.",method=dmoc", "")
+  stats rows("structure_energy", where, "") using (column("period") + 1) name 'P' nooutput
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_energy", 1200, 600)
+    set multiplot layout 1, 2 title title_text(\
+        "Unforced Kepler orbit, eccentricity 0.3: the energy of DMOC oscillates and does not drift,",\
+        "that of explicit Runge-Kutta methods drifts", "") offset 0, -0.4 margins 0.075, 0.985, 0.13, 0.81 spacing 0.1
+    eval power_axis("xy")
+    set xrange [1:P_max]
+    set yrange [1e-9:*]
+    set xlabel "period"
+    set ylabel "largest |E − E_0| of a period"
+    set key bottom right
+    set title entry(distinct("structure_energy", "steps_per_period", where, ""), "steps_per_period")." steps per period"
+    plot for [method in methods] rows("structure_energy", method, "")\
+         using (column("period") + 1):(magnitude(column("energy_smallest"), column("energy_largest")))\
+         with lines linecolor rgb colour(method) linewidth (is_dmoc(method) ? 2.5 : 1.5) dashtype dashes_of(method)\
+         title integrator_label(method)
+    set title "DMOC, oscillation within the first ten periods"
+    set xlabel "step {/:Italic h}"
+    set ylabel "max E − min E"
+    set autoscale
+    eval power_axis("xy")
+    set xtics ("2π/512" 2 * pi / 512, "2π/256" 2 * pi / 256, "2π/128" 2 * pi / 128)
+    set xrange [2 * pi / 580:2 * pi / 113]
+    set yrange [*:*]
+    set key bottom right
+    plot for [method in dmoc] rows("structure_energy_behaviour", method, "")\
+         using (column("periods") == few ? 2 * pi / column("steps_per_period") : NaN):(column("oscillation"))\
+         with linespoints linecolor rgb colour(method) linewidth 2 dashtype 1 pointtype 7 pointsize 0.7\
+         title with_slope("order ".entry(method, "order"),\
+                          slope("structure_energy_slopes", method.",tableau=gauss", "oscillation"))
+    unset multiplot
+    eval end_figure(kind, problem."_energy")
+  }
+}

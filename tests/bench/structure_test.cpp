@@ -1,0 +1,85 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "bench/structure/long_time_energy.hpp"
+#include "bench/structure/simulated_tables.hpp"
+
+namespace dmocbench {
+namespace {
+
+double number(const Row& row, const std::string& column) {
+  return row.number(column).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+TEST(NoetherTable, BalanceHoldsToRoundingForDmocAndHamiltonianAndNotForTangent) {
+  const Table table = noether_table(50);
+  ASSERT_FALSE(table.rows().empty());
+  for (const Row& row : table.rows()) {
+    const double defect = number(row, "defect");
+    const double in_long_double = number(row, "defect_in_long_double");
+    const std::string label = row.text("problem") + " " + row.text("method") + " " + row.text("stages");
+    if (row.text("method") == "tangent") {
+      if (row.text("tableau") == "gauss") {
+        EXPECT_GT(in_long_double, 1e-13) << label;  // three stages leave little
+      }
+    } else {
+      EXPECT_LT(defect, 3e-12) << label;
+      EXPECT_LT(in_long_double, 1e-15) << label;
+    }
+    if (row.text("method") == "tangent" && row.text("stages") == "1") {
+      EXPECT_GT(in_long_double, 1e-9) << label;
+    }
+    if (row.text("method") == "dmoc") {
+      EXPECT_NEAR(number(row, "work_of_discrete_forces"), number(row, "work"), 1e-14) << label;
+    }
+    if (row.text("force") == "orthogonal") {
+      EXPECT_EQ(number(row, "work"), 0.0) << label;
+    } else {
+      EXPECT_GT(std::abs(number(row, "work")), 1e-6) << label;
+    }
+  }
+}
+
+TEST(SymplecticityTable, OnlyTangentWithAMovingMassIsNotSymplectic) {
+  const Table table = symplecticity_table();
+  for (const Row& row : table.rows()) {
+    // A constant mass saves tangent-space collocation with Gauss tableaus alone: others are not their own conjugate.
+    if (row.text("method") == "tangent" && row.text("tableau") != "gauss") continue;
+    const bool symplectic = number(row, "defect") < 100.0 * number(row, "rounding");
+    EXPECT_EQ(symplectic, row.text("method") != "tangent" || row.text("problem") == "kepler")
+        << row.text("problem") << " " << row.text("method") << " " << row.text("stages");
+  }
+}
+
+TEST(LongTimeEnergy, OscillationFallsWithTheOrderAndOnlyExplicitMethodsLeaveIt) {
+  for (const LongTimeMethod& method : long_time_methods()) {
+    const EnergyBehaviour coarse = energy_behaviour(long_time_energy(method, 64, 100));
+    if (method.name != "dmoc") {
+      EXPECT_GT(std::abs(coarse.change), 3.0 * coarse.oscillation) << method.name;
+      continue;
+    }
+    EXPECT_LT(coarse.range, 1.01 * coarse.oscillation) << method.order;
+    const EnergyBehaviour fine = energy_behaviour(long_time_energy(method, 128, 100));
+    EXPECT_NEAR(std::log2(coarse.oscillation / fine.oscillation), method.order, 0.1);
+  }
+}
+
+TEST(EnergyBehaviour, TellsDriftFromOscillation) {
+  std::vector<PeriodEnergy> periods;
+  for (int k = 0; k < 50; ++k) {
+    const double mean = 0.25 * k;
+    periods.push_back({.period = k, .smallest = mean - 1.0, .mean = mean, .largest = mean + 1.0});
+  }
+  const EnergyBehaviour behaviour = energy_behaviour(periods);
+  EXPECT_NEAR(behaviour.drift_per_period, 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.oscillation, 2.0 + 9 * 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.range, 2.0 + 49 * 0.25, 1e-13);
+  EXPECT_NEAR(behaviour.change, 49 * 0.25, 1e-13);
+  EXPECT_LT(behaviour.standard_error, 1e-13);
+}
+
+}  // namespace
+}  // namespace dmocbench
