@@ -190,14 +190,14 @@ Table IndirectReference::table() const {
 nlohmann::ordered_json IndirectReference::metadata() const {
   Json references = Json::array();
   for (const auto& [name, entry] : entries_) {
-    Json costate = Json::object();
-    for (const std::string& column : entry.costate_columns) costate[column] = *entry.row.number(column);
-    references.push_back({{"problem", name},
-                          {"cost", entry.solution.cost()},
-                          {"certified_digits", entry.solution.certified_digits()},
-                          {"shooting_defect", *entry.row.number("shooting_defect")},
-                          {"replay_error", *entry.row.number("replay_error")},
-                          {"initial_costate", std::move(costate)}});
+    const auto number = [&row = entry.row](const std::string& column) { return row.number(column).value_or(0.0); };
+    Json reference = Json::object();
+    reference["problem"] = name;
+    for (const std::string column : {"cost", "certified_digits", "shooting_defect", "replay_error"}) {
+      reference[column] = number(column);
+    }
+    for (const std::string& column : entry.costate_columns) reference["initial_costate"][column] = number(column);
+    references.push_back(std::move(reference));
   }
   return references;
 }
