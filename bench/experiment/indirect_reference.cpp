@@ -88,6 +88,8 @@ bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
   return true;
 }
 
+double number_in(const Row& row, const std::string& column) { return row.number(column).value_or(0.0); }
+
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
@@ -190,13 +192,13 @@ Table IndirectReference::table() const {
 nlohmann::ordered_json IndirectReference::metadata() const {
   Json references = Json::array();
   for (const auto& [name, entry] : entries_) {
-    const auto number = [&row = entry.row](const std::string& column) { return row.number(column).value_or(0.0); };
     Json reference = Json::object();
     reference["problem"] = name;
     for (const std::string column : {"cost", "certified_digits", "shooting_defect", "replay_error"}) {
-      reference[column] = number(column);
+      reference[column] = number_in(entry.row, column);
     }
-    for (const std::string& column : entry.costate_columns) reference["initial_costate"][column] = number(column);
+    for (const std::string& column : entry.costate_columns)
+      reference["initial_costate"][column] = number_in(entry.row, column);
     references.push_back(std::move(reference));
   }
   return references;
