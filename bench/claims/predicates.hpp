@@ -38,6 +38,21 @@ namespace dmocbench {
 [[nodiscard]] Claim derivatives_claim(const ResultTables& tables, const std::string& problem);
 /// The paper's own tool against central differences, by time.
 [[nodiscard]] Claim adolc_claim(const ResultTables& tables, const std::string& problem);
+/// A statement of order h^(r + 1) about quantities of the table of consistency orders.
+struct ConsistencyClaim {
+  std::string id;
+  std::string where;
+  std::string paper;
+  std::vector<std::string> quantities;
+};
+[[nodiscard]] Claim consistency_order_claim(const ResultTables& tables, const std::string& problem,
+                                            const ConsistencyClaim& what);
+/// The forced discrete Noether theorem, with a force "along" the group action or "orthogonal" to it.
+[[nodiscard]] Claim noether_claim(const ResultTables& tables, const char* force);
+/// Symplecticity of the unforced one-step map.
+[[nodiscard]] Claim symplecticity_claim(const ResultTables& tables);
+/// Energy over many periods.
+[[nodiscard]] Claim modified_energy_claim(const ResultTables& tables);
 /// A row of the table of slips.
 [[nodiscard]] Claim slip_claim(const Row& row);
 
