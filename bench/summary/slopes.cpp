@@ -22,7 +22,8 @@ constexpr long long reference_factor = 4;
 /// it.
 constexpr double rounding_level = 1e-11;
 
-constexpr std::array quantities{"state", "control", "momentum", "costate", "objective", "replay", "control_from_costate"};
+constexpr std::array quantities{
+    "state", "control", "momentum", "costate", "objective", "replay", "control_from_costate"};
 
 double number_of(const Row* row, const std::string& column) { return row->number(column).value_or(0.0); }
 
