@@ -66,7 +66,10 @@ std::vector<BoundaryState> initial_conditions(const Problem& problem) {
 std::vector<Tableau> all_tableaus() {
   std::vector<Tableau> tableaus;
   for (const std::string& family : tableau_names()) {
-    for (const int stages : tableau_stages(family)) tableaus.push_back(make_tableau(family, stages));
+    for (const int stages : tableau_stages(family)) {
+      Tableau tableau = make_tableau(family, stages);
+      if (!tableau.shares_controls) tableaus.push_back(std::move(tableau));  // on one interval it is the same method
+    }
   }
   return tableaus;
 }

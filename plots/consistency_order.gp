@@ -30,10 +30,10 @@ do for [problem_word in problems_of("consistency_order", "error")] {
   curves = distinct("consistency_order", "problem,tableau,stages,order", problem_word, "error")
   orders = distinct("consistency_order", "order", problem_word, "error")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_consistency_order", 1200, 950)
+    eval begin_figure(kind, problem."_consistency_order", 1500, 900)
     set multiplot layout 2, 2 title title_text(problem_label(problem)\
         .": at fixed end points a derivative costs one power of the step", "", "Grey: C h^r, and C h^{r+1} dotted.")\
-        offset 0, -0.4 margins 0.075, 0.985, 0.07, 0.88 spacing 0.09, 0.11
+        offset 0, -0.4 margins 0.06, 0.835, 0.07, 0.88 spacing 0.25, 0.11
     do for [quantity in panels] {
       where = problem_word.",quantity=".quantity
       eval measure("consistency_order", where, "h", "error")
@@ -47,11 +47,11 @@ do for [problem_word in problems_of("consistency_order", "error")] {
       eval power_axis("xy")
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.2)
-      set yrange [smallest * 1e-4:10 * y_high]  # room for the key
+      set yrange [smallest / 3:10 * y_high]
       set title panel_title(quantity) offset 0, -0.5
       set xlabel (quantity eq "left_force" || quantity eq "left_legendre" ? "step {/:Italic h}, as solved" : "")
       set ylabel formula(quantity)
-      set key bottom right font ",10" samplen 2.5
+      set key at graph 1.03, graph 1 left top font ",11" samplen 2.5
       plot for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**real(guide[strstrt(guide, ",") + 1:*])\
            with lines linetype 8,\
            for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**(1 + real(guide[strstrt(guide, ",") + 1:*]))\

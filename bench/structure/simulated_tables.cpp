@@ -60,7 +60,10 @@ Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step
 template <class Visit>
 void for_all_tableaus(const Visit& visit) {
   for (const std::string& family : tableau_names()) {
-    for (const int stages : tableau_stages(family)) visit(make_tableau(family, stages));
+    for (const int stages : tableau_stages(family)) {
+      const Tableau tableau = make_tableau(family, stages);
+      if (!tableau.shares_controls) visit(tableau);  // each step is simulated with controls of its own
+    }
   }
 }
 
