@@ -26,6 +26,7 @@ Eigen::VectorXd null_space_transposed_times(const Iterate& iterate, const Eigen:
 Eigen::MatrixXd reduced_matrix(const Iterate& iterate) {
   const QuadraticProgram& program = iterate.program();
   const std::vector<Eigen::Index>& superbasics = iterate.sets().superbasics();
+  if (superbasics.empty()) return {};  // Eigen's triangular product looks at its first entry
   const Eigen::Index n = program.variable_count();
   Eigen::MatrixXd directions =
       Eigen::MatrixXd::Zero(program.column_count(), static_cast<Eigen::Index>(superbasics.size()));
