@@ -43,7 +43,7 @@ class Derivatives final : public Experiment {
            "tape and adolc end after 150 iterations, or 15 times the tape's time (at least 0.2 s).";
   }
   [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  [[nodiscard]] std::vector<std::string> default_derivatives() const override { return derivative_back_end_names(); }
+  void set_defaults(ExperimentOptions& options) const override { options.derivatives = derivative_back_end_names(); }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
     return {"hessian",
             "jacobian_error",

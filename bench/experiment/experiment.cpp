@@ -187,7 +187,6 @@ int run_experiment(Experiment& experiment, int argc, char** argv) {
   ExperimentOptions options;
   options.intervals = experiment.default_intervals();
   options.name = experiment.name();
-  options.derivatives = experiment.default_derivatives();
   experiment.set_defaults(options);
   add_options(app, options);
   experiment.add_options(app);

@@ -30,8 +30,6 @@ class Experiment {
   /// What `--help` says.
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] virtual std::string default_intervals() const = 0;
-  /// The back ends of derivatives unless the user chooses.
-  [[nodiscard]] virtual std::vector<std::string> default_derivatives() const { return {"tape"}; }
   /// Changes what else is chosen unless the user chooses.
   virtual void set_defaults(ExperimentOptions& /*options*/) const {}
   /// Columns behind the core ones.

@@ -7,19 +7,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-/// The node of `times` at time t, if there is one.
-std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
-  const double span = times[times.size() - 1] - times[0];
-  constexpr double coincidence = 1e-12;
-  const auto above = std::lower_bound(times.begin(), times.end(), t - coincidence * span);
-  if (above == times.end() || std::abs(*above - t) > coincidence * span) return std::nullopt;
-  return above - times.begin();
-}
-
-}  // namespace
-
 TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference) {
   TrajectoryError error;
   const bool compare_costates = trajectory.has_costates() && reference.has_costates();

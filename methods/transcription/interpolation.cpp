@@ -1,6 +1,7 @@
 #include "methods/transcription/interpolation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -10,6 +11,9 @@
 namespace dmocbench {
 
 namespace {
+
+/// Times of one instant on two grids differ by less than this share of the horizon.
+constexpr double rounding_of_times = 1e-12;
 
 /// The interval that contains t; the nearest one outside the horizon.
 Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
@@ -40,6 +44,13 @@ Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
 
 }  // namespace
 
+std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
+  const double span = times[times.size() - 1] - times[0];
+  const auto above = std::lower_bound(times.begin(), times.end(), t - rounding_of_times * span);
+  if (above == times.end() || std::abs(*above - t) > rounding_of_times * span) return std::nullopt;
+  return above - times.begin();
+}
+
 Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {
   const Eigen::Index k = interval_of(trajectory.node_times, t);
   const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
@@ -60,7 +71,6 @@ Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index i
 
 Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {
   if (trajectory.stages() > 1) {
-    constexpr double rounding_of_times = 1e-12;
     const Eigen::VectorXd& times = trajectory.node_times;
     const double nudge = rounding_of_times * (times[times.size() - 1] - times[0]);
     return control_on_interval(trajectory, interval_of(times, side == Side::left ? t - nudge : t + nudge), t);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "methods/mechanics/state.hpp"
 #include "methods/transcription/trajectory.hpp"
@@ -10,6 +11,9 @@ namespace dmocbench {
 
 /// A motion given for every time 0 <= t <= T: where starts are sampled from.
 using Motion = std::function<MotionPoint(double t)>;
+
+/// The node of ascending `times` at time t, up to rounding; none if there is no such node.
+[[nodiscard]] std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t);
 
 /// The element's own polynomial of the configuration at time t: q(t_k + τh) = q_k + h Σ_j Q̇_j ∫₀^τ ℓ_j, n entries.
 /// Times outside the horizon are moved to its ends.
