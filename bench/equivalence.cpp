@@ -21,8 +21,9 @@ double foreign_violation(const Case& what, const std::string& other_method, cons
   Transcription other(*what.problem, *make_element(other_method), make_tableau(what.tableau, what.stages), what.grid);
   // The floor is that of a momentum; collocation has rows of force, a difference of momenta divided by the step.
   const bool has_rows_of_force = other.layout().node_state() != NodeState::configuration;
-  rounding = other.rounding_floor() / (has_rows_of_force ? other.steps().minCoeff() : 1.0);
-  return constraint_violation(other, embed(*what.problem, other, trajectory));
+  const Eigen::VectorXd embedded = embed(*what.problem, other, trajectory);
+  rounding = other.rounding_floor() / (has_rows_of_force ? other.steps(embedded).minCoeff() : 1.0);
+  return constraint_violation(other, embedded);
 }
 
 class Equivalence final : public Experiment {

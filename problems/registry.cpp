@@ -31,6 +31,8 @@ std::vector<std::string> problem_names() {
   return names;
 }
 
+std::vector<std::string> paper_problem_names() { return {"orbital_transfer", "two_link_manipulator"}; }
+
 std::unique_ptr<Problem> make_problem(std::string_view name) {
   std::string known;
   for (const Maker create : registry) {

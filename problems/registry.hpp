@@ -12,6 +12,9 @@ namespace dmocbench {
 /// Names of all problems, in the order in which they are listed.
 [[nodiscard]] std::vector<std::string> problem_names();
 
+/// Names of the two problems of the paper's section 4.
+[[nodiscard]] std::vector<std::string> paper_problem_names();
+
 /// The problem of that name with its default parameters. Throws `Error` that lists the names if
 /// there is none.
 [[nodiscard]] std::unique_ptr<Problem> make_problem(std::string_view name);

@@ -34,33 +34,39 @@ class SparseSum {
 
 DerivativeReference reference_derivatives(const Transcription& program, const Eigen::VectorXd& x,
                                           double objective_factor, const Eigen::VectorXd& multipliers) {
-  const IntervalFunctions& functions = program.functions();
-  const IntervalInputs& numbers = functions.inputs;
-  const Layout& layout = program.layout();
   SparseSum jacobian(program.jacobian_structure());
   SparseSum hessian(program.hessian_structure());
-  std::vector<long double> inputs(numbers.count());
-  for (std::size_t k = 0; k < layout.intervals(); ++k) {
-    const auto unknown = [&](std::size_t a) { return layout.unknown_firsts()[a] + k; };
-    const auto row = [&](std::size_t r) { return layout.row_firsts()[r] + k; };
-    for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs[a] = x[static_cast<Eigen::Index>(unknown(a))];
-    inputs[numbers.step()] = program.steps()[static_cast<Eigen::Index>(k)];
-    inputs[numbers.time()] = program.node_times()[static_cast<Eigen::Index>(k)];
+  const auto add = [&](const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                       const std::vector<ColumnPlace>& rows, std::size_t intervals) {
+    const LocalInputs& numbers = functions.inputs;
+    std::vector<long double> inputs(numbers.count());
     inputs[numbers.objective_factor()] = objective_factor;
-    for (std::size_t r = 0; r < numbers.rows; ++r) {
-      inputs[numbers.multiplier(r)] = multipliers[static_cast<Eigen::Index>(row(r))];
+    for (std::size_t k = 0; k < intervals; ++k) {
+      const auto unknown = [&](std::size_t a) { return unknowns[a].at(k); };
+      const auto row = [&](std::size_t r) { return rows[r].at(k); };
+      for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs[a] = x[static_cast<Eigen::Index>(unknown(a))];
+      inputs[numbers.step()] = program.step_inputs()[static_cast<Eigen::Index>(k)];
+      inputs[numbers.time()] = program.time_inputs()[static_cast<Eigen::Index>(k)];
+      for (std::size_t r = 0; r < numbers.rows; ++r) {
+        inputs[numbers.multiplier(r)] = multipliers[static_cast<Eigen::Index>(row(r))];
+      }
+      const std::span<const long double> point(inputs);
+      const std::vector<long double> first = replay<long double>(functions.jacobian.schedule, point);
+      for (std::size_t e = 0; e < first.size(); ++e) {
+        jacobian.add(row(functions.jacobian.rows[e]), unknown(functions.jacobian.columns[e]), first[e]);
+      }
+      const std::vector<long double> second = replay<long double>(functions.hessian.schedule, point);
+      for (std::size_t e = 0; e < second.size(); ++e) {
+        const auto [column, lower] =
+            std::minmax({unknown(functions.hessian.rows[e]), unknown(functions.hessian.columns[e])});
+        hessian.add(lower, column, second[e]);
+      }
     }
-    const std::span<const long double> point(inputs);
-    const std::vector<long double> first = replay<long double>(functions.jacobian.schedule, point);
-    for (std::size_t e = 0; e < first.size(); ++e) {
-      jacobian.add(row(functions.jacobian.rows[e]), unknown(functions.jacobian.columns[e]), first[e]);
-    }
-    const std::vector<long double> second = replay<long double>(functions.hessian.schedule, point);
-    for (std::size_t e = 0; e < second.size(); ++e) {
-      const auto [column, lower] =
-          std::minmax({unknown(functions.hessian.rows[e]), unknown(functions.hessian.columns[e])});
-      hessian.add(lower, column, second[e]);
-    }
+  };
+  const Layout& layout = program.layout();
+  add(program.functions(), layout.unknown_places(), layout.row_places(), layout.intervals());
+  if (program.end_functions()) {
+    add(*program.end_functions(), layout.end_unknown_places(), layout.end_row_places(), 1);
   }
   return {std::move(jacobian).values(), std::move(hessian).values()};
 }

@@ -6,6 +6,7 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/grid.hpp"
+#include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
 
@@ -18,6 +19,7 @@ struct Case {
   std::string solver;
   std::string derivatives = "tape";  ///< the back end that the solver sees
   Grid grid = Grid::uniform(1);
+  CostForm form = CostForm::bolza;
   std::string variant;  ///< what an experiment varies besides; empty in most
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }

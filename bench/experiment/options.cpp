@@ -77,7 +77,9 @@ std::vector<int> sorted_stages(std::vector<int> stages, const std::string& table
 }  // namespace
 
 void add_options(CLI::App& app, ExperimentOptions& options) {
-  app.add_option("--problem", options.problems, "problems, as `list` names them; default: all")->delimiter(',');
+  app.add_option("--problem", options.problems, "problems, as `list` names them; all: every one")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all")->delimiter(',');
   app.add_option("--tableau", options.tableaus, "families of Butcher tableaus")->delimiter(',')->capture_default_str();
   app.add_option(
@@ -96,6 +98,9 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
   app.add_option("--grid", options.grid_file,
                  "file with relative node times from 0 to 1, one per line; replaces --intervals");
   app.add_option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  app.add_option("--form", options.form,
+                 "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)")
+      ->capture_default_str();
   app.add_option(
          "--start", options.start,
          "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
@@ -127,7 +132,9 @@ SolverOptions solver_options(const ExperimentOptions& options) {
 std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
                                                               const std::vector<std::string>& settings) {
   std::vector<std::shared_ptr<Problem>> problems;
-  for (const std::string& name : in_order("problem", names, problem_names())) problems.push_back(make_problem(name));
+  const bool all = names == std::vector<std::string>{"all"};
+  const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
+  for (const std::string& name : chosen) problems.push_back(make_problem(name));
   for (const std::string& setting : settings) {
     const auto [name, text] = parse_assignment("--set", setting);
     const double value = parse_number(fmt::format("--set {}", name), text);
@@ -162,12 +169,13 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
       for (const std::string& tableau : tableaus) {
         for (const int stages : sorted_stages(options.stages, tableau)) {
           // The coarsest grid tells whether there are enough intervals.
-          static_cast<void>(
-              Transcription(*problem, *make_element(method), make_tableau(tableau, stages), grids.front()));
+          static_cast<void>(Transcription(*problem, *make_element(method), make_tableau(tableau, stages), grids.front(),
+                                          "tape", cost_form_named(options.form)));
           for (const std::string& solver : solvers) {
             for (const std::string& derivatives : back_ends) {
               for (const Grid& grid : grids) {
-                cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, ""});
+                cases.push_back(
+                    {problem, method, tableau, stages, solver, derivatives, grid, cost_form_named(options.form), ""});
               }
             }
           }

@@ -8,13 +8,14 @@
 
 #include "bench/experiment/case.hpp"
 #include "methods/solvers/solver.hpp"
+#include "problems/registry.hpp"
 
 namespace dmocbench {
 
 /// What every experiment lets its user choose.
 struct ExperimentOptions {
-  std::vector<std::string> problems;  ///< empty: all
-  std::vector<std::string> methods;   ///< empty: all
+  std::vector<std::string> problems = paper_problem_names();  ///< "all" alone: every problem there is
+  std::vector<std::string> methods;                           ///< empty: all
   std::vector<std::string> tableaus{"gauss"};
   std::string controls = "stage";  ///< stage, or shared: one control where two intervals meet
   std::vector<int> stages{1};
@@ -24,6 +25,7 @@ struct ExperimentOptions {
   std::string grid_file;               ///< relative node times; replaces `intervals`
   std::vector<std::string> settings;   ///< "parameter=value"
   std::vector<std::string> passed_on;  ///< "option=value" for the solver
+  std::string form = "bolza";          ///< bolza or mayer
   std::string start = "common";        ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
   int most_iterations = SolverOptions{}.most_iterations;
@@ -44,7 +46,8 @@ void add_options(CLI::App& app, ExperimentOptions& options);
 /// then.
 [[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
 
-/// Problems with the settings applied, in the order of the registry. A setting must belong to at least one of them.
+/// Problems with the settings applied, in the order of the registry; the name "all" stands for every one. A setting
+/// must belong to at least one of them.
 [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
                                                                             const std::vector<std::string>& settings);
 

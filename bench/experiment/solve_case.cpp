@@ -44,7 +44,8 @@ Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& s
 /// Judges a solution again by exact derivatives. The solver's own word counts once more where its derivatives denied
 /// it.
 void judge_exactly(const Case& what, double tolerance, Solution& solution) {
-  Transcription exact(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid);
+  Transcription exact(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid,
+                      "tape", what.form);
   if (solution.status == Status::not_confirmed) solution.status = Status::solved;
   confirm(exact, tolerance, solution);
 }
@@ -53,9 +54,11 @@ void judge_exactly(const Case& what, double tolerance, Solution& solution) {
 const char* branch_of(const Trajectory& trajectory, const Motion& wanted) {
   constexpr double share = 0.1;
   const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  const double stretch = wanted.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
   double distance = 0.0;
   for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd difference = trajectory.q.row(k).transpose() - wanted(trajectory.node_times[k]).q;
+    const Eigen::VectorXd difference =
+        trajectory.q.row(k).transpose() - wanted.at(trajectory.node_times[k] * stretch).q;
     distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
   }
   return distance < share * range.maxCoeff() ? "same" : "other";
@@ -106,7 +109,7 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
   SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
   const auto setup_start = Clock::now();
   Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
-                              what.grid, what.derivatives);
+                              what.grid, what.derivatives, what.form);
   const double setup_seconds = seconds_since(setup_start);
   result.start = sample(transcription, start.motion);
   result.solution = solve_repeatedly(transcription, result.start, what, options, repeats);
@@ -124,7 +127,7 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
 
   describe(result);
   Row& row = result.row;
-  row.set("step", transcription.steps().maxCoeff() * what.problem->time_unit().factor);
+  row.set("step", transcription.steps(result.start).maxCoeff() * what.problem->time_unit().factor);
   row.set("variables", static_cast<long long>(transcription.variable_count()));
   row.set("free_variables", static_cast<long long>(free_variable_count(transcription)));
   row.set("constraints", static_cast<long long>(transcription.constraint_count()));

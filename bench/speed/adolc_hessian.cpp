@@ -80,7 +80,7 @@ class Recorder {
 
 }  // namespace
 
-AdolcHessian::AdolcHessian(short tag, const Schedule& lagrangian, const IntervalInputs& inputs, std::size_t intervals)
+AdolcHessian::AdolcHessian(short tag, const Schedule& lagrangian, const LocalInputs& inputs, std::size_t intervals)
     : tag_(tag),
       intervals_(intervals),
       input_count_(inputs.count()),

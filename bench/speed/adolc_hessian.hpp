@@ -22,7 +22,7 @@ class AdolcHessian {
   /// `tag` is ADOL-C's number of the tape. Record small tapes before large ones: a small one recorded after
   /// a tape of 1024 intervals was measured to run some fifteen times slower, as if it carried the large one's
   /// variables.
-  AdolcHessian(short tag, const Schedule& lagrangian, const IntervalInputs& inputs, std::size_t intervals);
+  AdolcHessian(short tag, const Schedule& lagrangian, const LocalInputs& inputs, std::size_t intervals);
 
   [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
   /// Intervals `first` .. `first` + intervals() - 1.

@@ -57,7 +57,7 @@ Subject::Subject(const std::string& problem)
 }
 
 Schedule lagrangian_of(const IntervalFunctions& functions) {
-  const IntervalInputs& inputs = functions.inputs;
+  const LocalInputs& inputs = functions.inputs;
   const std::vector<Expression> rows = formulas(functions.rows.schedule);
   Expression sum = Expression::input(inputs.objective_factor()) * formulas(functions.cost).front();
   for (std::size_t r = 0; r < rows.size(); ++r) {

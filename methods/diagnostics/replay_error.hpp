@@ -5,18 +5,20 @@
 
 namespace dmocbench {
 
-/// How far from the prescribed final state the continuous system ends under a trajectory's controls.
+/// How far from the final state the continuous system ends under a trajectory's controls. Components of that state that
+/// are not prescribed are the trajectory's own.
 struct ReplayError {
   double configuration = 0.0;  ///< |q(T) - q^T|
   double velocity = 0.0;       ///< |v(T) - v^T|
-  /// Both together, Euclidean norm.
+  double cost = 0.0;           ///< the cost of the replayed motion, integrated along with it
+  /// Configuration and velocity together, Euclidean norm.
   [[nodiscard]] double norm() const;
 };
 
-/// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰) with the controls of the trajectory
-/// (on every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order 7(8) with the
-/// given tolerance, absolute and relative. Independent of every discretisation. Throws `Error` if the integration
-/// fails: the motion leaves the set where the equations make sense, or the steps vanish.
+/// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰), where prescribed, with the controls
+/// of the trajectory (on every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order
+/// 7(8) with the given tolerance, absolute and relative. Independent of every discretisation. Throws `Error` if the
+/// integration fails: the motion leaves the set where the equations make sense, or the steps vanish.
 [[nodiscard]] ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
 
 }  // namespace dmocbench

@@ -11,8 +11,10 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
   TrajectoryError error;
   const bool compare_costates = trajectory.has_costates() && reference.has_costates();
   if (compare_costates) error.costate = 0.0;
+  const auto horizon = [](const Trajectory& motion) { return motion.node_times[motion.intervals()]; };
+  const double stretch = horizon(reference) / horizon(trajectory);
   for (Eigen::Index k = 0; k < trajectory.node_times.size(); ++k) {
-    const double t = trajectory.node_times[k];
+    const double t = trajectory.node_times[k] * stretch;
     const auto node = node_at(reference.node_times, t);
     const Eigen::VectorXd q =
         node ? Eigen::VectorXd(reference.q.row(*node).transpose()) : configuration_at(reference, t);
@@ -28,7 +30,7 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
   for (Eigen::Index i = 0; i < trajectory.stage_times.size(); ++i) {
     const bool ends_interval = trajectory.tableau.c[i % trajectory.stages()] == 1.0;
     const Eigen::VectorXd u =
-        control_at(reference, trajectory.stage_times[i], ends_interval ? Side::left : Side::right);
+        control_at(reference, trajectory.stage_times[i] * stretch, ends_interval ? Side::left : Side::right);
     error.control = std::max(error.control, (trajectory.stage_u.row(i).transpose() - u).norm());
   }
   error.objective = std::abs(trajectory.cost - reference.cost);

@@ -16,7 +16,8 @@ struct TrajectoryError {
 };
 
 /// Errors against a reference on a finer grid. Controls are compared at the coarse grid's stage times, the reference's
-/// taken by `control_at`; configurations at nodes that the reference lacks by `configuration_at`.
+/// taken by `control_at`; motions of different horizons at the same relative times; configurations at nodes that the
+/// reference lacks by `configuration_at`.
 [[nodiscard]] TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace dmocbench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -55,6 +56,25 @@ double size_of(const Eigen::MatrixXd& values) {
   return std::max(vanishing, values.lpNorm<Eigen::Infinity>());
 }
 
+/// The maximum principle is stated here for fixed ends, a fixed horizon and free controls.
+void require_smooth_class(const Problem& problem) {
+  const TracedProblem traced(problem);
+  const auto refuse = [&](const std::string& what) {
+    throw Error("the indirect method does not know " + what + ", which " + problem.name() +
+                " has; measure against a finer grid instead");
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto bounded = [](const Bounds& bounds) {
+    return (bounds.lower.array() > -infinity).any() || (bounds.upper.array() < infinity).any();
+  };
+  if (!problem.initial_bounds().all_fixed() || !problem.final_bounds().all_fixed()) refuse("free or bounded ends");
+  if (problem.horizon_bounds().is_free()) refuse("a free horizon");
+  if (bounded(problem.control_bounds())) refuse("bounds on the controls");
+  if (bounded(problem.configuration_bounds()) || bounded(problem.velocity_bounds())) refuse("bounds on the state");
+  if (traced.path_constraint_count() > 0) refuse("path constraints");
+  if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
+}
+
 void require_fit(const Problem& problem, const Trajectory& start) {
   if (!start.has_costates()) {
     throw Error("the indirect method starts from costates: give it a solution of a solver that has multipliers");
@@ -74,6 +94,7 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
   constexpr Eigen::Index coarsest = 16;
   constexpr int lower_stages = 8;
   constexpr int higher_stages = 10;
+  require_smooth_class(problem);
   require_fit(problem, start);
   const PontryaginFunction function(problem);
   LegendreTransform legendre{TracedProblem(problem)};

@@ -15,6 +15,12 @@ Eigen::Index Problem::configuration_size() const { return static_cast<Eigen::Ind
 
 Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(control_names().size()); }
 
+ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
+
+ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
+
+Expression Problem::final_cost(const State& /*last*/) const { return {}; }
+
 std::optional<ExpressionVector> Problem::symmetry(const ExpressionVector& /*q*/) const { return std::nullopt; }
 
 MotionPoint Problem::guess(double t) const {

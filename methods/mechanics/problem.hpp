@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "methods/mechanics/bounds.hpp"
 #include "methods/mechanics/parameter.hpp"
+#include "methods/mechanics/reference_optimum.hpp"
 #include "methods/mechanics/state.hpp"
 
 namespace dmocbench {
@@ -25,14 +27,17 @@ struct PictureQuantity {
   Expression value;
 };
 
-/// A mechanical optimal control problem, (eq:LOCP) of the paper with both ends and the horizon fixed:
+/// A mechanical optimal control problem, (eq:LOCP) of the paper:
 ///
-///   minimise  ∫₀ᵀ C(q, q̇, u) dt   such that   δ∫₀ᵀ L(q, q̇) dt + ∫₀ᵀ f(q, q̇, u)·δq dt = 0,
-///   (q, q̇)(0) = (q⁰, q̇⁰),  (q, q̇)(T) = (q^T, q̇^T).
+///   minimise  ∫₀ᵀ C(q, q̇, u) dt + Φ(q(T), q̇(T), T)
+///   such that  δ∫₀ᵀ L(q, q̇) dt + ∫₀ᵀ f(q, q̇, u)·δq dt = 0,   h(q, q̇, u) >= 0,   r(q(0), q̇(0), q(T), q̇(T)) = 0,
 ///
-/// A problem states L, f and C once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever asked of
-/// it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop and
-/// call functions, but not branch on a traced value.
+/// with bounds on both ends, on q, q̇ and u along the motion, and on T. Every formula may depend on time. What is not
+/// overridden is not there: the simplest problem states L, f, C, two ends and T, all of them fixed.
+///
+/// A problem states its formulas once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever asked
+/// of it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
+/// and call functions, but not branch on a traced value.
 ///
 /// n is the number of configuration names, m that of control names. All numbers are in the units in which the problem
 /// is solved.
@@ -63,10 +68,34 @@ class Problem {
   /// The integrand C(q, v, u, t) of the cost.
   [[nodiscard]] virtual Expression running_cost(const ControlledState& x) const = 0;
 
+  /// (q⁰, q̇⁰) and (q^T, q̇^T). Of a component that the bounds of that end leave free, the value that the guess takes.
   [[nodiscard]] virtual BoundaryState initial_state() const = 0;
   [[nodiscard]] virtual BoundaryState final_state() const = 0;
-  /// T > 0.
+  /// T > 0; where it is free, the value that the guess takes.
   [[nodiscard]] virtual double horizon() const = 0;
+
+  // What a problem may prescribe besides. Default: both ends and the horizon fixed, nothing else.
+
+  /// Bounds on (q, q̇)(0) and (q, q̇)(T).
+  [[nodiscard]] virtual EndBounds initial_bounds() const { return EndBounds::fixed(initial_state()); }
+  [[nodiscard]] virtual EndBounds final_bounds() const { return EndBounds::fixed(final_state()); }
+  [[nodiscard]] virtual HorizonBounds horizon_bounds() const { return {horizon(), horizon()}; }
+  /// Bounds on q at every node, n entries or none.
+  [[nodiscard]] virtual Bounds configuration_bounds() const { return {}; }
+  /// Bounds on q̇ at every stage, n entries or none.
+  [[nodiscard]] virtual Bounds velocity_bounds() const { return {}; }
+  /// Bounds on u at every stage, m entries or none.
+  [[nodiscard]] virtual Bounds control_bounds() const { return {}; }
+  /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints.
+  [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
+  /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
+  /// conditions. `last.t` is T.
+  [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
+  /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
+  [[nodiscard]] virtual Expression final_cost(const State& last) const;
+
+  /// The least cost as far as it is known, for the parameters as they are set.
+  [[nodiscard]] virtual std::optional<ReferenceOptimum> reference_optimum() const { return std::nullopt; }
 
   /// What the cost is multiplied by before a solver sees it, so that its optimum is of order 1. Tables show the true
   /// cost.

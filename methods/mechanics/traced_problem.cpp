@@ -81,11 +81,18 @@ TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_
   list.append(configuration_force);
   list.append(force);
   list.append(problem.running_cost(point));
+  const ExpressionVector path_constraints = problem.path_constraints(point);
+  path_constraints_ = path_constraints.size();
+  list.append(path_constraints);
   list.append(mass);
   list.append(jacobian(momentum, point.q));
   ExpressionVector time(1);
   time << point.t;
-  list.append(jacobian(momentum, time));
+  const ExpressionMatrix momentum_by_time = jacobian(momentum, time);
+  for (const Expression& entry : momentum_by_time.reshaped()) {
+    momentum_depends_on_time_ = momentum_depends_on_time_ || !entry.is_zero();
+  }
+  list.append(momentum_by_time);
   if (const auto generator = problem.symmetry(point.q)) {
     require_size(generator->size(), n_, problem, "symmetry");
     has_symmetry_ = true;
@@ -93,6 +100,33 @@ TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_
     list.append(jacobian(*generator, point.q));
   }
   schedule_ = Schedule(list.formulas());
+  trace_ends(problem);
+}
+
+void TracedProblem::trace_ends(const Problem& problem) {
+  const auto n = static_cast<std::size_t>(n_);
+  const State first{input_vector(0, n_), input_vector(n, n_), Expression(0.0)};
+  const State last{input_vector(2 * n, n_), input_vector(3 * n, n_), Expression::input(4 * n)};
+  const ExpressionVector conditions = problem.boundary_conditions(first, last);
+  boundary_conditions_ = conditions.size();
+  FormulaList list;
+  list.append(conditions);
+  list.append(problem.final_cost(last));
+  ends_ = Schedule(list.formulas());
+}
+
+TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {
+  std::vector<Expression> inputs;
+  for (const ExpressionVector* part : {&first.q, &first.v, &last.q, &last.v}) {
+    inputs.insert(inputs.end(), part->begin(), part->end());
+  }
+  inputs.push_back(last.t);
+  const std::vector<Expression> formulas = replay<Expression>(ends_, inputs);
+  FormulaReader read(formulas);
+  EndValues values;
+  values.conditions = read.vector(boundary_conditions_);
+  values.final_cost = read.scalar();
+  return values;
 }
 
 TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
@@ -109,6 +143,7 @@ TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
   values.control_force = read.vector(n_);
   values.generalised_force = values.configuration_force + values.control_force;
   values.running_cost = read.scalar();
+  values.path_constraints = read.vector(path_constraints_);
   values.mass = read.matrix(n_, n_);
   values.momentum_by_configuration = read.matrix(n_, n_);
   values.momentum_by_time = read.vector(n_);

@@ -23,11 +23,18 @@ class TracedProblem {
     ExpressionVector configuration_force;        ///< L_q, n entries
     ExpressionVector control_force;              ///< f, n entries
     Expression running_cost;                     ///< C
+    ExpressionVector path_constraints;           ///< h, as many entries as there are path constraints
     ExpressionMatrix mass;                       ///< L_vv, n × n
     ExpressionMatrix momentum_by_configuration;  ///< L_vq, n × n: ∂(L_v)_i/∂q_j
     ExpressionVector momentum_by_time;           ///< L_vt, n entries
     ExpressionVector symmetry;                   ///< ξ(q), n entries, empty without symmetry
     ExpressionMatrix symmetry_jacobian;          ///< Dξ(q), n × n, empty without symmetry
+  };
+
+  /// The formulas of both ends of the horizon.
+  struct EndValues {
+    ExpressionVector conditions;  ///< r, as many entries as there are boundary conditions
+    Expression final_cost;        ///< Φ
   };
 
   /// Calls each formula of the problem once. Throws `Error` that names the formula if a dimension is wrong or the
@@ -37,17 +44,29 @@ class TracedProblem {
   [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }
   [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }
   [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
+  [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
+  [[nodiscard]] Eigen::Index boundary_condition_count() const noexcept { return boundary_conditions_; }
+  /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
+  [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
 
   /// All formulas with the given point substituted.
   [[nodiscard]] Values at(const ControlledState& point) const;
+  /// The formulas of the ends with the given states substituted.
+  [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
   /// The same at a state where no control acts on what is asked for (momentum, mass, symmetry): u = 0.
   [[nodiscard]] Values at(const State& point) const;
 
  private:
+  void trace_ends(const Problem& problem);
+
   Eigen::Index n_;
   Eigen::Index m_;
+  Eigen::Index path_constraints_ = 0;
+  Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
+  bool momentum_depends_on_time_ = false;
   Schedule schedule_;
+  Schedule ends_;
 };
 
 }  // namespace dmocbench

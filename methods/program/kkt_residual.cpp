@@ -28,15 +28,17 @@ double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eig
   return worst;
 }
 
-/// How far x is from being a minimiser of `slope` · x within its bounds: the projected gradient
-/// |x - clamp(x - slope, lower, upper)|, written so that a large x cannot swallow a small slope.
-double projected(double slope, double x, double lower, double upper) {
-  return std::abs(std::clamp(slope, x - upper, x - lower));
+/// What is left of the slope g, which the bound at a distance d, on the side where g points down, may take up with its
+/// multiplier: without the multiplier |g| of stationarity, with it |g| d of complementarity. Without a bound there it
+/// is |g|, at the bound 0.
+double bounded_stationarity(double slope, double x, double lower, double upper) {
+  const double distance = slope > 0.0 ? x - lower : upper - x;
+  return std::abs(slope) * std::min(1.0, distance);
 }
 
 /// Stationarity of row i: an equality's multiplier is free; an inequality's pushes away from the bound it is at.
 double row_stationarity(double multiplier, double row, double lower, double upper) {
-  return lower == upper ? 0.0 : projected(-multiplier, std::clamp(row, lower, upper), lower, upper);
+  return lower == upper ? 0.0 : bounded_stationarity(-multiplier, std::clamp(row, lower, upper), lower, upper);
 }
 
 }  // namespace
@@ -59,8 +61,8 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
     const double lower = program.variable_lower()[i];
     const double upper = program.variable_upper()[i];
     if (lower == upper) continue;
-    residual.stationarity =
-        largest(residual.stationarity, projected(slope[i], std::clamp(primal[i], lower, upper), lower, upper));
+    residual.stationarity = largest(residual.stationarity,
+                                    bounded_stationarity(slope[i], std::clamp(primal[i], lower, upper), lower, upper));
   }
   Eigen::VectorXd rows(multipliers.size());
   program.constraints(primal, rows);

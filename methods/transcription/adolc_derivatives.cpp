@@ -180,14 +180,14 @@ AdolcDerivatives::Dense::Dense(std::size_t rows, std::size_t columns) : entries_
   for (std::size_t i = 0; i < rows; ++i) rows_[i] = entries_.data() + i * columns;
 }
 
-AdolcDerivatives::AdolcDerivatives(const IntervalFunctions& functions, const DerivativePlaces& places)
+AdolcDerivatives::AdolcDerivatives(const LocalFunctions& functions, const DerivativePlaces& places)
     : cost_(functions.cost),
       rows_(functions.rows.schedule),
       lagrangian_(functions.lagrangian),
       gradient_unknowns_(functions.gradient.places),
-      gradient_(places.gradient_firsts, places.gradient_size, places.intervals),
-      jacobian_(places.jacobian_firsts, places.jacobian_size, places.intervals),
-      hessian_(places.hessian_firsts, places.hessian_size, places.intervals),
+      gradient_(places.gradient_places, places.gradient_size, places.intervals, places.mode),
+      jacobian_(places.jacobian_places, places.jacobian_size, places.intervals, places.mode),
+      hessian_(places.hessian_places, places.hessian_size, places.intervals, places.mode),
       cost_gradient_(cost_.input_count()),
       rows_jacobian_(rows_.output_count(), rows_.input_count()),
       directions_(functions.inputs.unknowns),

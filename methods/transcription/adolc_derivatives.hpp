@@ -17,7 +17,7 @@ namespace dmocbench {
 /// global: two threads must not use such back ends at once.
 class AdolcDerivatives final : public DerivativeBackEnd {
  public:
-  AdolcDerivatives(const IntervalFunctions& functions, const DerivativePlaces& places);
+  AdolcDerivatives(const LocalFunctions& functions, const DerivativePlaces& places);
 
   void gradient(Inputs inputs, VectorOut result) override;
   void jacobian(Inputs inputs, VectorOut values) override;

@@ -10,16 +10,15 @@
 
 namespace dmocbench {
 
-/// A tape whose outputs are parts of one long array: output e of interval k belongs to entry firsts[e] + k, see
-/// `ColumnAssembly`.
+/// A tape whose outputs are parts of one long array: output e stands at places[e], see `ColumnAssembly`.
 class AssembledTape {
  public:
   /// `size` is the length of the array, `intervals` the number of intervals. Throws `Error` if there is not one place
   /// per output.
-  AssembledTape(const Schedule& schedule, const std::vector<std::size_t>& firsts, std::size_t size,
-                std::size_t intervals);
+  AssembledTape(const Schedule& schedule, const std::vector<ColumnPlace>& places, std::size_t size,
+                std::size_t intervals, AssemblyMode mode = AssemblyMode::whole);
 
-  /// Writes all `size` entries of `result`. Allocates nothing.
+  /// Writes all `size` entries of `result`, or adds to them. Allocates nothing.
   void evaluate(std::span<const Tape::Input> inputs, VectorOut result);
 
   [[nodiscard]] const Tape& tape() const noexcept { return tape_; }
@@ -29,16 +28,5 @@ class AssembledTape {
   Tape::Workspace workspace_;
   ColumnAssembly assembly_;
 };
-
-/// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
-struct AssembledPattern {
-  SparsityPattern pattern;
-  std::vector<std::size_t> firsts;  ///< per local entry, as AssembledTape wants it
-};
-
-/// Merges the local entries of all intervals: entry e of interval k stands at (row_firsts[e] + k, column_firsts[e] +
-/// k).
-[[nodiscard]] AssembledPattern assemble_pattern(const std::vector<std::size_t>& row_firsts,
-                                                const std::vector<std::size_t>& column_firsts, std::size_t intervals);
 
 }  // namespace dmocbench

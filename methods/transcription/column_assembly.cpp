@@ -8,31 +8,43 @@
 
 namespace dmocbench {
 
-ColumnAssembly::ColumnAssembly(std::vector<std::size_t> firsts, std::size_t size, std::size_t intervals)
-    : firsts_(std::move(firsts)), size_(size), intervals_(intervals), columns_(firsts_.size()) {
-  std::vector<std::size_t> order(firsts_.size());
+ColumnAssembly::ColumnAssembly(std::vector<ColumnPlace> places, std::size_t size, std::size_t intervals,
+                               AssemblyMode mode)
+    : places_(std::move(places)), size_(size), intervals_(intervals), columns_(places_.size()) {
+  std::vector<std::size_t> order(places_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return firsts_[a] < firsts_[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return places_[a].first < places_[b].first; });
   std::size_t covered = 0;  // entries below are written, set to zero or added to
+  const auto zero_until = [&](std::size_t end) {
+    for (; covered < end && mode == AssemblyMode::whole; ++covered) zeros_.push_back(covered);
+  };
   for (const std::size_t column : order) {
-    const std::size_t first = firsts_[column];
-    if (first + intervals_ > size_) throw Error("a column leaves the array that it is assembled to");
-    if (first < covered) {
-      additions_.push_back({column, additions_.size() * intervals_, first});
-      for (; covered < first + intervals_; ++covered) zeros_.push_back(covered);
+    const ColumnPlace& place = places_[column];
+    const std::size_t end = place.at(intervals_ - 1) + 1;
+    if (end > size_) throw Error("a column leaves the array that it is assembled to");
+    if (mode == AssemblyMode::part || place.shared || place.first < covered) {
+      add_later(column);
+      zero_until(end);
     } else {
-      for (; covered < first; ++covered) zeros_.push_back(covered);
-      covered = first + intervals_;
+      zero_until(place.first);
+      covered = end;
     }
   }
-  for (; covered < size_; ++covered) zeros_.push_back(covered);
+  zero_until(size_);
   scratch_.resize(additions_.size() * intervals_);
+}
+
+void ColumnAssembly::add_later(std::size_t column) {
+  additions_.push_back({column, additions_.size() * intervals_, places_[column]});
 }
 
 std::span<double* const> ColumnAssembly::open(VectorOut& result) {
   if (static_cast<std::size_t>(result.size()) != size_)
     throw Error("columns are assembled to an array of wrong length");
-  for (std::size_t column = 0; column < columns_.size(); ++column) columns_[column] = result.data() + firsts_[column];
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    columns_[column] = result.data() + places_[column].first;
+  }
   for (const Addition& addition : additions_) columns_[addition.column] = scratch_.data() + addition.scratch;
   return columns_;
 }
@@ -40,9 +52,13 @@ std::span<double* const> ColumnAssembly::open(VectorOut& result) {
 void ColumnAssembly::close(VectorOut& result) const {
   for (const std::size_t entry : zeros_) result.data()[entry] = 0.0;
   for (const Addition& addition : additions_) {
-    double* target = result.data() + addition.first;
+    double* target = result.data() + addition.place.first;
     const double* source = scratch_.data() + addition.scratch;
-    for (std::size_t k = 0; k < intervals_; ++k) target[k] += source[k];
+    if (addition.place.shared) {
+      *target = std::accumulate(source, source + intervals_, *target);
+    } else {
+      for (std::size_t k = 0; k < intervals_; ++k) target[k] += source[k];
+    }
   }
 }
 

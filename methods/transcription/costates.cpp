@@ -33,13 +33,14 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   result.psi_p = at_nodes.rightCols(n);
   if (layout.node_state() == NodeState::momentum) return result;
   LegendreTransform legendre(transcription.traced_problem());
+  const Eigen::VectorXd times = transcription.node_times(primal);
   for (Eigen::Index k = 0; k <= intervals; ++k) {
     Eigen::VectorXd q(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       q[i] = primal[static_cast<Eigen::Index>(layout.configuration_column(i)) + k];
     }
     const Eigen::VectorXd velocity = v.row(k).transpose();
-    const double t = transcription.node_times()[k];
+    const double t = times[k];
     const Eigen::VectorXd psi_p = legendre.mass(q, velocity, t).partialPivLu().solve(result.psi_p.row(k).transpose());
     result.psi_p.row(k) = psi_p.transpose();
     result.psi_q.row(k) -= (legendre.momentum_by_configuration(q, velocity, t).transpose() * psi_p).transpose();

@@ -18,16 +18,16 @@ using MadeBackEnd = std::unique_ptr<DerivativeBackEnd>;
 struct Entry {
   std::string_view name;
   std::string_view description;
-  MadeBackEnd (*make)(const IntervalFunctions&, const DerivativePlaces&);
+  MadeBackEnd (*make)(const LocalFunctions&, const DerivativePlaces&);
 };
 
 template <class Type>
-MadeBackEnd make(const IntervalFunctions& functions, const DerivativePlaces& places) {
+MadeBackEnd make(const LocalFunctions& functions, const DerivativePlaces& places) {
   return std::make_unique<Type>(functions, places);
 }
 
 template <DifferenceKind kind>
-MadeBackEnd make_differences(const IntervalFunctions& functions, const DerivativePlaces& places) {
+MadeBackEnd make_differences(const LocalFunctions& functions, const DerivativePlaces& places) {
   return std::make_unique<FiniteDifferences>(functions, places, kind);
 }
 
@@ -71,7 +71,7 @@ std::string derivative_back_end_description(std::string_view name) {
   return std::string(entry_named(name).description);
 }
 
-MadeBackEnd make_derivative_back_end(std::string_view name, const IntervalFunctions& functions,
+MadeBackEnd make_derivative_back_end(std::string_view name, const LocalFunctions& functions,
                                      const DerivativePlaces& places) {
   return entry_named(name).make(functions, places);
 }

@@ -9,29 +9,32 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/interval_functions.hpp"
+#include "methods/transcription/column_assembly.hpp"
+#include "methods/transcription/local_functions.hpp"
 
 namespace dmocbench {
 
-/// Where an interval's derivatives stand in the program's arrays: entry e of interval k at firsts[e] + k (see
-/// `ColumnAssembly`), entries in the order of `IntervalFunctions::gradient`, `jacobian` and `hessian`.
+/// Where a part's derivatives stand in the program's arrays: entry e of interval k at places[e].at(k) (see
+/// `ColumnAssembly`), entries in the order of `LocalFunctions::gradient`, `jacobian` and `hessian`.
 struct DerivativePlaces {
   std::size_t intervals = 0;
-  std::vector<std::size_t> gradient_firsts;
+  AssemblyMode mode = AssemblyMode::whole;
+  std::vector<ColumnPlace> gradient_places;
   std::size_t gradient_size = 0;  ///< of the program's array
-  std::vector<std::size_t> jacobian_firsts;
+  std::vector<ColumnPlace> jacobian_places;
   std::size_t jacobian_size = 0;
-  std::vector<std::size_t> hessian_firsts;
+  std::vector<ColumnPlace> hessian_places;
   std::size_t hessian_size = 0;
 };
 
-/// A way to differentiate the formulas of an interval: fills the program's arrays for all intervals of its grid.
+/// A way to differentiate the formulas of a part of a program: fills the program's arrays for all intervals of the
+/// part.
 ///
 /// All back ends fill the same entries, so a solver sees the same program: which entries vanish for every motion is
 /// known from the formulas. Not to be used from two threads at once.
 class DerivativeBackEnd {
  public:
-  /// The inputs of all intervals in the order of `IntervalInputs`; multipliers are read by `hessian` only.
+  /// The inputs of all intervals in the order of `LocalInputs`; multipliers are read by `hessian` only.
   using Inputs = std::span<const Tape::Input>;
 
   virtual ~DerivativeBackEnd() = default;
@@ -61,7 +64,7 @@ class DerivativeBackEnd {
 /// The back end of that name for the intervals of one grid; `functions` is read here only. Throws `Error` that lists
 /// the names if there is none, and says what is missing if it was left out of this build.
 [[nodiscard]] std::unique_ptr<DerivativeBackEnd> make_derivative_back_end(std::string_view name,
-                                                                          const IntervalFunctions& functions,
+                                                                          const LocalFunctions& functions,
                                                                           const DerivativePlaces& places);
 
 }  // namespace dmocbench

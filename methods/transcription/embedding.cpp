@@ -9,9 +9,11 @@ namespace dmocbench {
 namespace {
 
 void require_same_grid(const Transcription& transcription, const Trajectory& trajectory) {
-  const bool same_size = trajectory.node_times.size() == transcription.node_times().size() &&
-                         trajectory.stages() == transcription.tableau().stages();
-  if (!same_size || trajectory.node_times != transcription.node_times()) {
+  const Eigen::VectorXd& times = trajectory.node_times;
+  const double horizon = transcription.has_free_horizon() ? times[times.size() - 1] : transcription.guessed_horizon();
+  const Eigen::VectorXd& relative = transcription.grid().relative_times();
+  const bool same_size = times.size() == relative.size() && trajectory.stages() == transcription.tableau().stages();
+  if (!same_size || times != horizon * relative) {
     throw Error("a trajectory can only be embedded in a transcription with the same grid and tableau");
   }
 }
@@ -64,6 +66,15 @@ Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription
     for (Eigen::Index i = 0; i < s; ++i) {
       set_column(layout.control_column(i, c), stage_column(trajectory.stage_u, i, c));
     }
+  }
+  for (Eigen::Index i = 0; i < trajectory.v.cols(); ++i) {
+    if (layout.shape().first_has_velocity) x[static_cast<Eigen::Index>(layout.first_velocity(i))] = trajectory.v(0, i);
+    if (layout.shape().last_has_velocity) {
+      x[static_cast<Eigen::Index>(layout.last_velocity(i))] = trajectory.v(nodes - 1, i);
+    }
+  }
+  if (transcription.has_free_horizon()) {
+    x[static_cast<Eigen::Index>(layout.horizon())] = trajectory.node_times[nodes - 1];
   }
   if (node_state == NodeState::configuration) return x;
   const Eigen::MatrixXd slopes = second_slopes(problem, node_state, trajectory);

@@ -42,7 +42,7 @@ const double* FiniteDifferences::Formulas::value(std::size_t point, std::size_t 
   return columns[point * tape.output_count() + output];
 }
 
-FiniteDifferences::FiniteDifferences(const IntervalFunctions& functions, const DerivativePlaces& places,
+FiniteDifferences::FiniteDifferences(const LocalFunctions& functions, const DerivativePlaces& places,
                                      DifferenceKind kind)
     : kind_(kind),
       intervals_(places.intervals),
@@ -53,9 +53,9 @@ FiniteDifferences::FiniteDifferences(const IntervalFunctions& functions, const D
       lagrangian_(functions.lagrangian, intervals_, std::max(unknowns_ + 2, 1 + mixed_points)),
       gradient_entries_(unknowns_),
       jacobian_entries_(unknowns_),
-      gradient_(places.gradient_firsts, places.gradient_size, intervals_),
-      jacobian_(places.jacobian_firsts, places.jacobian_size, intervals_),
-      hessian_(places.hessian_firsts, places.hessian_size, intervals_),
+      gradient_(places.gradient_places, places.gradient_size, intervals_, places.mode),
+      jacobian_(places.jacobian_places, places.jacobian_size, intervals_, places.mode),
+      hessian_(places.hessian_places, places.hessian_size, intervals_, places.mode),
       original_(functions.inputs.count()),
       inputs_(functions.inputs.count()),
       steps_(unknowns_ * intervals_),
@@ -77,17 +77,18 @@ void FiniteDifferences::bind(Inputs inputs, double relative_step) {
   std::copy(inputs.begin(), inputs.end(), original_.begin());
   std::copy(inputs.begin(), inputs.end(), inputs_.begin());
   for (std::size_t a = 0; a < unknowns_; ++a) {
+    const Tape::Input& x = inputs[a];
     for (std::size_t k = 0; k < intervals_; ++k) {
-      steps_[a * intervals_ + k] = representable_step(inputs[a].data[k], relative_step);
+      steps_[a * intervals_ + k] = representable_step(x.data[x.same_for_all ? 0 : k], relative_step);
     }
   }
 }
 
 void FiniteDifferences::move(std::size_t slot, std::size_t unknown, double factor) {
   double* moved = moved_.data() + slot * intervals_;
-  const double* x = original_[unknown].data;
+  const Tape::Input& x = original_[unknown];
   const double* step = steps_of(unknown);
-  for (std::size_t k = 0; k < intervals_; ++k) moved[k] = x[k] + factor * step[k];
+  for (std::size_t k = 0; k < intervals_; ++k) moved[k] = x.data[x.same_for_all ? 0 : k] + factor * step[k];
   inputs_[unknown] = {moved, false};
 }
 

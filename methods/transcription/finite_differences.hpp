@@ -35,7 +35,7 @@ enum class DifferenceKind : std::uint8_t {
 /// digits as it gets smaller, and so do these derivatives. Allocates nothing in an evaluation.
 class FiniteDifferences final : public DerivativeBackEnd {
  public:
-  FiniteDifferences(const IntervalFunctions& functions, const DerivativePlaces& places, DifferenceKind kind);
+  FiniteDifferences(const LocalFunctions& functions, const DerivativePlaces& places, DifferenceKind kind);
 
   void gradient(Inputs inputs, VectorOut result) override;
   void jacobian(Inputs inputs, VectorOut values) override;

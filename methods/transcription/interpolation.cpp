@@ -89,7 +89,7 @@ Motion smooth_motion(const Trajectory& trajectory) {
   for (Eigen::Index i = 0; i < trajectory.q.cols(); ++i) {
     curves->emplace_back(column(trajectory.node_times), column(trajectory.q.col(i)), column(trajectory.v.col(i)));
   }
-  return [curves, trajectory](double t) {
+  const auto at = [curves, trajectory](double t) {
     const double inside =
         std::clamp(t, trajectory.node_times[0], trajectory.node_times[trajectory.node_times.size() - 1]);
     const auto n = static_cast<Eigen::Index>(curves->size());
@@ -101,6 +101,7 @@ Motion smooth_motion(const Trajectory& trajectory) {
     }
     return point;
   };
+  return {at, trajectory.node_times[trajectory.node_times.size() - 1]};
 }
 
 }  // namespace dmocbench

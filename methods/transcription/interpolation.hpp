@@ -10,7 +10,10 @@
 namespace dmocbench {
 
 /// A motion given for every time 0 <= t <= T: where starts are sampled from.
-using Motion = std::function<MotionPoint(double t)>;
+struct Motion {
+  std::function<MotionPoint(double t)> at;
+  double horizon = 0.0;  ///< its own T > 0
+};
 
 /// The node of ascending `times` at time t, up to rounding; none if there is no such node.
 [[nodiscard]] std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t);

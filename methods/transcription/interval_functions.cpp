@@ -20,101 +20,82 @@ class InputCounter {
   std::size_t next_ = 0;
 };
 
-IntervalUnknowns make_unknowns(Eigen::Index n, Eigen::Index m, NodeState node_state, Eigen::Index stages,
-                               IntervalInputs& inputs) {
+/// An element's unknowns and what the whole program adds to them.
+struct Unknowns : IntervalUnknowns {
+  ExpressionVector costs;  // z_k, z_{k+1} in Mayer form
+  LocalInputs inputs;
+};
+
+Unknowns make_unknowns(const TracedProblem& problem, NodeState node_state, Eigen::Index stages,
+                       const IntervalRules& rules) {
+  const Eigen::Index n = problem.configuration_size();
   const Eigen::Index second = node_state == NodeState::configuration ? 0 : n;
   InputCounter counter;
-  IntervalUnknowns unknowns;
+  Unknowns unknowns;
   unknowns.left_q = counter.take(n);
   unknowns.left_y = counter.take(second);
   unknowns.right_q = counter.take(n);
   unknowns.right_y = counter.take(second);
   for (Eigen::Index j = 0; j + 1 < stages; ++j) unknowns.slopes_q.push_back(counter.take(n));
   for (Eigen::Index j = 0; j + 1 < stages && second > 0; ++j) unknowns.slopes_y.push_back(counter.take(n));
-  for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(m));
-  inputs.unknowns = counter.taken();
-  unknowns.h = Expression::input(inputs.step());
-  unknowns.t = Expression::input(inputs.time());
+  for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
+  unknowns.costs = counter.take(rules.mayer ? 2 : 0);
+  const Expression horizon = rules.free_horizon ? counter.take(1)[0] : Expression(1.0);
+  unknowns.inputs.unknowns = counter.taken();
+  unknowns.h = horizon * Expression::input(unknowns.inputs.step());
+  unknowns.t = horizon * Expression::input(unknowns.inputs.time());
   return unknowns;
 }
 
-ExpressionVector stacked(const std::vector<ExpressionVector>& parts) {
-  Eigen::Index size = 0;
-  for (const ExpressionVector& part : parts) size += part.size();
-  ExpressionVector all(size);
-  Eigen::Index next = 0;
-  for (const ExpressionVector& part : parts) {
-    all.segment(next, part.size()) = part;
-    next += part.size();
+ExpressionVector path_rows(const TracedProblem& problem, const std::vector<ControlledState>& stages,
+                           const std::vector<Eigen::Index>& bounded_velocities) {
+  std::vector<ExpressionVector> rows;
+  for (const ControlledState& stage : stages) {
+    for (const Eigen::Index i : bounded_velocities) rows.emplace_back(ExpressionVector::Constant(1, stage.v[i]));
+    if (problem.path_constraint_count() > 0) rows.push_back(problem.at(stage).path_constraints);
   }
-  return all;
+  return stacked(rows);
 }
 
-LocalVector nonzeros(const ExpressionVector& dense) {
-  LocalVector vector;
-  std::vector<Expression> entries;
-  for (Eigen::Index i = 0; i < dense.size(); ++i) {
-    if (dense[i].is_zero()) continue;
-    entries.push_back(dense[i]);
-    vector.places.push_back(static_cast<std::size_t>(i));
-  }
-  vector.schedule = Schedule(entries);
-  return vector;
+ExpressionVector mayer_rows(const Unknowns& unknowns, const Expression& cost) {
+  if (unknowns.costs.size() == 0) return {};
+  return ExpressionVector::Constant(1, unknowns.costs[1] - unknowns.costs[0] - cost);
 }
 
-LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle) {
-  LocalMatrix matrix;
-  std::vector<Expression> entries;
-  for (Eigen::Index i = 0; i < dense.rows(); ++i) {
-    for (Eigen::Index j = 0; j < (lower_triangle ? i + 1 : dense.cols()); ++j) {
-      if (dense(i, j).is_zero()) continue;
-      entries.push_back(dense(i, j));
-      matrix.rows.push_back(static_cast<std::size_t>(i));
-      matrix.columns.push_back(static_cast<std::size_t>(j));
-    }
+Schedule stage_table(const std::vector<ControlledState>& stages) {
+  std::vector<ExpressionVector> parts;
+  for (const ControlledState& stage : stages) {
+    parts.push_back(stage.q);
+    parts.push_back(stage.v);
+    parts.emplace_back(ExpressionVector::Constant(1, stage.t));
   }
-  matrix.schedule = Schedule(entries);
-  return matrix;
+  return Schedule(stacked(parts));
 }
 
 }  // namespace
 
 IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element, const Tableau& tableau,
-                                 double cost_scale) {
-  IntervalFunctions functions;
-  IntervalInputs& inputs = functions.inputs;
-  const NodeState node_state = element.node_state();
-  const IntervalUnknowns unknowns =
-      make_unknowns(problem.configuration_size(), problem.control_size(), node_state, tableau.stages(), inputs);
+                                 const IntervalRules& rules) {
+  const Unknowns unknowns = make_unknowns(problem, element.node_state(), tableau.stages(), rules);
   const IntervalTrace trace = element.trace(problem, tableau, unknowns);
+  const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
+  const Expression running = Expression(rules.cost_scale) * trace.cost;
+  const ExpressionVector rows =
+      stacked({trace.left_rows, trace.right_rows, trace.private_rows, path, mayer_rows(unknowns, running)});
+  const Expression cost = rules.mayer ? Expression(0.0) : running;
+
+  IntervalFunctions functions;
+  static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns);
   functions.node_rows = trace.left_rows.size();
   functions.private_rows = trace.private_rows.size();
-
-  const ExpressionVector z = input_vector(0, static_cast<Eigen::Index>(inputs.unknowns));
-  const ExpressionVector rows = stacked({trace.left_rows, trace.right_rows, trace.private_rows});
-  inputs.rows = static_cast<std::size_t>(rows.size());
-  const Expression cost = Expression(cost_scale) * trace.cost;
-  Expression lagrangian = Expression::input(inputs.objective_factor()) * cost;
-  for (std::size_t r = 0; r < inputs.rows; ++r) {
-    lagrangian += Expression::input(inputs.multiplier(r)) * rows[static_cast<Eigen::Index>(r)];
-  }
-
-  functions.cost = Schedule(std::vector<Expression>{cost});
-  functions.gradient = nonzeros(gradient(cost, z));
-  functions.rows = nonzeros(rows);
-  functions.jacobian = nonzeros(jacobian(rows, z), false);
-  functions.lagrangian = Schedule(std::vector<Expression>{lagrangian});
-  functions.hessian = nonzeros(hessian(lagrangian, z), true);
+  functions.path_rows = path.size();
+  functions.mayer = rules.mayer;
+  functions.free_horizon = rules.free_horizon;
   const Eigen::Index node_size = unknowns.left_q.size() + unknowns.left_y.size();
-  functions.node_adjoint = Schedule(gradient(lagrangian, z.head(2 * node_size)));
+  functions.node_adjoint =
+      Schedule(gradient(local_lagrangian(cost, rows, functions.inputs), input_vector(0, 2 * node_size)));
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
-  std::vector<ExpressionVector> stages;
-  for (const ControlledState& stage : trace.stages) {
-    stages.push_back(stage.q);
-    stages.push_back(stage.v);
-    stages.emplace_back(ExpressionVector::Constant(1, stage.t));
-  }
-  functions.stages = Schedule(stacked(stages));
+  functions.stages = stage_table(trace.stages);
   return functions;
 }
 

@@ -1,61 +1,41 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "methods/expression/schedule.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/element.hpp"
+#include "methods/transcription/local_functions.hpp"
 #include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
 
-/// Numbers of the inputs of an interval's formulas: local unknowns first (in the order of `Layout`), then the step, the
-/// time of the left node, the factor of the objective, and one multiplier per local row.
-struct IntervalInputs {
-  std::size_t unknowns = 0;  ///< how many local unknowns there are
-  std::size_t rows = 0;      ///< how many local rows there are
-  [[nodiscard]] std::size_t step() const noexcept { return unknowns; }
-  [[nodiscard]] std::size_t time() const noexcept { return unknowns + 1; }
-  [[nodiscard]] std::size_t objective_factor() const noexcept { return unknowns + 2; }
-  [[nodiscard]] std::size_t multiplier(std::size_t row) const noexcept { return unknowns + 3 + row; }
-  [[nodiscard]] std::size_t count() const noexcept { return unknowns + 3 + rows; }
-};
-
-/// Formulas of an interval's sparse matrix and where they stand: entry e is at (rows[e], columns[e]), local numbers.
-struct LocalMatrix {
-  Schedule schedule;
-  std::vector<std::size_t> rows;
-  std::vector<std::size_t> columns;
-};
-
-/// Formulas of an interval's sparse vector: entry e belongs to local unknown or row `places[e]`.
-struct LocalVector {
-  Schedule schedule;
-  std::vector<std::size_t> places;
+/// What of the problem, besides its formulas, shapes an interval's functions.
+struct IntervalRules {
+  double cost_scale = 1.0;  ///< `Problem::cost_scale`
+  bool mayer = false;       ///< the cost so far is one more unknown of the nodes, (eq:gDLOCP_mayer)
+  bool free_horizon = false;
+  std::vector<Eigen::Index> bounded_velocities;  ///< the i whose q̇_i has bounds
 };
 
 /// Everything an interval computes, traced and differentiated once, whatever the number of intervals.
 ///
-/// ℓ = factor · cost + multipliers · rows is the interval's share of the Lagrangian; the cost is the scaled one
-/// (`Problem::cost_scale`).
-struct IntervalFunctions {
-  IntervalInputs inputs;
+/// Local unknowns: left q, left y, right q, right y (y = p or v, where nodes carry it), slopes of q, slopes of y,
+/// controls stage by stage; in Mayer form z_k and z_{k+1}, the cost up to either node; T where it is free.
+/// Local rows: left, right and private rows of the element; path rows, which are not equalities: per stage the bounded
+/// velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost.
+struct IntervalFunctions : LocalFunctions {
   Eigen::Index node_rows = 0;
-  Eigen::Index private_rows = 0;
+  Eigen::Index private_rows = 0;  ///< the element's own
+  Eigen::Index path_rows = 0;
+  bool mayer = false;
+  bool free_horizon = false;
 
-  Schedule cost;          ///< one output
-  LocalVector gradient;   ///< ∂cost/∂unknown
-  LocalVector rows;       ///< all local rows
-  LocalMatrix jacobian;   ///< ∂row/∂unknown
-  Schedule lagrangian;    ///< ℓ, one output
-  LocalMatrix hessian;    ///< ∂²ℓ/∂unknown², one entry per pair (the caller orders it)
   Schedule node_adjoint;  ///< ∂ℓ/∂(left node), then ∂ℓ/∂(right node)
   Schedule momenta;       ///< left momentum, then right momentum
   Schedule stages;        ///< per stage: Q_i, Q̇_i, t_i
 };
 
 [[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element,
-                                               const Tableau& tableau, double cost_scale);
+                                               const Tableau& tableau, const IntervalRules& rules);
 
 }  // namespace dmocbench

@@ -2,68 +2,146 @@
 
 namespace dmocbench {
 
-Layout::Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::Index control_size, NodeState node_state,
-               Eigen::Index stages, bool shares_controls, Eigen::Index node_rows, Eigen::Index private_rows)
-    : intervals_(intervals),
-      n_(configuration_size),
-      m_(control_size),
-      node_state_(node_state),
-      stages_(stages),
-      shares_controls_(shares_controls) {
-  const Eigen::Index node_columns = node_state_ == NodeState::configuration ? n_ : 2 * n_;
-  const Eigen::Index slope_columns = (stages_ - 1) * node_columns;
-  const Eigen::Index shared_columns = shares_controls_ ? m_ : 0;
-  const Eigen::Index control_columns = (shares_controls_ ? stages_ - 2 : stages_) * m_;
-  structure_.intervals = intervals_;
-  for (Eigen::Index i = 0; i < node_columns; ++i) append_column(structure_.unknowns, Place::Kind::node);
-  for (Eigen::Index i = 0; i < slope_columns; ++i) append_column(structure_.unknowns, Place::Kind::interval);
-  for (Eigen::Index i = 0; i < shared_columns; ++i) append_column(structure_.unknowns, Place::Kind::node);
-  for (Eigen::Index i = 0; i < control_columns; ++i) append_column(structure_.unknowns, Place::Kind::interval);
-  for (Eigen::Index i = 0; i < node_rows; ++i) append_column(structure_.rows, Place::Kind::node);
-  for (Eigen::Index i = 0; i < private_rows; ++i) append_column(structure_.rows, Place::Kind::interval);
+namespace {
 
-  for (const std::size_t right : {0U, 1U}) {
-    for (Eigen::Index i = 0; i < node_columns; ++i) unknown_firsts_.push_back(configuration_column(i) + right);
-    for (Eigen::Index i = 0; i < node_rows; ++i) row_firsts_.push_back(node_row_column(i) + right);
-  }
-  for (Eigen::Index i = 0; i < slope_columns; ++i) unknown_firsts_.push_back(slope_q_column(0, i));
-  for (Eigen::Index stage = 0; stage < stages_; ++stage) {
-    for (Eigen::Index i = 0; i < m_; ++i) unknown_firsts_.push_back(control_column(stage, i));
-  }
-  for (Eigen::Index i = 0; i < private_rows; ++i) {
-    row_firsts_.push_back(node_row_column(node_rows) + static_cast<std::size_t>(i) * intervals_);
-  }
-}
-
-void Layout::append_column(std::vector<Place>& places, Place::Kind kind) const {
-  const std::size_t length = kind == Place::Kind::node ? intervals_ + 1 : intervals_;
+void append_column(std::vector<Place>& places, Place::Kind kind, std::size_t length) {
   for (std::size_t k = 0; k < length; ++k) places.push_back({kind, k});
 }
 
-std::size_t Layout::configuration_column(Eigen::Index i) const noexcept {
-  return static_cast<std::size_t>(i) * (intervals_ + 1);
+}  // namespace
+
+Layout::Layout(const LayoutShape& shape) : shape_(shape) {
+  append_unknowns();
+  append_rows();
+  place_interval();
+  place_ends();
 }
 
-std::size_t Layout::second_column(Eigen::Index i) const noexcept { return configuration_column(n_ + i); }
+Eigen::Index Layout::node_columns() const noexcept {
+  return shape_.node_state == NodeState::configuration ? shape_.configuration_size : 2 * shape_.configuration_size;
+}
+
+void Layout::append_unknowns() {
+  const Eigen::Index m = shape_.control_size;
+  const std::size_t intervals = shape_.intervals;
+  std::vector<Place>& unknowns = structure_.unknowns;
+  structure_.intervals = intervals;
+  const auto node_wise = [&](Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) append_column(unknowns, Place::Kind::node, intervals + 1);
+  };
+  const auto interval_wise = [&](Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) append_column(unknowns, Place::Kind::interval, intervals);
+  };
+  node_wise(node_columns());
+  interval_wise((shape_.stages - 1) * node_columns());
+  node_wise(shape_.shares_controls ? m : 0);
+  interval_wise((shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m);
+  cost_column_ = unknowns.size();
+  node_wise(shape_.mayer ? 1 : 0);
+  single_unknowns_ = unknowns.size();
+  const auto n = static_cast<std::size_t>(shape_.configuration_size);
+  if (shape_.first_has_velocity) unknowns.insert(unknowns.end(), n, {Place::Kind::node, 0});
+  if (shape_.last_has_velocity) unknowns.insert(unknowns.end(), n, {Place::Kind::node, intervals});
+  if (shape_.free_horizon) unknowns.push_back({Place::Kind::border, 0});
+}
+
+void Layout::append_rows() {
+  const std::size_t intervals = shape_.intervals;
+  std::vector<Place>& rows = structure_.rows;
+  for (Eigen::Index i = 0; i < shape_.node_rows; ++i) append_column(rows, Place::Kind::node, intervals + 1);
+  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) append_column(rows, Place::Kind::interval, intervals);
+  single_rows_ = rows.size();
+  const bool own_ties = shape_.node_state == NodeState::momentum;
+  const auto n = static_cast<std::size_t>(shape_.configuration_size);
+  if (shape_.first_has_velocity && own_ties) rows.insert(rows.end(), n, {Place::Kind::node, 0});
+  if (shape_.last_has_velocity && own_ties) rows.insert(rows.end(), n, {Place::Kind::node, intervals});
+  rows.insert(rows.end(), static_cast<std::size_t>(shape_.conditions), {Place::Kind::border, 0});
+}
+
+void Layout::place_interval() {
+  const Eigen::Index m = shape_.control_size;
+  for (const std::size_t right : {0U, 1U}) {
+    for (Eigen::Index i = 0; i < node_columns(); ++i) unknown_places_.emplace_back(configuration_column(i) + right);
+    for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_column(i) + right);
+  }
+  for (Eigen::Index i = 0; i < (shape_.stages - 1) * node_columns(); ++i) {
+    unknown_places_.emplace_back(slope_q_column(0, i));
+  }
+  for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
+    for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_column(stage, i));
+  }
+  if (shape_.mayer) {
+    unknown_places_.emplace_back(cost_column_);
+    unknown_places_.emplace_back(cost_column_ + 1);
+  }
+  if (shape_.free_horizon) unknown_places_.emplace_back(horizon(), true);
+  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(private_row_column(i));
+}
+
+void Layout::place_ends() {
+  const Eigen::Index n = shape_.configuration_size;
+  const auto place_end = [&](std::size_t node, bool has_velocity, std::size_t velocity) {
+    for (Eigen::Index i = 0; i < node_columns(); ++i) {
+      end_unknown_places_.emplace_back(configuration_column(i) + node);
+    }
+    if (!has_velocity) return;
+    for (Eigen::Index i = 0; i < n; ++i) end_unknown_places_.emplace_back(velocity + static_cast<std::size_t>(i));
+  };
+  place_end(0, shape_.first_has_velocity, first_velocity(0));
+  place_end(shape_.intervals, shape_.last_has_velocity, last_velocity(0));
+  if (shape_.mayer) end_unknown_places_.emplace_back(cost_column_ + shape_.intervals);
+  if (shape_.free_horizon) end_unknown_places_.emplace_back(horizon());
+
+  std::size_t own_row = single_rows_;
+  const auto place_tie = [&](std::size_t node) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      end_row_places_.emplace_back(shape_.node_state == NodeState::momentum ? own_row++ : node_row_column(i) + node);
+    }
+  };
+  if (shape_.first_has_velocity) place_tie(0);
+  if (shape_.last_has_velocity) place_tie(shape_.intervals);
+  for (Eigen::Index i = 0; i < shape_.conditions; ++i) end_row_places_.emplace_back(own_row++);
+}
+
+std::size_t Layout::configuration_column(Eigen::Index i) const noexcept {
+  return static_cast<std::size_t>(i) * (shape_.intervals + 1);
+}
+
+std::size_t Layout::second_column(Eigen::Index i) const noexcept {
+  return configuration_column(shape_.configuration_size + i);
+}
 
 std::size_t Layout::slope_q_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  const Eigen::Index node_columns = node_state_ == NodeState::configuration ? n_ : 2 * n_;
-  return configuration_column(node_columns) + static_cast<std::size_t>(stage * n_ + i) * intervals_;
+  return configuration_column(node_columns()) +
+         static_cast<std::size_t>(stage * shape_.configuration_size + i) * shape_.intervals;
 }
 
 std::size_t Layout::slope_y_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  return slope_q_column(stages_ - 1 + stage, i);
+  return slope_q_column(shape_.stages - 1 + stage, i);
 }
 
 std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  const Eigen::Index slopes = (node_state_ == NodeState::configuration ? 1 : 2) * (stages_ - 1);
+  const Eigen::Index m = shape_.control_size;
+  const Eigen::Index slopes = (shape_.node_state == NodeState::configuration ? 1 : 2) * (shape_.stages - 1);
   const std::size_t head = slope_q_column(slopes, 0);
-  if (!shares_controls_) return head + static_cast<std::size_t>(stage * m_ + i) * intervals_;
-  if (stage == 0) return head + static_cast<std::size_t>(i) * (intervals_ + 1);
-  if (stage == stages_ - 1) return control_column(0, i) + 1;
-  return control_column(0, m_) + static_cast<std::size_t>((stage - 1) * m_ + i) * intervals_;
+  if (!shape_.shares_controls) return head + static_cast<std::size_t>(stage * m + i) * shape_.intervals;
+  if (stage == 0) return head + static_cast<std::size_t>(i) * (shape_.intervals + 1);
+  if (stage == shape_.stages - 1) return control_column(0, i) + 1;
+  return control_column(0, m) + static_cast<std::size_t>((stage - 1) * m + i) * shape_.intervals;
 }
 
 std::size_t Layout::node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
+
+std::size_t Layout::private_row_column(Eigen::Index i) const noexcept {
+  return node_row_column(shape_.node_rows) + static_cast<std::size_t>(i) * shape_.intervals;
+}
+
+std::size_t Layout::first_velocity(Eigen::Index i) const noexcept {
+  return single_unknowns_ + static_cast<std::size_t>(i);
+}
+
+std::size_t Layout::last_velocity(Eigen::Index i) const noexcept {
+  return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
+}
 
 }  // namespace dmocbench

@@ -6,31 +6,55 @@
 #include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
+#include "methods/transcription/column_assembly.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
 
+/// What a layout is made for.
+struct LayoutShape {
+  std::size_t intervals = 0;
+  Eigen::Index configuration_size = 0;
+  Eigen::Index control_size = 0;
+  NodeState node_state = NodeState::configuration;
+  Eigen::Index stages = 1;
+  bool shares_controls = false;
+  Eigen::Index node_rows = 0;       ///< per node
+  Eigen::Index private_rows = 0;    ///< per interval: the element's own
+  Eigen::Index path_rows = 0;       ///< per interval
+  bool mayer = false;               ///< nodes carry the cost so far, z_k, and intervals have a row for it
+  bool first_has_velocity = false;  ///< v_0, or v_N, is an unknown beside the nodes'
+  bool last_has_velocity = false;
+  bool free_horizon = false;    ///< T is an unknown
+  Eigen::Index conditions = 0;  ///< boundary conditions
+
+  /// Rows per interval: the element's own, path rows, that of the Mayer form.
+  [[nodiscard]] Eigen::Index interval_rows() const noexcept { return private_rows + path_rows + (mayer ? 1 : 0); }
+};
+
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
-/// Vectors are stored column by column: all q_1 of all nodes, all q_2, ..., then p or v, interior slopes, controls.
-/// Every local quantity of an element is therefore contiguous over the intervals: that of interval k stands at `first`
-/// + k. For a quantity of the left node `first` is the head of its column, for the same quantity of the right node one
-/// more.
+/// Vectors are stored column by column: all q_1 of all nodes, all q_2, ..., then p or v, interior slopes, controls, z;
+/// at last v_0, v_N and T where they are unknowns. Every local quantity of an element is therefore contiguous over the
+/// intervals: that of interval k stands at `first` + k. For a quantity of the left node `first` is the head of its
+/// column, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then p =
+/// L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
-  Layout(std::size_t intervals, Eigen::Index configuration_size, Eigen::Index control_size, NodeState node_state,
-         Eigen::Index stages, bool shares_controls, Eigen::Index node_rows, Eigen::Index private_rows);
+  explicit Layout(const LayoutShape& shape);
 
-  [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
+  [[nodiscard]] std::size_t intervals() const noexcept { return shape_.intervals; }
   [[nodiscard]] std::size_t variable_count() const noexcept { return structure_.unknowns.size(); }
   [[nodiscard]] std::size_t row_count() const noexcept { return structure_.rows.size(); }
 
-  /// `first` of every local unknown in the order left q, left y, right q, right y, slopes of q (one after the other),
-  /// slopes of y, controls (stage by stage).
-  [[nodiscard]] const std::vector<std::size_t>& unknown_firsts() const noexcept { return unknown_firsts_; }
-  /// `first` of every local row in the order left rows, right rows, private rows.
-  [[nodiscard]] const std::vector<std::size_t>& row_firsts() const noexcept { return row_firsts_; }
+  /// Place of every local unknown of an interval, in the order of `IntervalFunctions`.
+  [[nodiscard]] const std::vector<ColumnPlace>& unknown_places() const noexcept { return unknown_places_; }
+  /// Place of every local row of an interval.
+  [[nodiscard]] const std::vector<ColumnPlace>& row_places() const noexcept { return row_places_; }
+  /// Place of every unknown and row of the ends, in the order of `EndFunctions`.
+  [[nodiscard]] const std::vector<ColumnPlace>& end_unknown_places() const noexcept { return end_unknown_places_; }
+  [[nodiscard]] const std::vector<ColumnPlace>& end_row_places() const noexcept { return end_row_places_; }
 
   // Heads of columns. A node column has N + 1 entries, an interval column N.
   [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept;
@@ -38,25 +62,37 @@ class Layout {
   [[nodiscard]] std::size_t slope_q_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t slope_y_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t control_column(Eigen::Index stage, Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t cost_column() const noexcept { return cost_column_; }  ///< of z, in Mayer form
   [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t private_row_column(Eigen::Index i) const noexcept;
 
-  [[nodiscard]] NodeState node_state() const noexcept { return node_state_; }
-  [[nodiscard]] Eigen::Index interior_stages() const noexcept { return stages_ - 1; }
-  [[nodiscard]] Eigen::Index stages() const noexcept { return stages_; }
+  // Single unknowns, where they are there.
+  [[nodiscard]] std::size_t first_velocity(Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t horizon() const noexcept { return variable_count() - 1; }
+
+  [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] NodeState node_state() const noexcept { return shape_.node_state; }
+  [[nodiscard]] Eigen::Index interior_stages() const noexcept { return shape_.stages - 1; }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return shape_.stages; }
   [[nodiscard]] const IntervalStructure& structure() const noexcept { return structure_; }
 
  private:
-  void append_column(std::vector<Place>& places, Place::Kind kind) const;
+  [[nodiscard]] Eigen::Index node_columns() const noexcept;
+  void append_unknowns();
+  void append_rows();
+  void place_interval();
+  void place_ends();
 
-  std::size_t intervals_;
-  Eigen::Index n_;
-  Eigen::Index m_;
-  NodeState node_state_;
-  Eigen::Index stages_;
-  bool shares_controls_;
+  LayoutShape shape_;
+  std::size_t cost_column_ = 0;
+  std::size_t single_unknowns_ = 0;  // where v_0, v_N, T begin
+  std::size_t single_rows_ = 0;      // where the rows of the ends begin
   IntervalStructure structure_;
-  std::vector<std::size_t> unknown_firsts_;
-  std::vector<std::size_t> row_firsts_;
+  std::vector<ColumnPlace> unknown_places_;
+  std::vector<ColumnPlace> row_places_;
+  std::vector<ColumnPlace> end_unknown_places_;
+  std::vector<ColumnPlace> end_row_places_;
 };
 
 }  // namespace dmocbench

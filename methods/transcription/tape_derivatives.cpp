@@ -2,9 +2,11 @@
 
 namespace dmocbench {
 
-TapeDerivatives::TapeDerivatives(const IntervalFunctions& functions, const DerivativePlaces& places)
-    : gradient_(functions.gradient.schedule, places.gradient_firsts, places.gradient_size, places.intervals),
-      jacobian_(functions.jacobian.schedule, places.jacobian_firsts, places.jacobian_size, places.intervals),
-      hessian_(functions.hessian.schedule, places.hessian_firsts, places.hessian_size, places.intervals) {}
+TapeDerivatives::TapeDerivatives(const LocalFunctions& functions, const DerivativePlaces& places)
+    : gradient_(functions.gradient.schedule, places.gradient_places, places.gradient_size, places.intervals,
+                places.mode),
+      jacobian_(functions.jacobian.schedule, places.jacobian_places, places.jacobian_size, places.intervals,
+                places.mode),
+      hessian_(functions.hessian.schedule, places.hessian_places, places.hessian_size, places.intervals, places.mode) {}
 
 }  // namespace dmocbench

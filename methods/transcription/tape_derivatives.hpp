@@ -8,7 +8,7 @@ namespace dmocbench {
 /// Exact derivatives: the symbolic ones of `IntervalFunctions`, each a tape over all intervals. Allocates nothing.
 class TapeDerivatives final : public DerivativeBackEnd {
  public:
-  TapeDerivatives(const IntervalFunctions& functions, const DerivativePlaces& places);
+  TapeDerivatives(const LocalFunctions& functions, const DerivativePlaces& places);
 
   void gradient(Inputs inputs, VectorOut result) override { gradient_.evaluate(inputs, result); }
   void jacobian(Inputs inputs, VectorOut values) override { jacobian_.evaluate(inputs, values); }

@@ -72,7 +72,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   const Eigen::Index n = transcription.traced_problem().configuration_size();
   Trajectory trajectory;
   trajectory.tableau = transcription.tableau();
-  trajectory.node_times = transcription.node_times();
+  trajectory.node_times = transcription.node_times(primal);
   trajectory.q.resize(trajectory.node_times.size(), n);
   for (Eigen::Index i = 0; i < n; ++i) {
     trajectory.q.col(i) =

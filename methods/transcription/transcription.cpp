@@ -12,30 +12,49 @@ namespace dmocbench {
 
 namespace {
 
-/// Looks up the `first` of every place.
-std::vector<std::size_t> pick(const std::vector<std::size_t>& firsts, const std::vector<std::size_t>& places) {
-  std::vector<std::size_t> picked;
-  picked.reserve(places.size());
-  for (const std::size_t place : places) picked.push_back(firsts[place]);
+/// Looks up every place.
+std::vector<ColumnPlace> pick(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
+  std::vector<ColumnPlace> picked;
+  picked.reserve(numbers.size());
+  for (const std::size_t number : numbers) picked.push_back(places[number]);
   return picked;
 }
 
-AssembledPattern jacobian_pattern(const IntervalFunctions& functions, const Layout& layout) {
-  return assemble_pattern(pick(layout.row_firsts(), functions.jacobian.rows),
-                          pick(layout.unknown_firsts(), functions.jacobian.columns), layout.intervals());
+LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
+                              const std::vector<ColumnPlace>& unknowns, std::size_t intervals) {
+  return {pick(rows, functions.jacobian.rows), pick(unknowns, functions.jacobian.columns), intervals};
 }
 
-AssembledPattern hessian_pattern(const IntervalFunctions& functions, const Layout& layout) {
-  std::vector<std::size_t> rows = pick(layout.unknown_firsts(), functions.hessian.rows);
-  std::vector<std::size_t> columns = pick(layout.unknown_firsts(), functions.hessian.columns);
-  for (std::size_t e = 0; e < rows.size(); ++e) {
-    if (rows[e] < columns[e]) std::swap(rows[e], columns[e]);
+/// The lower triangle.
+LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                             std::size_t intervals) {
+  LocalEntries entries{pick(unknowns, functions.hessian.rows), pick(unknowns, functions.hessian.columns), intervals};
+  for (std::size_t e = 0; e < entries.rows.size(); ++e) {
+    if (entries.rows[e].first < entries.columns[e].first) std::swap(entries.rows[e], entries.columns[e]);
   }
-  return assemble_pattern(rows, columns, layout.intervals());
+  return entries;
+}
+
+LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, const Tableau& tableau,
+                         const EndRules& ends, const IntervalFunctions& functions) {
+  return {.intervals = intervals,
+          .configuration_size = traced.configuration_size(),
+          .control_size = traced.control_size(),
+          .node_state = ends.node_state,
+          .stages = tableau.stages(),
+          .shares_controls = tableau.shares_controls,
+          .node_rows = functions.node_rows,
+          .private_rows = functions.private_rows,
+          .path_rows = functions.path_rows,
+          .mayer = ends.mayer,
+          .first_has_velocity = ends.first_has_velocity(),
+          .last_has_velocity = ends.last_has_velocity(),
+          .free_horizon = ends.free_horizon,
+          .conditions = traced.boundary_condition_count()};
 }
 
 /// max|q| and max|L_vv| over the ends and the guess.
-double rounding_floor_of(const Problem& problem, const TracedProblem& traced, const Eigen::VectorXd& steps) {
+double rounding_floor_of(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
   constexpr int samples = 16;
   constexpr double safety = 20.0;
   LegendreTransform legendre(traced);
@@ -53,143 +72,138 @@ double rounding_floor_of(const Problem& problem, const TracedProblem& traced, co
     const MotionPoint point = problem.guess(t);
     include(point.q, point.v, t);
   }
-  return safety * std::numeric_limits<double>::epsilon() * largest_q * largest_mass / steps.minCoeff();
-}
-
-void require_finite(const Eigen::VectorXd& values, const Problem& problem, const char* what) {
-  if (!values.allFinite()) throw Error(problem.name() + ": " + what + " is not finite");
+  const double smallest_step = horizon * grid.relative_widths().minCoeff();
+  return safety * std::numeric_limits<double>::epsilon() * largest_q * largest_mass / smallest_step;
 }
 
 }  // namespace
 
+CostForm cost_form_named(std::string_view name) {
+  if (name == "bolza") return CostForm::bolza;
+  if (name == "mayer") return CostForm::mayer;
+  throw Error("there is no form \"" + std::string(name) + "\" of the cost; choose one of bolza, mayer");
+}
+
 Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
-                             std::string_view derivatives)
+                             std::string_view derivatives, CostForm form)
     : tableau_(std::move(tableau)),
+      grid_(grid),
       cost_scale_(problem.cost_scale()),
+      guessed_horizon_(problem.horizon()),
       traced_(problem),
-      functions_(trace_interval(traced_, element, tableau_, cost_scale_)),
-      layout_(grid.intervals(), traced_.configuration_size(), traced_.control_size(), element.node_state(),
-              tableau_.stages(), tableau_.shares_controls, functions_.node_rows, functions_.private_rows),
-      node_times_(problem.horizon() * grid.relative_times()),
-      steps_(problem.horizon() * grid.relative_widths()),
-      inputs_(functions_.inputs.count()),
-      jacobian_pattern_(jacobian_pattern(functions_, layout_)),
-      hessian_pattern_(hessian_pattern(functions_, layout_)),
-      cost_(functions_.cost, {0}, grid.intervals(), grid.intervals()),
-      rows_(functions_.rows.schedule, pick(layout_.row_firsts(), functions_.rows.places), layout_.row_count(),
-            grid.intervals()),
-      derivatives_(
-          make_derivative_back_end(derivatives, functions_,
-                                   {.intervals = grid.intervals(),
-                                    .gradient_firsts = pick(layout_.unknown_firsts(), functions_.gradient.places),
-                                    .gradient_size = layout_.variable_count(),
-                                    .jacobian_firsts = jacobian_pattern_.firsts,
-                                    .jacobian_size = jacobian_pattern_.pattern.size(),
-                                    .hessian_firsts = hessian_pattern_.firsts,
-                                    .hessian_size = hessian_pattern_.pattern.size()})),
-      costs_(static_cast<Eigen::Index>(grid.intervals())) {
-  if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
+      problem_bounds_(problem_bounds(problem)),
+      end_rules_(end_rules(problem, traced_, element.node_state(), form == CostForm::mayer)),
+      functions_(trace_interval(traced_, element, tableau_,
+                                {.cost_scale = cost_scale_,
+                                 .mayer = end_rules_.mayer,
+                                 .free_horizon = end_rules_.free_horizon,
+                                 .bounded_velocities = problem_bounds_.bounded_velocities()})),
+      end_functions_(trace_ends(problem, traced_, end_rules_)),
+      layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
+      bounds_(program_bounds(problem, traced_, problem_bounds_, end_rules_, layout_)),
+      rounding_floor_(rounding_floor_of(problem, traced_, grid)),
+      step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
+      time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
+      jacobian_pattern_(assemble_pattern(
+          jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
+      hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
-  set_bounds(problem);
-  rounding_floor_ = rounding_floor_of(problem, traced_, steps_);
+  // The patterns have to be whole before arrays are made for them.
+  std::optional<PartPlaces> places_of_ends;
+  if (end_functions_) places_of_ends = end_places();
+  intervals_ = std::make_unique<ProgramPart>(functions_, interval_places(), step_inputs_, time_inputs_, derivatives);
+  if (places_of_ends) {
+    ends_ = std::make_unique<ProgramPart>(*end_functions_, *places_of_ends, step_inputs_, time_inputs_, derivatives);
+  }
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
-  const auto n = static_cast<std::size_t>(traced_.configuration_size());
-  const std::size_t fixed = (element.node_state() == NodeState::configuration ? 2 : 4) * n;
-  const auto enough = [&](std::size_t intervals) {
-    const Layout layout(intervals, traced_.configuration_size(), traced_.control_size(), element.node_state(),
-                        tableau_.stages(), tableau_.shares_controls, functions_.node_rows, functions_.private_rows);
-    return layout.variable_count() >= fixed + layout.row_count();
+  // Free variables less equations on so many intervals; fixed variables and the rows of the ends are always the same.
+  const auto fixed = static_cast<long long>(variable_count()) - static_cast<long long>(free_variable_count(*this));
+  const auto surplus = [&](std::size_t intervals) {
+    LayoutShape shape = layout_.shape();
+    shape.intervals = intervals;
+    const Layout layout(shape);
+    const auto inequalities = static_cast<long long>(intervals) * shape.path_rows;
+    return static_cast<long long>(layout.variable_count()) - fixed -
+           (static_cast<long long>(layout.row_count()) - inequalities);
   };
-  if (enough(layout_.intervals())) return;
-  if (traced_.control_size() == 0) {
+  const std::size_t intervals = layout_.intervals();
+  if (surplus(intervals) >= 0) return;
+  const long long gain = surplus(intervals + 1) - surplus(intervals);
+  if (gain <= 0) {
     throw Error(problem.name() + " has no control: no number of intervals lets it meet both ends");
   }
-  std::size_t smallest = layout_.intervals();
-  while (!enough(smallest)) ++smallest;  // every interval adds a control
+  std::size_t smallest = intervals;
+  while (surplus(smallest) < 0) ++smallest;
   throw Error(problem.name() + " with " + element.name() + " has fewer free variables than rows on " +
-              std::to_string(layout_.intervals()) + " intervals; it needs at least " + std::to_string(smallest));
+              std::to_string(intervals) + " intervals; it needs at least " + std::to_string(smallest));
 }
 
-void Transcription::set_bounds(const Problem& problem) {
-  const auto n = traced_.configuration_size();
-  const BoundaryState first = problem.initial_state();
-  const BoundaryState last = problem.final_state();
-  for (const Eigen::VectorXd* part : {&first.q, &first.v, &last.q, &last.v}) {
-    if (part->size() != n) {
-      throw Error(problem.name() + ": a boundary state has " + std::to_string(part->size()) + " entries, expected " +
-                  std::to_string(n));
-    }
-    require_finite(*part, problem, "a boundary state");
-  }
-  LegendreTransform legendre(traced_);
-  const Eigen::VectorXd first_momentum = legendre.momentum(first.q, first.v, 0.0);
-  const Eigen::VectorXd last_momentum = legendre.momentum(last.q, last.v, problem.horizon());
-  require_finite(first_momentum, problem, "the momentum at the start");
-  require_finite(last_momentum, problem, "the momentum at the end");
+PartPlaces Transcription::interval_places() const {
+  return {.unknowns = layout_.unknown_places(),
+          .rows = layout_.row_places(),
+          .variable_count = layout_.variable_count(),
+          .row_count = layout_.row_count(),
+          .derivatives = {.intervals = layout_.intervals(),
+                          .mode = AssemblyMode::whole,
+                          .gradient_places = pick(layout_.unknown_places(), functions_.gradient.places),
+                          .gradient_size = layout_.variable_count(),
+                          .jacobian_places = jacobian_pattern_.places,
+                          .jacobian_size = jacobian_pattern_.pattern.size(),
+                          .hessian_places = hessian_pattern_.places,
+                          .hessian_size = hessian_pattern_.pattern.size()}};
+}
 
-  variable_lower_.setConstant(static_cast<Eigen::Index>(variable_count()), -unbounded);
-  variable_upper_.setConstant(static_cast<Eigen::Index>(variable_count()), unbounded);
-  constraint_bounds_.setZero(static_cast<Eigen::Index>(constraint_count()));
-  const auto end = static_cast<Eigen::Index>(layout_.intervals());
-  const auto fix = [&](std::size_t column, double at_first, double at_last) {
-    const auto head = static_cast<Eigen::Index>(column);
-    variable_lower_[head] = variable_upper_[head] = at_first;
-    variable_lower_[head + end] = variable_upper_[head + end] = at_last;
-  };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    fix(layout_.configuration_column(i), first.q[i], last.q[i]);
-    switch (layout_.node_state()) {
-      case NodeState::configuration: {
-        const auto row = static_cast<Eigen::Index>(layout_.node_row_column(i));
-        constraint_bounds_[row] = -first_momentum[i];
-        constraint_bounds_[row + end] = last_momentum[i];
-        break;
-      }
-      case NodeState::momentum:
-        fix(layout_.second_column(i), first_momentum[i], last_momentum[i]);
-        break;
-      case NodeState::velocity:
-        fix(layout_.second_column(i), first.v[i], last.v[i]);
-        break;
-    }
-  }
+PartPlaces Transcription::end_places() {
+  const EndFunctions& functions = *end_functions_;
+  const std::vector<ColumnPlace>& unknowns = layout_.end_unknown_places();
+  const std::vector<ColumnPlace>& rows = layout_.end_row_places();
+  const auto jacobian = extend_pattern(jacobian_pattern_.pattern, jacobian_entries(functions, rows, unknowns, 1));
+  const auto hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(functions, unknowns, 1));
+  return {.unknowns = unknowns,
+          .rows = rows,
+          .variable_count = layout_.variable_count(),
+          .row_count = layout_.row_count(),
+          .derivatives = {.intervals = 1,
+                          .mode = AssemblyMode::part,
+                          .gradient_places = pick(unknowns, functions.gradient.places),
+                          .gradient_size = layout_.variable_count(),
+                          .jacobian_places = jacobian,
+                          .jacobian_size = jacobian_pattern_.pattern.size(),
+                          .hessian_places = hessian,
+                          .hessian_size = hessian_pattern_.pattern.size()}};
+}
+
+double Transcription::horizon(const VectorIn& x) const {
+  return has_free_horizon() ? x[static_cast<Eigen::Index>(layout_.horizon())] : guessed_horizon_;
 }
 
 std::span<const Tape::Input> Transcription::bind(const VectorIn& x, const VectorIn& multipliers,
                                                  double objective_factor) {
-  const IntervalInputs& numbers = functions_.inputs;
-  for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs_[a] = {x.data() + layout_.unknown_firsts()[a], false};
-  inputs_[numbers.step()] = {steps_.data(), false};
-  inputs_[numbers.time()] = {node_times_.data(), false};
-  objective_factor_ = objective_factor;
-  inputs_[numbers.objective_factor()] = {&objective_factor_, true};
-  for (std::size_t r = 0; r < numbers.rows && multipliers.size() > 0; ++r) {
-    inputs_[numbers.multiplier(r)] = {multipliers.data() + layout_.row_firsts()[r], false};
-  }
-  return inputs_;
+  return intervals_->bind(x, multipliers, objective_factor);
 }
 
-double Transcription::objective(const VectorIn& x) {
-  cost_.evaluate(bind(x, no_multipliers_, 1.0), costs_);
-  return costs_.sum();
-}
+double Transcription::objective(const VectorIn& x) { return intervals_->cost(x) + (ends_ ? ends_->cost(x) : 0.0); }
 
 void Transcription::gradient(const VectorIn& x, VectorOut result) {
-  derivatives_->gradient(bind(x, no_multipliers_, 1.0), result);
+  intervals_->gradient(x, result);
+  if (ends_) ends_->gradient(x, result);
 }
 
 void Transcription::constraints(const VectorIn& x, VectorOut result) {
-  rows_.evaluate(bind(x, no_multipliers_, 1.0), result);
+  intervals_->rows(x, result);
+  if (ends_) ends_->rows(x, result);
 }
 
 void Transcription::jacobian(const VectorIn& x, VectorOut values) {
-  derivatives_->jacobian(bind(x, no_multipliers_, 1.0), values);
+  intervals_->jacobian(x, values);
+  if (ends_) ends_->jacobian(x, values);
 }
 
 void Transcription::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
-  derivatives_->hessian(bind(x, multipliers, objective_factor), values);
+  intervals_->hessian(x, objective_factor, multipliers, values);
+  if (ends_) ends_->hessian(x, objective_factor, multipliers, values);
 }
 
 }  // namespace dmocbench

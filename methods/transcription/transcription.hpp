@@ -1,46 +1,57 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
-#include <string>
+#include <optional>
 #include <string_view>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/assembled_tape.hpp"
-#include "methods/transcription/derivative_back_end.hpp"
+#include "methods/transcription/assembled_pattern.hpp"
 #include "methods/transcription/element.hpp"
+#include "methods/transcription/end_functions.hpp"
 #include "methods/transcription/grid.hpp"
 #include "methods/transcription/interval_functions.hpp"
 #include "methods/transcription/layout.hpp"
+#include "methods/transcription/program_bounds.hpp"
+#include "methods/transcription/program_part.hpp"
 #include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
 
-/// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval.
+/// How the cost is stated.
+enum class CostForm : std::uint8_t {
+  bolza,  ///< Σ h Σ b_i C + Φ, as the problem states it (eq:gDLOCP1)
+  mayer,  ///< z_N + Φ with z_{k+1} - z_k = h Σ b_i C, z_0 = 0 (eq:gDLOCP_mayer): the same solutions
+};
+
+/// The form of that name. Throws `Error` that lists the names if there is none.
+[[nodiscard]] CostForm cost_form_named(std::string_view name);
+
+/// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval and of the
+/// ends of the horizon.
 ///
-/// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, derivatives,
-/// boundary conditions. The cost is multiplied by `Problem::cost_scale`. Boundary conditions: q_0, q_N (and p or v
-/// there, where nodes carry them) are fixed by bounds; for DMOC the rows of nodes 0 and N are p⁰ + (∂A/∂q_0 + W) = 0
-/// (eq:gDLOCP3) and -p^T + (∂A/∂q_N + W) = 0 (rem:inifinalvel), with p⁰ = L_v(q⁰, v⁰) in the bounds.
+/// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, derivatives, bounds,
+/// path constraints, boundary conditions, horizon. The cost is multiplied by `Problem::cost_scale`. What the ends
+/// become is told by `EndRules`, what the bounds become by `program_bounds`.
 class Transcription final : public NonlinearProgram {
  public:
   /// Traces the problem on one interval and sets everything up for the grid. Throws `Error` if the grid has too few
-  /// intervals (fewer free variables than rows; the sentence names the smallest number), or the problem is not well
-  /// posed. `derivatives` names the back end of gradient, Jacobian and Hessian (`derivative_back_end_names`; the
+  /// intervals (fewer free variables than equations; the sentence names the smallest number), or the problem is not
+  /// well posed. `derivatives` names the back end of gradient, Jacobian and Hessian (`derivative_back_end_names`; the
   /// default is exact); values, momenta and costates come from the formulas whatever it is.
   Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
-                std::string_view derivatives = "tape");
+                std::string_view derivatives = "tape", CostForm form = CostForm::bolza);
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
   [[nodiscard]] std::size_t constraint_count() const override { return layout_.row_count(); }
-  [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
-  [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
-  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return constraint_bounds_; }
-  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return constraint_bounds_; }
+  [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return bounds_.variables.lower; }
+  [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return bounds_.variables.upper; }
+  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return bounds_.rows.lower; }
+  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return bounds_.rows.upper; }
   [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return jacobian_pattern_.pattern; }
   [[nodiscard]] const SparsityPattern& hessian_structure() const override { return hessian_pattern_.pattern; }
   [[nodiscard]] double objective(const VectorIn& x) override;
@@ -55,43 +66,55 @@ class Transcription final : public NonlinearProgram {
 
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   [[nodiscard]] const Tableau& tableau() const noexcept { return tableau_; }
+  [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
   [[nodiscard]] const TracedProblem& traced_problem() const noexcept { return traced_; }
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return functions_; }
+  /// None where the ends add nothing to the program.
+  [[nodiscard]] const std::optional<EndFunctions>& end_functions() const noexcept { return end_functions_; }
   [[nodiscard]] double cost_scale() const noexcept { return cost_scale_; }
-  /// t_0 .. t_N.
-  [[nodiscard]] const Eigen::VectorXd& node_times() const noexcept { return node_times_; }
-  /// h_0 .. h_{N-1}.
-  [[nodiscard]] const Eigen::VectorXd& steps() const noexcept { return steps_; }
 
-  /// The inputs of the interval formulas at a point (see `IntervalInputs`); `multipliers` may be empty where no formula
+  /// T of the problem, or of its guess where it is free.
+  [[nodiscard]] double guessed_horizon() const noexcept { return guessed_horizon_; }
+  [[nodiscard]] bool has_free_horizon() const noexcept { return functions_.free_horizon; }
+  /// T at a point.
+  [[nodiscard]] double horizon(const VectorIn& x) const;
+  /// t_0 .. t_N and h_0 .. h_{N-1} at a point.
+  [[nodiscard]] Eigen::VectorXd node_times(const VectorIn& x) const { return horizon(x) * grid_.relative_times(); }
+  [[nodiscard]] Eigen::VectorXd steps(const VectorIn& x) const { return horizon(x) * grid_.relative_widths(); }
+
+  /// What the interval formulas read as step and as time of the left node: relative to the horizon where that is an
+  /// unknown.
+  [[nodiscard]] const Eigen::VectorXd& step_inputs() const noexcept { return step_inputs_; }
+  [[nodiscard]] const Eigen::VectorXd& time_inputs() const noexcept { return time_inputs_; }
+
+  /// The inputs of the interval formulas at a point (see `LocalInputs`); `multipliers` may be empty where no formula
   /// reads them. Valid until the next call.
   [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
                                                   double objective_factor);
 
  private:
-  void set_bounds(const Problem& problem);
   void require_enough_intervals(const Problem& problem, const Element& element) const;
+  [[nodiscard]] PartPlaces interval_places() const;
+  [[nodiscard]] PartPlaces end_places();
 
   Tableau tableau_;
+  Grid grid_;
   double cost_scale_;
+  double guessed_horizon_;
   TracedProblem traced_;
+  ProblemBounds problem_bounds_;
+  EndRules end_rules_;
   IntervalFunctions functions_;
+  std::optional<EndFunctions> end_functions_;
   Layout layout_;
-  Eigen::VectorXd node_times_;
-  Eigen::VectorXd steps_;
-  Eigen::VectorXd variable_lower_;
-  Eigen::VectorXd variable_upper_;
-  Eigen::VectorXd constraint_bounds_;  // all rows are equalities
+  ProgramBounds bounds_;
   double rounding_floor_ = 0.0;
-  double objective_factor_ = 1.0;
-  Eigen::VectorXd no_multipliers_;
-  std::vector<Tape::Input> inputs_;
+  Eigen::VectorXd step_inputs_;
+  Eigen::VectorXd time_inputs_;
   AssembledPattern jacobian_pattern_;
   AssembledPattern hessian_pattern_;
-  AssembledTape cost_;
-  AssembledTape rows_;
-  std::unique_ptr<DerivativeBackEnd> derivatives_;
-  Eigen::VectorXd costs_;  // per interval
+  std::unique_ptr<ProgramPart> intervals_;
+  std::unique_ptr<ProgramPart> ends_;  // null if the ends add nothing
 };
 
 }  // namespace dmocbench

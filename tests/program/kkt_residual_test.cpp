@@ -59,8 +59,8 @@ TEST(KktResidual, IsTheSlopeInAFreeDirection) {
 }
 
 TEST(KktResidual, CountsASlopeThatPullsAwayFromItsBound) {
-  // At x₁ = 0 the slope -3 wants x₁ to grow: as far as the other bound lets it.
-  EXPECT_DOUBLE_EQ(at(box(-10.0, 10.0), vector({0.0, 1.0}), 0.0).stationarity, 2.0);
+  // At x₁ = 0 the slope -3 wants x₁ to grow, and the bound on that side is far.
+  EXPECT_DOUBLE_EQ(at(box(-10.0, 10.0), vector({0.0, 1.0}), 0.0).stationarity, 3.0);
 }
 
 TEST(KktResidual, CountsAMultiplierOfTheWrongSign) {

@@ -59,9 +59,9 @@ struct Solved {
 
 /// Solves by Ipopt from a motion; a solve that fails fails the test.
 inline Solved solve(const Problem& problem, const std::string& method, const Tableau& tableau, const Grid& grid,
-                    const Motion& start, double tolerance = 1e-10) {
+                    const Motion& start, double tolerance = 1e-10, CostForm form = CostForm::bolza) {
   Solved solved;
-  solved.transcription = std::make_unique<Transcription>(problem, *make_element(method), tableau, grid);
+  solved.transcription = std::make_unique<Transcription>(problem, *make_element(method), tableau, grid, "tape", form);
   SolverOptions options;
   options.tolerance = tolerance;
   solved.solution = make_solver("ipopt", options)->solve(*solved.transcription, sample(*solved.transcription, start));
@@ -73,8 +73,8 @@ inline Solved solve(const Problem& problem, const std::string& method, const Tab
 }
 
 inline Solved solve(const Problem& problem, const Scheme& scheme, const Grid& grid, const Motion& start,
-                    double tolerance = 1e-10) {
-  return solve(problem, scheme.method, scheme.tableau(), grid, start, tolerance);
+                    double tolerance = 1e-10, CostForm form = CostForm::bolza) {
+  return solve(problem, scheme.method, scheme.tableau(), grid, start, tolerance, form);
 }
 
 /// One motion from which all methods and grids start, so that they end on the same branch: DMOC's answer on 96

@@ -9,6 +9,7 @@
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
+#include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -74,8 +75,14 @@ class BackEnds : public testing::TestWithParam<std::tuple<std::string, std::stri
   }
   [[nodiscard]] Differences from_exact(const std::string& back_end) const { return by(back_end) - by("tape"); }
 
-  std::unique_ptr<Problem> problem_ = std::get<0>(GetParam()) == "moving_frame" ? std::make_unique<tests::MovingFrame>()
-                                                                                : make_problem(std::get<0>(GetParam()));
+  static std::shared_ptr<const Problem> problem_named(const std::string& name) {
+    if (name == "moving_frame") return std::make_shared<tests::MovingFrame>();
+    if (name != "everything") return make_problem(name);
+    const auto everything = std::make_shared<tests::Everything>();
+    return {everything, &everything->problem()};
+  }
+
+  std::shared_ptr<const Problem> problem_ = problem_named(std::get<0>(GetParam()));
   Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam())};
   Grid grid_ = tests::graded_grid(7);
 };
@@ -110,7 +117,8 @@ TEST_P(BackEnds, ForwardDifferencesAreWorseThanCentralOnes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BackEnds,
-                         testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
+                         testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame",
+                                                          "everything"),
                                           testing::ValuesIn(element_names()), testing::Values(1, 2)),
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +

@@ -88,7 +88,7 @@ class DiscretePrinciple {
     const Eigen::Index s = tableau.stages();
     const Eigen::Index m = program_.traced_problem().control_size();
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout.intervals()); ++k) {
-      const Long h = program_.steps()[k];
+      const Long h = program_.step_inputs()[k];
       const auto read = [&](const auto& column, Eigen::Index size, Eigen::Index node) {
         LongVector entries(size);
         for (Eigen::Index i = 0; i < size; ++i) {
@@ -113,7 +113,7 @@ class DiscretePrinciple {
         }
         const LongVector u = read([&](Eigen::Index c) { return layout.control_column(i, c); }, m, k);
         visitor(h * Long(tableau.b[i]), q, slopes[static_cast<std::size_t>(i)], u,
-                Long(program_.node_times()[k]) + Long(tableau.c[i]) * h);
+                Long(program_.time_inputs()[k]) + Long(tableau.c[i]) * h);
       }
     }
   }
@@ -171,7 +171,7 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
           for (std::size_t k = 0; k < intervals; ++k) {
             const double unit = program->steps()[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
             const auto row =
-                static_cast<Eigen::Index>(layout.row_firsts()[2 * n + static_cast<std::size_t>(j) * n + i] + k);
+                static_cast<Eigen::Index>(layout.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
             EXPECT_NEAR(rows[row], variation(layout.slope_q_column(j, component) + k) / unit, tolerance);
           }
         }

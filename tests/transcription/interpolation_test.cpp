@@ -16,7 +16,7 @@ using tests::RandomPoints;
 Trajectory arbitrary_trajectory(const std::string& method, int stages, const Grid& grid) {
   const auto problem = make_problem("two_link_manipulator");
   const auto program = tests::transcribe(*problem, {method, stages}, grid);
-  const Eigen::VectorXd x = sample(*program, guessed_motion(*problem));
+  const Eigen::VectorXd x = sample(*program, guessed_motion.at(*problem));
   return read_trajectory(*program, x + RandomPoints().vector(x.size(), -0.1, 0.1), Eigen::VectorXd());
 }
 
@@ -134,7 +134,7 @@ TEST(SmoothMotion, PassesThroughTheNodesWithTheirVelocities) {
   const Trajectory trajectory = arbitrary_trajectory("hamiltonian", 1, tests::graded_grid(6));
   const Motion motion = smooth_motion(trajectory);
   for (Eigen::Index k = 0; k <= 6; ++k) {
-    const MotionPoint point = motion(trajectory.node_times[k]);
+    const MotionPoint point = motion.at(trajectory.node_times[k]);
     EXPECT_LT((point.q - trajectory.q.row(k).transpose()).norm(), 1e-13);
     EXPECT_LT((point.v - trajectory.v.row(k).transpose()).norm(), 1e-12);
   }
@@ -144,8 +144,8 @@ TEST(SmoothMotion, HasTheVelocityThatIsTheSlopeOfItsConfiguration) {
   const Motion motion = smooth_motion(arbitrary_trajectory("dmoc", 1, Grid::uniform(6)));
   constexpr double e = 1e-6;
   for (const double t : {0.05, 0.21, 0.5001, 0.83}) {
-    const Eigen::VectorXd slope = (motion(t + e).q - motion(t - e).q) / (2.0 * e);
-    EXPECT_LT((slope - motion(t).v).norm(), 1e-7);
+    const Eigen::VectorXd slope = (motion.at(t + e).q - motion.at(t - e).q) / (2.0 * e);
+    EXPECT_LT((slope - motion.at(t).v).norm(), 1e-7);
   }
 }
 
@@ -153,8 +153,8 @@ TEST(SmoothMotion, ExistsOnASingleInterval) {
   const auto problem = make_problem("two_link_manipulator");
   const auto program = tests::transcribe(*problem, {"dmoc", 2}, Grid::uniform(1));
   const Trajectory trajectory =
-      read_trajectory(*program, sample(*program, guessed_motion(*problem)), Eigen::VectorXd());
-  EXPECT_LT((smooth_motion(trajectory)(1.0).q - problem->final_state().q).norm(), 1e-14);
+      read_trajectory(*program, sample(*program, guessed_motion.at(*problem)), Eigen::VectorXd());
+  EXPECT_LT((smooth_motion(trajectory).at(1.0).q - problem->final_state().q).norm(), 1e-14);
 }
 
 }  // namespace

@@ -77,7 +77,13 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
     constexpr Eigen::Index m = 2;
     constexpr Eigen::Index s = 3;
     const bool second = state != NodeState::configuration;
-    const Layout layout(intervals, n, m, state, s, false, second ? 0 : n, second ? 2 * n * s : n * (s - 1));
+    const Layout layout({.intervals = intervals,
+                         .configuration_size = n,
+                         .control_size = m,
+                         .node_state = state,
+                         .stages = s,
+                         .node_rows = second ? 0 : n,
+                         .private_rows = second ? 2 * n * s : n * (s - 1)});
     std::multiset<std::size_t> covered;
     const auto cover = [&](std::size_t head, std::size_t length) {
       for (std::size_t k = 0; k < length; ++k) covered.insert(head + k);
@@ -113,7 +119,13 @@ TEST(Layout, WithSharedControlsHasOneFewerPerIntervalAndTheSameRows) {
 
 TEST(Layout, SharedControlsOfNeighboursAreTheSameUnknown) {
   constexpr std::size_t intervals = 5;
-  const Layout layout(intervals, 2, 2, NodeState::velocity, 3, true, 0, 12);
+  const Layout layout({.intervals = intervals,
+                       .configuration_size = 2,
+                       .control_size = 2,
+                       .node_state = NodeState::velocity,
+                       .stages = 3,
+                       .shares_controls = true,
+                       .private_rows = 12});
   std::set<std::size_t> covered;
   for (Eigen::Index i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k + 1 < intervals; ++k) {

@@ -10,7 +10,8 @@ namespace {
 std::size_t hessian_operations(const char* name, int stages) {
   const auto problem = make_problem(name);
   const TracedProblem traced(*problem);
-  return trace_interval(traced, *make_element("dmoc"), make_tableau("gauss", stages), problem->cost_scale())
+  return trace_interval(traced, *make_element("dmoc"), make_tableau("gauss", stages),
+                        {.cost_scale = problem->cost_scale()})
       .hessian.schedule.operation_count();
 }
 

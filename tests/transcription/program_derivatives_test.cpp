@@ -39,7 +39,7 @@ Eigen::VectorXd point_near_guess(const Problem& problem, Transcription& program)
 Derivatives by_hyper_duals(const Transcription& program, const Eigen::VectorXd& x, double factor,
                            const Eigen::VectorXd& multipliers) {
   const IntervalFunctions& functions = program.functions();
-  const IntervalInputs& numbers = functions.inputs;
+  const LocalInputs& numbers = functions.inputs;
   const Layout& layout = program.layout();
   Derivatives dense;
   dense.gradient.setZero(x.size());
@@ -48,14 +48,14 @@ Derivatives by_hyper_duals(const Transcription& program, const Eigen::VectorXd& 
   dense.hessian.setZero(x.size(), x.size());
   for (std::size_t k = 0; k < layout.intervals(); ++k) {
     const auto interval = static_cast<Eigen::Index>(k);
-    const auto unknown = [&](std::size_t a) { return static_cast<Eigen::Index>(layout.unknown_firsts()[a] + k); };
+    const auto unknown = [&](std::size_t a) { return static_cast<Eigen::Index>(layout.unknown_places()[a].at(k)); };
     const auto row = [&](std::size_t e) {
-      return static_cast<Eigen::Index>(layout.row_firsts()[functions.rows.places[e]] + k);
+      return static_cast<Eigen::Index>(layout.row_places()[functions.rows.places[e]].at(k));
     };
     std::vector<HyperDual> inputs(numbers.count());
     for (std::size_t a = 0; a < numbers.unknowns; ++a) inputs[a] = x[unknown(a)];
-    inputs[numbers.step()] = program.steps()[interval];
-    inputs[numbers.time()] = program.node_times()[interval];
+    inputs[numbers.step()] = program.step_inputs()[interval];
+    inputs[numbers.time()] = program.time_inputs()[interval];
     for (std::size_t a = 0; a < numbers.unknowns; ++a) {
       for (std::size_t b = 0; b <= a; ++b) {
         inputs[a].e1 = 1.0;

@@ -22,7 +22,7 @@ MotionPoint optimum(double t) {
 TEST(Sample, OfAMotionInTheSpaceLeavesRoundingInTheRows) {
   const tests::DoubleIntegrator problem;
   const auto program = tests::transcribe(problem, {"dmoc", 3}, tests::graded_grid(5));
-  EXPECT_LT(tests::row_residual(*program, sample(*program, optimum)), 1e-12);
+  EXPECT_LT(tests::row_residual(*program, sample(*program, {optimum, problem.horizon()})), 1e-12);
 }
 
 TEST(Sample, OfAUniformMotionIsExactForEveryScheme) {
@@ -34,10 +34,11 @@ TEST(Sample, OfAUniformMotionIsExactForEveryScheme) {
   const tests::WithEnds problem(base, point(0.5), point(2.5));
   for (const Scheme& scheme : tests::all_schemes()) {
     const auto program = tests::transcribe(problem, scheme, tests::graded_grid(5));
-    const Motion uniform = [](double t) {
+    const auto at = [](double t) {
       return MotionPoint{Eigen::VectorXd::Constant(1, 0.5 + 2.0 * t), Eigen::VectorXd::Constant(1, 2.0),
                          Eigen::VectorXd::Zero(1)};
     };
+    const Motion uniform{at, problem.horizon()};
     EXPECT_LT(tests::row_residual(*program, sample(*program, uniform)), 1e-13) << scheme.label();
   }
 }
@@ -57,12 +58,13 @@ TEST(Sample, OfASolutionOnAFinerGridHasResidualsThatVanishWithTheStep) {
 TEST(Sample, GivesFixedVariablesTheirValuesWhateverTheMotion) {
   for (const std::string& name : problem_names()) {
     const auto problem = make_problem(name);
-    const Motion elsewhere = [&](double t) {
+    const auto at = [&](double t) {
       MotionPoint point = problem->guess(t);
       point.q.array() += 0.3;
       point.v.array() += 5.0;
       return point;
     };
+    const Motion elsewhere{at, problem->horizon()};
     for (const Scheme& scheme : tests::all_schemes()) {
       const auto program = tests::transcribe(*problem, scheme, Grid::uniform(6));
       const Eigen::VectorXd x = sample(*program, elsewhere);
@@ -79,10 +81,11 @@ TEST(Sample, GivesFixedVariablesTheirValuesWhateverTheMotion) {
 
 TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
   const tests::MovingFrame problem;
-  const Motion motion = [](double t) {
+  const auto at = [](double t) {
     return MotionPoint{Eigen::Vector2d(std::sin(t), t * t), Eigen::Vector2d(std::cos(t), 2.0 * t),
                        Eigen::Vector2d(1.0 + t, -t)};
   };
+  const Motion motion{at, problem.horizon()};
   LegendreTransform legendre{TracedProblem(problem)};
   for (const Scheme& scheme : tests::all_schemes()) {
     const auto program = tests::transcribe(problem, scheme, tests::graded_grid(4));
@@ -90,8 +93,8 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
     const Eigen::VectorXd x = sample(*program, motion);
     const auto entry = [&](std::size_t column, Eigen::Index k) { return x[static_cast<Eigen::Index>(column) + k]; };
     for (Eigen::Index k = 1; k < 4; ++k) {
-      const double t = program->node_times()[k];
-      const MotionPoint node = motion(t);
+      const double t = program->node_times(x)[k];
+      const MotionPoint node = at(t);
       const Eigen::VectorXd p = legendre.momentum(node.q, node.v, t);
       for (Eigen::Index i = 0; i < 2; ++i) {
         EXPECT_EQ(entry(layout.configuration_column(i), k), node.q[i]);
@@ -103,7 +106,7 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
         }
       }
       for (Eigen::Index j = 0; j < scheme.stages; ++j) {
-        const MotionPoint stage = motion(t + program->tableau().c[j] * program->steps()[k]);
+        const MotionPoint stage = at(t + program->tableau().c[j] * program->steps(x)[k]);
         for (Eigen::Index i = 0; i < 2; ++i) {
           EXPECT_EQ(entry(layout.control_column(j, i), k), stage.u[i]);
           if (j + 1 < scheme.stages) {

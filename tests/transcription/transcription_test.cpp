@@ -26,7 +26,7 @@ class IntervalByInterval {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(whole_.constraint_count()));
     const LocalVector& local = whole_.functions().rows;
     visit(local.schedule, [&](std::size_t k, std::size_t e, double value) {
-      sum[static_cast<Eigen::Index>(whole_.layout().row_firsts()[local.places[e]] + k)] += value;
+      sum[static_cast<Eigen::Index>(whole_.layout().row_places()[local.places[e]].at(k))] += value;
     });
     return sum;
   }
@@ -39,16 +39,16 @@ class IntervalByInterval {
  private:
   template <class Visitor>
   void visit(const Schedule& schedule, const Visitor& visitor) const {
-    const IntervalInputs& numbers = whole_.functions().inputs;
+    const LocalInputs& numbers = whole_.functions().inputs;
     const Tape tape(schedule);
     Tape::Workspace workspace(tape);
     for (std::size_t k = 0; k < whole_.layout().intervals(); ++k) {
       std::vector<double> point(numbers.count());
       for (std::size_t a = 0; a < numbers.unknowns; ++a) {
-        point[a] = x_[static_cast<Eigen::Index>(whole_.layout().unknown_firsts()[a] + k)];
+        point[a] = x_[static_cast<Eigen::Index>(whole_.layout().unknown_places()[a].at(k))];
       }
-      point[numbers.step()] = whole_.steps()[static_cast<Eigen::Index>(k)];
-      point[numbers.time()] = whole_.node_times()[static_cast<Eigen::Index>(k)];
+      point[numbers.step()] = whole_.step_inputs()[static_cast<Eigen::Index>(k)];
+      point[numbers.time()] = whole_.time_inputs()[static_cast<Eigen::Index>(k)];
       std::vector<Tape::Input> inputs;
       for (const double& entry : point) inputs.push_back({&entry, false});
       std::vector<double> values(tape.output_count());
@@ -141,10 +141,11 @@ TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
 TEST(Transcription, MeasuresTimeFromZeroToTheHorizon) {
   const auto problem = make_problem("orbital_transfer");
   const auto program = tests::transcribe(*problem, {"dmoc", 1}, tests::graded_grid(9));
-  EXPECT_EQ(program->node_times()[0], 0.0);
-  EXPECT_EQ(program->node_times()[9], problem->horizon());
-  const Eigen::VectorXd differences = program->node_times().tail(9) - program->node_times().head(9);
-  EXPECT_LT((program->steps() - differences).lpNorm<Eigen::Infinity>(), 1e-14);
+  const Eigen::VectorXd x = sample(*program, guessed_motion(*problem));
+  const Eigen::VectorXd times = program->node_times(x);
+  EXPECT_EQ(times[0], 0.0);
+  EXPECT_EQ(times[9], problem->horizon());
+  EXPECT_LT((program->steps(x) - (times.tail(9) - times.head(9))).lpNorm<Eigen::Infinity>(), 1e-14);
 }
 
 /// Overrides one answer of the double integrator with a wrong one.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/state.hpp"
+
+namespace dmocbench {
+
+/// lower <= x <= upper, entry by entry; ±infinity where there is no bound, equal entries where x is fixed. Without
+/// entries nothing is bounded.
+struct Bounds {
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+
+  /// -infinity <= x <= infinity, `size` entries.
+  [[nodiscard]] static Bounds none(Eigen::Index size);
+  /// x = value.
+  [[nodiscard]] static Bounds fixed(const Eigen::VectorXd& value);
+
+  [[nodiscard]] bool empty() const noexcept { return lower.size() == 0 && upper.size() == 0; }
+  [[nodiscard]] bool is_fixed(Eigen::Index i) const { return lower[i] == upper[i]; }
+  [[nodiscard]] bool all_fixed() const { return lower == upper; }
+  /// True if entry i has a finite bound on either side.
+  [[nodiscard]] bool is_bounded(Eigen::Index i) const;
+};
+
+/// What is prescribed of the state at an end of the horizon.
+struct EndBounds {
+  Bounds q;  ///< n entries
+  Bounds v;  ///< n entries
+
+  /// (q, v) as given, (eq:LOCP3).
+  [[nodiscard]] static EndBounds fixed(const BoundaryState& state);
+  /// Lets q_i, or v_i, take any value.
+  EndBounds& free_configuration(Eigen::Index i);
+  EndBounds& free_velocity(Eigen::Index i);
+
+  [[nodiscard]] bool all_fixed() const { return q.all_fixed() && v.all_fixed(); }
+};
+
+/// lower <= T <= upper; a fixed horizon has equal bounds.
+struct HorizonBounds {
+  double lower = 0.0;
+  double upper = 0.0;
+  [[nodiscard]] bool is_free() const noexcept { return lower != upper; }
+};
+
+/// The bounds with `size` entries, none where `bounds` is empty. Throws `Error` that begins with `what` if sizes differ
+/// from `size`, an entry is not a number or a bound lies below its partner.
+[[nodiscard]] Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string& what);
+
+}  // namespace dmocbench

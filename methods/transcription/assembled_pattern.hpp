@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/column_assembly.hpp"
+
+namespace dmocbench {
+
+/// Where the local entries of a part of a program stand in its matrix: entry e of interval k at (rows[e].at(k),
+/// columns[e].at(k)).
+struct LocalEntries {
+  std::vector<ColumnPlace> rows;
+  std::vector<ColumnPlace> columns;
+  std::size_t intervals = 0;
+};
+
+/// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
+struct AssembledPattern {
+  SparsityPattern pattern;
+  std::vector<ColumnPlace> places;  ///< per local entry, as `ColumnAssembly` wants it
+};
+
+/// Merges the local entries of all intervals.
+[[nodiscard]] AssembledPattern assemble_pattern(const LocalEntries& entries);
+
+/// Adds the few entries of a part with one interval to a pattern, and says where each of them goes.
+[[nodiscard]] std::vector<ColumnPlace> extend_pattern(SparsityPattern& pattern, const LocalEntries& entries);
+
+}  // namespace dmocbench

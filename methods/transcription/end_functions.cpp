@@ -1,0 +1,92 @@
+#include "methods/transcription/end_functions.hpp"
+
+#include <vector>
+
+namespace dmocbench {
+
+namespace {
+
+ExpressionVector constants(const Eigen::VectorXd& values) {
+  ExpressionVector result(values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) result[i] = Expression(values[i]);
+  return result;
+}
+
+/// An end as the rules make it: what of it is unknown, the rest as numbers.
+struct End {
+  ExpressionVector q;
+  ExpressionVector p;  // Hamiltonian only
+  ExpressionVector v;
+};
+
+/// Hands out the unknowns of both ends in their order.
+class EndUnknowns {
+ public:
+  EndUnknowns(Eigen::Index n, NodeState node_state) : n_(n), node_state_(node_state) {}
+
+  End take_end(bool has_velocity, const BoundaryState& given) {
+    End end;
+    end.q = take(n_);
+    if (node_state_ == NodeState::momentum) end.p = take(n_);
+    end.v = node_state_ == NodeState::velocity || has_velocity ? take(n_) : constants(given.v);
+    return end;
+  }
+  Expression take_scalar() { return take(1)[0]; }
+  [[nodiscard]] std::size_t taken() const { return next_; }
+
+ private:
+  ExpressionVector take(Eigen::Index count) {
+    ExpressionVector inputs = input_vector(next_, count);
+    next_ += static_cast<std::size_t>(count);
+    return inputs;
+  }
+
+  Eigen::Index n_;
+  NodeState node_state_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeState node_state, bool mayer) {
+  EndRules rules;
+  rules.node_state = node_state;
+  rules.cost_scale = problem.cost_scale();
+  rules.mayer = mayer;
+  rules.free_horizon = problem.horizon_bounds().is_free();
+  rules.first_clamped = problem.initial_bounds().all_fixed();
+  // With a free horizon the momentum of a given velocity may depend on T.
+  const bool moves = rules.free_horizon && traced.momentum_depends_on_time() && node_state != NodeState::velocity;
+  rules.last_clamped = problem.final_bounds().all_fixed() && !moves;
+  return rules;
+}
+
+std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced, const EndRules& rules) {
+  EndUnknowns unknowns(traced.configuration_size(), rules.node_state);
+  const End first = unknowns.take_end(rules.first_has_velocity(), problem.initial_state());
+  const End last = unknowns.take_end(rules.last_has_velocity(), problem.final_state());
+  const Expression running = rules.mayer ? unknowns.take_scalar() : Expression(0.0);
+  const Expression horizon = rules.free_horizon ? unknowns.take_scalar() : Expression(problem.horizon());
+  const State first_state{first.q, first.v, Expression(0.0)};
+  const State last_state{last.q, last.v, horizon};
+  const TracedProblem::EndValues ends = traced.at_ends(first_state, last_state);
+  const Expression cost = running + Expression(rules.cost_scale) * ends.final_cost;
+
+  std::vector<ExpressionVector> ties;
+  const auto tie = [&](const End& end, const State& state, double sign) {
+    const ExpressionVector momentum = traced.at(state).momentum;
+    ties.emplace_back(rules.node_state == NodeState::configuration ? ExpressionVector(Expression(sign) * momentum)
+                                                                   : ExpressionVector(end.p - momentum));
+  };
+  if (rules.first_has_velocity()) tie(first, first_state, 1.0);
+  if (rules.last_has_velocity()) tie(last, last_state, -1.0);
+  const ExpressionVector tied = stacked(ties);
+  if (tied.size() == 0 && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
+  EndFunctions functions;
+  static_cast<LocalFunctions&>(functions) = differentiate(cost, stacked({tied, ends.conditions}), unknowns.taken());
+  functions.ties = tied.size();
+  functions.conditions = ends.conditions.size();
+  return functions;
+}
+
+}  // namespace dmocbench

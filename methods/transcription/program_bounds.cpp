@@ -1,0 +1,186 @@
+#include "methods/transcription/program_bounds.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void require_inside(double value, double lower, double upper, const std::string& what) {
+  // Ends are computed numbers: a value may miss its own bound by rounding.
+  const double slack = 1e-12 * std::max(1.0, std::abs(value));
+  if (value >= lower - slack && value <= upper + slack) return;
+  throw Error(what + " is " + std::to_string(value) + ", outside its bounds " + std::to_string(lower) + " and " +
+              std::to_string(upper));
+}
+
+void require_state(const BoundaryState& state, const EndBounds& bounds, const Problem& problem, const char* name) {
+  const Eigen::Index n = problem.configuration_size();
+  const std::string what = problem.name() + ": the boundary state " + name;
+  for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
+    if (part->size() != n) {
+      throw Error(what + " has " + std::to_string(part->size()) + " entries, expected " + std::to_string(n));
+    }
+    if (!part->allFinite()) throw Error(what + " is not finite");
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::string entry = "[" + std::to_string(i) + "]";
+    require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], what + ": q" + entry);
+    require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], what + ": v" + entry);
+  }
+}
+
+EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, const Problem& problem, const char* name) {
+  const Eigen::Index n = problem.configuration_size();
+  const std::string what = problem.name() + ": " + name;
+  EndBounds checked{checked_bounds(end.q, n, what + " of q"), checked_bounds(end.v, n, what + " of v")};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double lower = std::max(checked.q.lower[i], everywhere.lower[i]);
+    const double upper = std::min(checked.q.upper[i], everywhere.upper[i]);
+    if (lower > upper) {
+      throw Error(what + " and configuration_bounds leave no value for q[" + std::to_string(i) + "]");
+    }
+    checked.q.lower[i] = lower;
+    checked.q.upper[i] = upper;
+  }
+  return checked;
+}
+
+HorizonBounds checked_horizon(const Problem& problem) {
+  const HorizonBounds bounds = problem.horizon_bounds();
+  if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
+  if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
+    throw Error(problem.name() + ": horizon_bounds must be positive and ascend, got " + std::to_string(bounds.lower) +
+                " and " + std::to_string(bounds.upper));
+  }
+  require_inside(problem.horizon(), bounds.lower, bounds.upper, problem.name() + ": horizon");
+  return bounds;
+}
+
+/// Writes the bounds of columns of unknowns.
+class VariableBounds {
+ public:
+  VariableBounds(Bounds& bounds, const Layout& layout) : bounds_(&bounds), layout_(&layout) {}
+
+  void set(std::size_t variable, double lower, double upper) {
+    bounds_->lower[static_cast<Eigen::Index>(variable)] = lower;
+    bounds_->upper[static_cast<Eigen::Index>(variable)] = upper;
+  }
+  void set_column(std::size_t head, std::size_t length, double lower, double upper) {
+    for (std::size_t k = 0; k < length; ++k) set(head + k, lower, upper);
+  }
+  /// The two ends of a node column.
+  void set_ends(std::size_t head, const Bounds& first, const Bounds& last, Eigen::Index i) {
+    set(head, first.lower[i], first.upper[i]);
+    set(head + layout_->intervals(), last.lower[i], last.upper[i]);
+  }
+
+ private:
+  Bounds* bounds_;
+  const Layout* layout_;
+};
+
+void bound_controls(VariableBounds& variables, const Bounds& u, const Layout& layout) {
+  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+    for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
+      variables.set_column(layout.control_column(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
+    }
+  }
+}
+
+/// Momenta of the ends: numbers where the end is clamped, free otherwise.
+Bounds end_momentum(bool clamped, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
+                    LegendreTransform& legendre, const Problem& problem, const char* where) {
+  if (!clamped) return Bounds::none(q.size());
+  const Eigen::VectorXd momentum = legendre.momentum(q, v, t);
+  if (!momentum.allFinite()) throw Error(problem.name() + ": the momentum at the " + where + " is not finite");
+  return Bounds::fixed(momentum);
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
+  std::vector<Eigen::Index> bounded;
+  for (Eigen::Index i = 0; i < v.lower.size(); ++i) {
+    if (v.is_bounded(i)) bounded.push_back(i);
+  }
+  return bounded;
+}
+
+ProblemBounds problem_bounds(const Problem& problem) {
+  const Eigen::Index n = problem.configuration_size();
+  const std::string name = problem.name() + ": ";
+  ProblemBounds bounds;
+  bounds.horizon = checked_horizon(problem);
+  bounds.q = checked_bounds(problem.configuration_bounds(), n, name + "configuration_bounds");
+  bounds.v = checked_bounds(problem.velocity_bounds(), n, name + "velocity_bounds");
+  bounds.u = checked_bounds(problem.control_bounds(), problem.control_size(), name + "control_bounds");
+  bounds.first = checked_end(problem.initial_bounds(), bounds.q, problem, "initial_bounds");
+  bounds.last = checked_end(problem.final_bounds(), bounds.q, problem, "final_bounds");
+  require_state(problem.initial_state(), bounds.first, problem, "initial_state");
+  require_state(problem.final_state(), bounds.last, problem, "final_state");
+  return bounds;
+}
+
+ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
+                             const EndRules& ends, const Layout& layout) {
+  const Eigen::Index n = traced.configuration_size();
+  const std::size_t last_node = layout.intervals();
+  ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
+                       Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
+  VariableBounds variables(result.variables, layout);
+  VariableBounds rows(result.rows, layout);
+  LegendreTransform legendre(traced);
+  const Bounds first_momentum =
+      end_momentum(ends.first_clamped, bounds.first.q.lower, bounds.first.v.lower, 0.0, legendre, problem, "start");
+  const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last.q.lower, bounds.last.v.lower,
+                                            problem.horizon(), legendre, problem, "end");
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t column = layout.configuration_column(i);
+    variables.set_column(column, last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
+    variables.set_ends(column, bounds.first.q, bounds.last.q, i);
+    switch (layout.node_state()) {
+      case NodeState::configuration: {
+        const std::size_t row = layout.node_row_column(i);
+        if (ends.first_clamped) rows.set(row, -first_momentum.lower[i], -first_momentum.lower[i]);
+        if (ends.last_clamped) rows.set(row + last_node, last_momentum.lower[i], last_momentum.lower[i]);
+        break;
+      }
+      case NodeState::momentum:
+        variables.set_ends(layout.second_column(i), first_momentum, last_momentum, i);
+        break;
+      case NodeState::velocity:
+        variables.set_ends(layout.second_column(i), bounds.first.v, bounds.last.v, i);
+        break;
+    }
+    if (ends.first_has_velocity()) {
+      variables.set(layout.first_velocity(i), bounds.first.v.lower[i], bounds.first.v.upper[i]);
+    }
+    if (ends.last_has_velocity()) {
+      variables.set(layout.last_velocity(i), bounds.last.v.lower[i], bounds.last.v.upper[i]);
+    }
+  }
+  bound_controls(variables, bounds.u, layout);
+  if (layout.shape().mayer) variables.set(layout.cost_column(), 0.0, 0.0);
+  if (bounds.horizon.is_free()) variables.set(layout.horizon(), bounds.horizon.lower, bounds.horizon.upper);
+
+  const std::vector<Eigen::Index> velocities = bounds.bounded_velocities();
+  Eigen::Index row = layout.shape().private_rows;
+  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+    for (const Eigen::Index i : velocities) {
+      rows.set_column(layout.private_row_column(row++), last_node, bounds.v.lower[i], bounds.v.upper[i]);
+    }
+    for (Eigen::Index i = 0; i < traced.path_constraint_count(); ++i) {
+      rows.set_column(layout.private_row_column(row++), last_node, 0.0, unbounded);
+    }
+  }
+  return result;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,64 @@
+#include "methods/transcription/program_part.hpp"
+
+#include <utility>
+
+namespace dmocbench {
+
+namespace {
+
+/// The places of those rows that are not zero for every motion.
+std::vector<ColumnPlace> rows_there(const LocalFunctions& functions, const PartPlaces& places) {
+  std::vector<ColumnPlace> there;
+  for (const std::size_t row : functions.rows.places) there.push_back(places.rows[row]);
+  return there;
+}
+
+}  // namespace
+
+ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
+                         const Eigen::VectorXd& times, std::string_view derivatives)
+    : numbers_(functions.inputs),
+      places_(std::move(places)),
+      inputs_(functions.inputs.count()),
+      cost_(functions.cost, {0}, places_.derivatives.intervals, places_.derivatives.intervals),
+      rows_(functions.rows.schedule, rows_there(functions, places_), places_.row_count, places_.derivatives.intervals,
+            places_.derivatives.mode),
+      derivatives_(make_derivative_back_end(derivatives, functions, places_.derivatives)),
+      costs_(static_cast<Eigen::Index>(places_.derivatives.intervals)) {
+  inputs_[numbers_.step()] = {steps.data(), false};
+  inputs_[numbers_.time()] = {times.data(), false};
+  inputs_[numbers_.objective_factor()] = {&objective_factor_, true};
+}
+
+std::span<const Tape::Input> ProgramPart::bind(const VectorIn& x, const VectorIn& multipliers,
+                                               double objective_factor) {
+  for (std::size_t a = 0; a < numbers_.unknowns; ++a) {
+    inputs_[a] = {x.data() + places_.unknowns[a].first, places_.unknowns[a].shared};
+  }
+  objective_factor_ = objective_factor;
+  for (std::size_t r = 0; r < numbers_.rows && multipliers.size() > 0; ++r) {
+    inputs_[numbers_.multiplier(r)] = {multipliers.data() + places_.rows[r].first, false};
+  }
+  return inputs_;
+}
+
+double ProgramPart::cost(const VectorIn& x) {
+  cost_.evaluate(bind(x, no_multipliers_, 1.0), costs_);
+  return costs_.sum();
+}
+
+void ProgramPart::rows(const VectorIn& x, VectorOut result) { rows_.evaluate(bind(x, no_multipliers_, 1.0), result); }
+
+void ProgramPart::gradient(const VectorIn& x, VectorOut result) {
+  derivatives_->gradient(bind(x, no_multipliers_, 1.0), result);
+}
+
+void ProgramPart::jacobian(const VectorIn& x, VectorOut values) {
+  derivatives_->jacobian(bind(x, no_multipliers_, 1.0), values);
+}
+
+void ProgramPart::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
+  derivatives_->hessian(bind(x, multipliers, objective_factor), values);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/transcription/assembled_tape.hpp"
+#include "methods/transcription/derivative_back_end.hpp"
+#include "methods/transcription/local_functions.hpp"
+
+namespace dmocbench {
+
+/// Where the unknowns and rows of a part stand in the program's vectors, and its derivatives in the program's arrays.
+struct PartPlaces {
+  std::vector<ColumnPlace> unknowns;
+  std::vector<ColumnPlace> rows;
+  std::size_t variable_count = 0;
+  std::size_t row_count = 0;
+  DerivativePlaces derivatives;
+};
+
+/// A part of a program on numbers: the functions of an interval for all intervals, or those of the ends. Its inputs are
+/// the program's own vectors, read in place. Allocates nothing in an evaluation.
+class ProgramPart {
+ public:
+  /// `steps` and `times` are read in every evaluation, one entry per interval, and must outlive this object.
+  /// `derivatives` names a back end, see `make_derivative_back_end`.
+  ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
+              const Eigen::VectorXd& times, std::string_view derivatives);
+  // Inputs point into this object.
+  ProgramPart(const ProgramPart&) = delete;
+  ProgramPart& operator=(const ProgramPart&) = delete;
+  ProgramPart(ProgramPart&&) = delete;
+  ProgramPart& operator=(ProgramPart&&) = delete;
+  ~ProgramPart() = default;
+
+  /// The inputs of the formulas at a point (see `LocalInputs`); `multipliers` may be empty where no formula reads them.
+  /// Valid until the next call.
+  [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
+                                                  double objective_factor);
+
+  [[nodiscard]] double cost(const VectorIn& x);
+  // What these write, or add to, are the program's whole arrays.
+  void rows(const VectorIn& x, VectorOut result);
+  void gradient(const VectorIn& x, VectorOut result);
+  void jacobian(const VectorIn& x, VectorOut values);
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values);
+
+ private:
+  LocalInputs numbers_;
+  PartPlaces places_;
+  double objective_factor_ = 1.0;
+  Eigen::VectorXd no_multipliers_;
+  std::vector<Tape::Input> inputs_;
+  AssembledTape cost_;
+  AssembledTape rows_;
+  std::unique_ptr<DerivativeBackEnd> derivatives_;
+  Eigen::VectorXd costs_;  // per interval
+};
+
+}  // namespace dmocbench
