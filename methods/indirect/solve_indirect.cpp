@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -63,14 +62,10 @@ void require_smooth_class(const Problem& problem) {
     throw Error("the indirect method does not know " + what + ", which " + problem.name() +
                 " has; measure against a finer grid instead");
   };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto bounded = [](const Bounds& bounds) {
-    return (bounds.lower.array() > -infinity).any() || (bounds.upper.array() < infinity).any();
-  };
   if (!problem.initial_bounds().all_fixed() || !problem.final_bounds().all_fixed()) refuse("free or bounded ends");
   if (problem.horizon_bounds().is_free()) refuse("a free horizon");
-  if (bounded(problem.control_bounds())) refuse("bounds on the controls");
-  if (bounded(problem.configuration_bounds()) || bounded(problem.velocity_bounds())) refuse("bounds on the state");
+  if (problem.control_bounds().any()) refuse("bounds on the controls");
+  if (problem.configuration_bounds().any() || problem.velocity_bounds().any()) refuse("bounds on the state");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
 }

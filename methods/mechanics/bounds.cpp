@@ -19,6 +19,8 @@ Bounds Bounds::fixed(const Eigen::VectorXd& value) { return {value, value}; }
 
 bool Bounds::is_bounded(Eigen::Index i) const { return lower[i] > -infinity || upper[i] < infinity; }
 
+bool Bounds::any() const { return (lower.array() > -infinity).any() || (upper.array() < infinity).any(); }
+
 EndBounds EndBounds::fixed(const BoundaryState& state) { return {Bounds::fixed(state.q), Bounds::fixed(state.v)}; }
 
 EndBounds& EndBounds::free_configuration(Eigen::Index i) {

@@ -22,8 +22,9 @@ struct Bounds {
   [[nodiscard]] bool empty() const noexcept { return lower.size() == 0 && upper.size() == 0; }
   [[nodiscard]] bool is_fixed(Eigen::Index i) const { return lower[i] == upper[i]; }
   [[nodiscard]] bool all_fixed() const { return lower == upper; }
-  /// True if entry i has a finite bound on either side.
+  /// True if entry i, or any entry, has a finite bound on either side.
   [[nodiscard]] bool is_bounded(Eigen::Index i) const;
+  [[nodiscard]] bool any() const;
 };
 
 /// What is prescribed of the state at an end of the horizon.
