@@ -37,7 +37,8 @@ void print_problem(const Problem& problem) {
 }
 
 int print_all(const std::vector<std::string>& names, const std::vector<std::string>& settings) {
-  const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names, settings);  // refuses before anything is printed
+  const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
+                                          settings);  // refuses before anything is printed
   fmt::print("Problems (--problem)\n\n");
   for (const auto& problem : problems) {
     print_problem(*problem);

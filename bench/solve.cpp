@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/trace_file.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -21,7 +21,7 @@ class Solve final : public Experiment {
            "with several cases each NAME carries the case's label.";
   }
   [[nodiscard]] std::string default_intervals() const override { return "128"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override { return {"replay_error"}; }
+  [[nodiscard]] std::vector<std::string> own_columns() const override { return independent_check_columns(); }
   void add_options(CLI::App& app) override {
     app.add_option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
   }
@@ -46,11 +46,7 @@ class Solve final : public Experiment {
       write_file(trace_file_, trace_table(trace_, variables).csv());
     }
     if (!solved.trajectory) return;
-    try {
-      solved.row.set("replay_error", replay_error(*solved.what.problem, *solved.trajectory).norm());
-    } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
-    }
+    check_independently(solved);
     if (!is_solved(solved.solution.status)) return;
     motions_.push_back({solved.what, *solved.trajectory, solved.solution.multipliers_are_estimated});
   }

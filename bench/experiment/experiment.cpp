@@ -9,6 +9,7 @@
 
 #include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/problem_workers.hpp"
 #include "bench/experiment/progress.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_source.hpp"
@@ -22,6 +23,7 @@ constexpr int exit_solved = 0;
 constexpr int exit_some_failed = 1;
 constexpr int exit_bad_input = 2;
 constexpr int exit_interrupted = 130;
+constexpr int most_jobs = 256;
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -79,10 +81,10 @@ class Run {
     listen_for_interrupt();
     Progress progress(cases_.size());
     starts_.on_progress = [&](const std::string& what) { progress.show(what); };
-    for (std::size_t first = 0; first < cases_.size() && !interrupt_requested();) {
-      const std::size_t last = end_of_curve(cases_, first);
-      solve_curve(first, last, progress);
-      first = last;
+    if (options_.jobs > 1) {
+      solve_in_processes(progress);
+    } else {
+      solve_part(0, cases_.size(), progress);
     }
     const bool complete = !interrupt_requested();
     if (complete) experiment_.finish(table(), prefix_, metadata_);
@@ -104,6 +106,53 @@ class Run {
     return options;
   }
 
+  void solve_part(std::size_t first, std::size_t end, Progress& progress) {
+    while (first < end && !interrupt_requested()) {
+      const std::size_t last = end_of_curve(cases_, first);
+      solve_curve(first, last, progress);
+      first = last;
+    }
+  }
+
+  /// A process per problem; its rows come back in a file.
+  void solve_in_processes(Progress& progress) {
+    std::vector<std::size_t> heads;  // first case of every problem, then the end
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (i == 0 || cases_[i].problem != cases_[i - 1].problem) heads.push_back(i);
+    }
+    heads.push_back(cases_.size());
+    const std::filesystem::path whole = prefix_;
+    const auto part_of = [&](std::size_t i) { return whole.string() + "_part_" + std::to_string(i); };
+    const auto work = [&](std::size_t i) {
+      prefix_ = part_of(i);
+      rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
+      write_file(prefix_.string() + ".csv", table().csv());
+      solve_part(heads[i], heads[i + 1], progress);
+    };
+    const auto collect = [&](std::size_t i) {
+      const std::filesystem::path file = part_of(i) + ".csv";
+      const Table part = Table::from_csv(read_file(file));
+      std::filesystem::remove(file);
+      for (const Row& row : part.rows()) keep(row, heads[i], heads[i + 1], progress);
+      write_file(whole.string() + ".csv", table().csv());
+    };
+    for_each_in_processes(heads.size() - 1, static_cast<std::size_t>(options_.jobs), work, collect);
+  }
+
+  void keep(const Row& row, std::size_t first, std::size_t end, Progress& progress) {
+    while (first < end && rows_[first]) ++first;
+    if (first == end) throw Error("a process wrote more rows than it had cases");
+    rows_[first] = row;
+    count(row);
+    progress.advance();
+    progress.show(row.text("problem"));
+  }
+
+  void count(const Row& row) {
+    if (!is_solved(status_named(row.text("status")))) ++failures_;
+    if (row.text("branch") == "other") ++other_branch_;
+  }
+
   void solve_curve(std::size_t first, std::size_t last, Progress& progress) {
     const std::vector<Case> curve = part(cases_, first, last);
     for (const std::size_t position : experiment_.solving_order(curve)) {
@@ -112,8 +161,7 @@ class Run {
       SolvedCase solved = solve(what, progress);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // half a solve is no row
       experiment_.complete(solved);
-      if (!is_solved(solved.solution.status)) ++failures_;
-      if (solved.row.text("branch") == "other") ++other_branch_;
+      count(solved.row);
       rows_[first + position] = std::move(solved.row);
       write_file(prefix_.string() + ".csv", table().csv());
       progress.advance();
@@ -123,7 +171,8 @@ class Run {
   /// The solved case; without a start its row says so, and the run goes on.
   SolvedCase solve(const Case& what, const Progress& progress) {
     try {
-      const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
+      const Start start{.motion = experiment_.start_for(what, starts_.motion_for(what)),
+                        .branch = starts_.branch_for(what)};
       progress.show(what.label());
       return solve_case(what, start, experiment_.options_for(what, solver_options_), options_.repeats,
                         experiment_.polishes());
@@ -189,6 +238,11 @@ int run_experiment(Experiment& experiment, int argc, char** argv) {
   options.name = experiment.name();
   experiment.set_defaults(options);
   add_options(app, options);
+  if (experiment.problems_are_independent()) {
+    app.add_option("--jobs", options.jobs, "problems worked on at the same time, each in a process of its own")
+        ->check(CLI::Range(1, most_jobs))
+        ->capture_default_str();
+  }
   experiment.add_options(app);
   return run_program(app, argc, argv, [&] {
     Run run(experiment, options, std::vector<std::string>(argv, argv + argc));

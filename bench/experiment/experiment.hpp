@@ -41,6 +41,10 @@ class Experiment {
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
+  /// The motion that a case starts from; by default the one that --start names.
+  [[nodiscard]] virtual Motion start_for(const Case& /*what*/, Motion chosen) const { return chosen; }
+  /// Whether problems may be worked on at the same time (--jobs): rows of one need nothing of another's.
+  [[nodiscard]] virtual bool problems_are_independent() const { return false; }
   /// Whether solved cases are tightened by Newton steps (polish.hpp).
   [[nodiscard]] virtual bool polishes() const { return false; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.

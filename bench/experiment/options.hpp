@@ -29,6 +29,7 @@ struct ExperimentOptions {
   std::string start = "common";        ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
   int most_iterations = SolverOptions{}.most_iterations;
+  int jobs = 1;     ///< problems worked on at the same time, where an experiment allows it
   int repeats = 1;  ///< solves per row; times are their medians
   bool verbose = false;
   std::filesystem::path out = "results";

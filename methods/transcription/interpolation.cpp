@@ -42,6 +42,15 @@ Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
   return integral;
 }
 
+/// The polynomial through the stages of an interval, from their table.
+Eigen::VectorXd stage_polynomial(const Trajectory& trajectory, const Eigen::MatrixXd& stages, Eigen::Index interval,
+                                 double t) {
+  const Eigen::Index s = trajectory.stages();
+  const double left = trajectory.node_times[interval];
+  const double tau = (t - left) / (trajectory.node_times[interval + 1] - left);
+  return stages.middleRows(interval * s, s).transpose() * lagrange(trajectory.tableau.c, tau);
+}
+
 }  // namespace
 
 std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
@@ -63,10 +72,11 @@ Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {
 }
 
 Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
-  const Eigen::Index s = trajectory.stages();
-  const double left = trajectory.node_times[interval];
-  const double tau = (t - left) / (trajectory.node_times[interval + 1] - left);
-  return trajectory.stage_u.middleRows(interval * s, s).transpose() * lagrange(trajectory.tableau.c, tau);
+  return stage_polynomial(trajectory, trajectory.stage_u, interval, t);
+}
+
+Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
+  return stage_polynomial(trajectory, trajectory.stage_v, interval, t);
 }
 
 Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {

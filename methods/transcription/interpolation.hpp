@@ -34,6 +34,9 @@ enum class Side : std::uint8_t { left, right };
 /// `interval` names, constant for one stage.
 [[nodiscard]] Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
 
+/// The slope of the element's own polynomial of the configuration in the interval that `interval` names, n entries.
+[[nodiscard]] Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
+
 /// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as
 /// control.
 [[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);

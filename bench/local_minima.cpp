@@ -1,0 +1,98 @@
+// Which local minima there are and how often each method falls into which: "Global Minima", section 4.1 of the paper.
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
+#include "bench/experiment/perturbed_guess.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/summary/minima.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+class LocalMinima final : public Experiment {
+ public:
+  [[nodiscard]] std::string name() const override { return "local_minima"; }
+  [[nodiscard]] std::string description() const override {
+    return "Solves every case from many perturbed guesses; the minima found and how often each method ends in which "
+           "(NAME_minima.csv), and how often it finds the best one, with a confidence interval (NAME_shares.csv).";
+  }
+  [[nodiscard]] std::string default_intervals() const override { return "64"; }
+  void set_defaults(ExperimentOptions& options) const override {
+    options.start = "guess";
+    options.jobs = 2;
+  }
+  [[nodiscard]] bool problems_are_independent() const override { return true; }
+  [[nodiscard]] std::vector<std::string> own_columns() const override {
+    std::vector<std::string> columns{"start"};
+    columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
+    return columns;
+  }
+  void add_options(CLI::App& app) override {
+    app.add_option("--starts", starts_, "starts per case: the guess, and perturbed ones")
+        ->check(CLI::Range(1LL, most_starts))
+        ->capture_default_str();
+    app.add_option("--seed", seed_, "of the random curves; the same seed gives the same starts")->capture_default_str();
+    app.add_option("--amplitude", amplitude_, "of the random curves, relative to the range of each coordinate")
+        ->check(CLI::Range(0.0, largest_amplitude))
+        ->capture_default_str();
+  }
+  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    std::vector<Case> all;
+    for (const Case& what : curve) {
+      for (long long start = 0; start < starts_; ++start) {
+        all.push_back(what);
+        all.back().variant = std::to_string(start);
+      }
+    }
+    return all;
+  }
+  /// All methods and grids start from the same curves.
+  [[nodiscard]] Motion start_for(const Case& what, Motion chosen) const override {
+    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(what.variant)));
+  }
+
+  void complete(SolvedCase& solved) override {
+    solved.row.set("start", solved.what.variant);
+    if (is_solved(solved.solution.status) && solved.trajectory) check_independently(solved);
+  }
+
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    const Table minima = distinct_minima(table, separation, confirmed_replay);
+    const Table shares = best_minimum_shares(table, separation, confirmed_replay);
+    write_file(prefix.string() + "_minima.csv", minima.csv());
+    write_file(prefix.string() + "_shares.csv", shares.csv());
+    metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
+    for (const Row& row : shares.rows()) {
+      fmt::print("{} {}: best minimum in {} of {} ({:.0f} to {:.0f} %)\n", row.text("problem"), row.text("method"),
+                 row.text("best"), row.text("starts"), 100.0 * row.number("share_lower").value_or(0.0),
+                 100.0 * row.number("share_upper").value_or(1.0));
+    }
+  }
+
+ private:
+  static constexpr long long most_starts = 100000;
+  static constexpr double largest_amplitude = 10.0;
+  // Costs of one minimum by different methods differ by less than this share, those of different minima by more.
+  static constexpr double separation = 0.01;
+  // A spurious minimum of the grid is no motion: a replay ends far away.
+  static constexpr double confirmed_replay = 0.3;
+
+  long long starts_ = 20;
+  std::uint64_t seed_ = 1;
+  double amplitude_ = 0.5;
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::LocalMinima experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
+}

@@ -1,0 +1,59 @@
+#include "methods/diagnostics/control_hamiltonian.hpp"
+
+#include <algorithm>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// ∂Φ/∂T, of a point with its own inputs: the time of a point function is the last of them.
+double final_cost_by_time(const Problem& problem, const Trajectory& trajectory) {
+  PointFunction rate(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
+    ExpressionVector time(1);
+    time << x.t;
+    return gradient(problem.final_cost(x.state()), time);
+  });
+  const Eigen::Index last = trajectory.intervals();
+  Eigen::VectorXd value(1);
+  rate.evaluate(trajectory.q.row(last).transpose(), trajectory.v.row(last).transpose(), Eigen::VectorXd(),
+                trajectory.node_times[last], value);
+  return value[0];
+}
+
+}  // namespace
+
+Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& trajectory) {
+  if (!trajectory.has_costates()) throw Error("the control Hamiltonian needs costates: a solver with multipliers");
+  const TracedProblem traced(problem);
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction rates(n, traced.control_size(), [&](const ControlledState& x) {  // C, then ṗ
+    const TracedProblem::Values values = traced.at(x);
+    ExpressionVector outputs(1 + n);
+    outputs << values.running_cost, values.generalised_force;
+    return outputs;
+  });
+  Eigen::VectorXd hamiltonian(trajectory.node_times.size());
+  Eigen::VectorXd outputs(1 + n);
+  for (Eigen::Index k = 0; k < hamiltonian.size(); ++k) {
+    const double t = trajectory.node_times[k];
+    const Eigen::Index interval = std::min(k, trajectory.intervals() - 1);
+    rates.evaluate(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(),
+                   control_on_interval(trajectory, interval, t), t, outputs);
+    hamiltonian[k] =
+        outputs[0] + trajectory.psi_q.row(k).dot(trajectory.v.row(k)) + trajectory.psi_p.row(k).dot(outputs.tail(n));
+  }
+  return hamiltonian;
+}
+
+double free_horizon_residual(const Problem& problem, const Trajectory& trajectory) {
+  const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
+  return hamiltonian[hamiltonian.size() - 1] + final_cost_by_time(problem, trajectory);
+}
+
+}  // namespace dmocbench
