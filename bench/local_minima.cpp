@@ -27,6 +27,7 @@ class LocalMinima final : public Experiment {
     options.start = "guess";
     options.jobs = 2;
   }
+  [[nodiscard]] bool tells_branches() const override { return false; }
   [[nodiscard]] bool problems_are_independent() const override { return true; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
     std::vector<std::string> columns{"start"};

@@ -172,7 +172,7 @@ class Run {
   SolvedCase solve(const Case& what, const Progress& progress) {
     try {
       const Start start{.motion = experiment_.start_for(what, starts_.motion_for(what)),
-                        .branch = starts_.branch_for(what)};
+                        .branch = experiment_.tells_branches() ? starts_.branch_for(what) : std::nullopt};
       progress.show(what.label());
       return solve_case(what, start, experiment_.options_for(what, solver_options_), options_.repeats,
                         experiment_.polishes());

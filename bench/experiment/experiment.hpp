@@ -43,6 +43,8 @@ class Experiment {
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
   /// The motion that a case starts from; by default the one that --start names.
   [[nodiscard]] virtual Motion start_for(const Case& /*what*/, Motion chosen) const { return chosen; }
+  /// Whether rows tell their branch; to know it takes the solves of a common start.
+  [[nodiscard]] virtual bool tells_branches() const { return true; }
   /// Whether problems may be worked on at the same time (--jobs): rows of one need nothing of another's.
   [[nodiscard]] virtual bool problems_are_independent() const { return false; }
   /// Whether solved cases are tightened by Newton steps (polish.hpp).
