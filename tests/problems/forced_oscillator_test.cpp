@@ -52,7 +52,7 @@ TEST(ForcedOscillator, ApproachesItsOptimumWithTwiceTheNumberOfStages) {
 
 TEST(ForcedOscillator, MovesAndIsDrivenAsTheClosedFormSays) {
   const ForcedOscillator problem;
-  const Trajectory motion = tests::solve(problem, {"dmoc", 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
+  const Trajectory motion = tests::solve(problem, {"dmoc", 4}, Grid::uniform(16), guessed_motion(problem)).trajectory;
   for (Eigen::Index k = 0; k <= motion.intervals(); ++k) {
     const double t = motion.node_times[k];
     EXPECT_NEAR(motion.q(k, 0), (std::sin(t) - t * std::cos(t)) / pi, 1e-9);
