@@ -49,7 +49,7 @@ class StageOrders : public testing::TestWithParam<std::tuple<std::string, Orders
 TEST_P(StageOrders, AreLowerThanThatOfTheNodes) {
   const auto& [method, expected] = GetParam();
   std::map<std::string, std::vector<GridError>> errors;
-  for (const Eigen::Index intervals : {64, 80, 96, 128}) {
+  for (const Eigen::Index intervals : {64, 96, 128, 192}) {
     const Trajectory trajectory = polished({method, expected.stages, expected.family}, intervals);
     const Trajectory reference = exact().sampled_like(trajectory);
     const TrajectoryError error = trajectory_error(trajectory, reference);
