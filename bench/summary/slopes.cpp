@@ -156,10 +156,8 @@ Fit above_the_floor(const Curve& curve, const std::string& column, const std::op
     is_above = is_above && asymptotic.points[i].error > limit;
     return is_above;
   });
-  if (asymptotic.points.size() < fewest_grids) {
-    fit.verdict = "few grids";
-  } else if (fit.errors.points.size() < fewest_grids) {
-    fit.verdict = "floor";
+  if (fit.errors.points.size() < fewest_grids) {
+    fit.verdict = fit.errors.points.size() < asymptotic.points.size() ? "floor" : "few grids";
   }
   return fit;
 }

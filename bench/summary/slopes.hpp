@@ -20,9 +20,9 @@ constexpr long long exact_reference = -1;
 /// Fitted slopes, and what a reader should know about them.
 struct SlopeTable {
   /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points,floor,verdict; finest and
-  /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope", or
-  /// "floor" where too few grids lie above the floor: such a row has no slope. `floor` is empty where none was
-  /// measured.
+  /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope",
+  /// "floor" where too few grids lie above the floor (such a row has no slope), or "few grids" where there are too few
+  /// of them anyway. `floor` is empty where none was measured.
   Table table;
   std::vector<std::string> notes;
 };

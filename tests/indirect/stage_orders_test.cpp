@@ -44,36 +44,43 @@ class StageOrders : public testing::TestWithParam<std::tuple<std::string, Orders
     polish(*solved.transcription, solved.solution);
     return read_trajectory(*solved.transcription, solved.solution.primal, solved.solution.multipliers);
   }
+  static std::map<std::string, double> errors_of(const tests::Scheme& scheme, Eigen::Index intervals) {
+    const Trajectory trajectory = polished(scheme, intervals);
+    const Trajectory reference = exact().sampled_like(trajectory);
+    const TrajectoryError error = trajectory_error(trajectory, reference);
+    EXPECT_TRUE(error.stages.has_value());
+    const StageError stages = error.stages.value_or(StageError());
+    return {{"q", error.state},
+            {"p", error.momentum},
+            {"psi", error.costate.value_or(0.0)},
+            {"u(x, psi)", node_control_error(problem(), trajectory, reference)},
+            {"Q", stages.configuration},
+            {"Psi_p", stages.costate_p.value_or(0.0)},
+            {"U", error.control},
+            {"P", stages.momentum},
+            {"Psi_q", stages.costate_q.value_or(0.0)}};
+  }
 };
+
+void expect_order(const std::map<std::string, std::vector<GridError>>& errors,
+                  const std::vector<std::string>& quantities, double order) {
+  for (const std::string& quantity : quantities) {
+    const double slope = fit_order(errors.at(quantity)).value_or(FittedOrder()).slope;
+    EXPECT_NEAR(slope, order, 0.35) << quantity;
+  }
+}
 
 TEST_P(StageOrders, AreLowerThanThatOfTheNodes) {
   const auto& [method, expected] = GetParam();
   std::map<std::string, std::vector<GridError>> errors;
   for (const Eigen::Index intervals : {64, 96, 128, 192}) {
-    const Trajectory trajectory = polished({method, expected.stages, expected.family}, intervals);
-    const Trajectory reference = exact().sampled_like(trajectory);
-    const TrajectoryError error = trajectory_error(trajectory, reference);
-    const auto add = [&](const char* quantity, double value) {
-      errors[quantity].push_back({1.0 / static_cast<double>(intervals), value});
-    };
-    add("q", error.state);
-    add("p", error.momentum);
-    add("psi", error.costate.value());
-    add("u(x, psi)", node_control_error(problem(), trajectory, reference));
-    add("Q", error.stages.value().configuration);
-    add("Psi_p", error.stages->costate_p.value());
-    add("U", error.control);
-    add("P", error.stages->momentum);
-    add("Psi_q", error.stages->costate_q.value());
-  }
-  const auto expect_order = [&](std::initializer_list<const char*> quantities, double order) {
-    for (const char* quantity : quantities) {
-      EXPECT_NEAR(fit_order(errors[quantity]).value().slope, order, 0.35) << quantity;
+    for (const auto& [quantity, error] : errors_of({method, expected.stages, expected.family}, intervals)) {
+      errors[quantity].push_back({1.0 / static_cast<double>(intervals), error});
     }
-  };
-  expect_order({"q", "p", "psi", "u(x, psi)"}, expected.nodes);
-  expect_order({"Q", "Psi_p", "U"}, expected.collocated);
-  expect_order({"P", "Psi_q"}, expected.conjugate);
+  }
+  expect_order(errors, {"q", "p", "psi", "u(x, psi)"}, expected.nodes);
+  expect_order(errors, {"Q", "Psi_p", "U"}, expected.collocated);
+  expect_order(errors, {"P", "Psi_q"}, expected.conjugate);
 }
 
 // Gauss is its own conjugate: s + 1 for all. Lobatto: min(2s - 2, s + 1) and s - 1.
