@@ -39,8 +39,9 @@ class Convergence final : public Experiment {
   [[nodiscard]] std::string description() const override {
     return "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
            "indirect "
-           "solution (NAME_reference.csv), with fitted slopes (NAME_slopes.csv) and the cost of equal accuracy "
-           "(NAME_equal_accuracy.csv).";
+           "solution (NAME_reference.csv, where stage values have errors too), with fitted slopes (NAME_slopes.csv) "
+           "and "
+           "the cost of equal accuracy (NAME_equal_accuracy.csv).";
   }
   [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
@@ -51,7 +52,11 @@ class Convergence final : public Experiment {
             "objective_error",
             "replay_error",
             "control_from_costate_error",
-            "polish_steps"};
+            "polish_steps",
+            "stage_configuration_error",
+            "stage_momentum_error",
+            "stage_costate_q_error",
+            "stage_costate_p_error"};
   }
   [[nodiscard]] bool polishes() const override { return polishes_; }
   void add_options(CLI::App& app) override {
@@ -143,6 +148,12 @@ class Convergence final : public Experiment {
     row.set("momentum_error", error.momentum);
     row.set("costate_error", error.costate);
     row.set("objective_error", error.objective);
+    if (error.stages) {
+      row.set("stage_configuration_error", error.stages->configuration);
+      row.set("stage_momentum_error", error.stages->momentum);
+      row.set("stage_costate_q_error", error.stages->costate_q);
+      row.set("stage_costate_p_error", error.stages->costate_p);
+    }
     if (!error.costate) return;
     try {
       row.set("control_from_costate_error", node_control_error(problem, trajectory, reference));

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "methods/error.hpp"
+#include "problems/forced_oscillator.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/two_link_manipulator.hpp"
 
@@ -21,6 +22,7 @@ using Maker = std::unique_ptr<Problem> (*)();
 constexpr std::array registry{
     Maker{make<OrbitalTransfer>},
     Maker{make<TwoLinkManipulator>},
+    Maker{make<ForcedOscillator>},
 };
 
 }  // namespace

@@ -13,6 +13,8 @@ std::string_view name_of(Verdict verdict) noexcept {
       return "reproduced";
     case Verdict::differs:
       return "differs";
+    case Verdict::floor:
+      return "floor";
     case Verdict::not_yet:
       return "not yet";
   }

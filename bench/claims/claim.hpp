@@ -14,10 +14,11 @@ namespace dmocbench {
 enum class Verdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
+  floor,       ///< all that was measured is rounding: nothing can be said
   not_yet,     ///< there is no experiment for it, or its table is not there
 };
 
-/// "reproduced", "differs" or "not yet".
+/// "reproduced", "differs", "floor" or "not yet".
 [[nodiscard]] std::string_view name_of(Verdict verdict) noexcept;
 
 /// The tables of a results folder by their names without ".csv".

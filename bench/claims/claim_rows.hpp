@@ -11,6 +11,8 @@ namespace dmocbench {
 
 inline constexpr const char* orbit = "orbital_transfer";
 inline constexpr const char* two_link = "two_link_manipulator";
+/// Ours, with a constant mass matrix.
+inline constexpr const char* oscillator = "forced_oscillator";
 
 using Rows = std::vector<const Row*>;
 

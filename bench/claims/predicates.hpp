@@ -22,8 +22,16 @@ namespace dmocbench {
 [[nodiscard]] Claim consistency_claim(const ResultTables& tables, const std::string& problem);
 /// Equal solutions of DMOC and Hamiltonian collocation.
 [[nodiscard]] Claim equality_claim(const ResultTables& tables, const std::string& problem);
-/// Different solutions of tangent-space collocation.
+/// Different solutions of tangent-space collocation, and the order of the difference.
 [[nodiscard]] Claim difference_claim(const ResultTables& tables, const std::string& problem);
+/// Equal solutions of tangent-space collocation by Gauss where the mass is constant.
+[[nodiscard]] Claim coincidence_claim(const ResultTables& tables);
+/// Order of state, momentum, costate and u(x, ψ) at the nodes.
+[[nodiscard]] Claim convergence_order_claim(const ResultTables& tables, const std::string& problem);
+/// The adjoint scheme: its residual on solved multipliers, and the order of the costates.
+[[nodiscard]] Claim adjoint_order_claim(const ResultTables& tables, const std::string& problem);
+/// The lower order of the stage controls.
+[[nodiscard]] Claim stage_control_claim(const ResultTables& tables, const std::string& problem);
 /// The ratio of the numbers of variables.
 [[nodiscard]] Claim variable_claim(const ResultTables& tables, const std::string& problem);
 /// The optimal cost over the grids.

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +24,10 @@ constexpr double rounding_of_balance = 1e-11;
 constexpr double clearly_larger = 1e3;
 
 constexpr double equal_solutions_tolerance = 1e-9;
+constexpr double equal_costates_tolerance = 1e-8;
 constexpr double foreign_rows_tolerance = 1e-10;
+/// A fitted slope may miss its order by this much.
+constexpr double near_order = 0.3;
 
 }  // namespace
 
@@ -65,15 +71,14 @@ Claim consistency_claim(const ResultTables& tables, const std::string& problem) 
 
 Claim equality_claim(const ResultTables& tables, const std::string& problem) {
   Claim claim{.id = problem + "/equal_solutions",
-              .where = "th:equi, ex:RK a)",
-              .paper = "DMOC and Hamiltonian midpoint collocation have equal solutions",
+              .where = "th:equi, equ_L_RK, ex:RK",
+              .paper = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
               .measured = "",
               .verdict = Verdict::not_yet};
-  const Rows rows = midpoint_rows(tables.rows("equivalence", problem), "hamiltonian");
+  const Rows rows = rows_with(tables.rows("equivalence", problem), "method", "hamiltonian");
   if (rows.empty()) return claim;
-  const double configuration = largest(rows, "configuration_difference");
-  const double objective = largest(rows, "objective_difference");
   bool rows_agree = true;
+  std::set<std::string> tableaus;
   for (const Row* row : rows) {
     const auto left = [&](const char* violation, const char* rounding) {
       const auto value = row->number(violation);
@@ -81,13 +86,24 @@ Claim equality_claim(const ResultTables& tables, const std::string& problem) {
     };
     rows_agree = rows_agree && left("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
                  left("violation_of_dmoc_here", "rounding_here");
+    tableaus.insert(row->text("tableau") + row->text("stages"));
   }
-  claim.measured =
-      fmt::format("on {} grids, relative: q {:.0e}, p {:.0e}, u {:.0e}, J {:.0e}; answers in the other's rows leave {}",
-                  rows.size(), configuration, largest(rows, "momentum_difference"), largest(rows, "control_difference"),
-                  objective, rows_agree ? "rounding" : "more than rounding");
-  claim.verdict = verdict_of(configuration < equal_solutions_tolerance && objective < equal_solutions_tolerance &&
-                             rows_agree && count_unusable(rows) == 0);
+  std::vector<std::string> found;
+  double worst = 0.0;
+  for (const auto& [column, symbol] :
+       {std::pair{"configuration_difference", "q"}, std::pair{"momentum_difference", "p"},
+        std::pair{"control_difference", "u"}, std::pair{"objective_difference", "J"}}) {
+    const double difference = largest(rows, column);
+    found.push_back(fmt::format("{} {:.0e}", symbol, difference));
+    worst = std::max(worst, difference);
+  }
+  const double costates = largest(rows, "costate_difference");
+  claim.measured = fmt::format(
+      "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}; answers in the other's rows leave "
+      "{}",
+      rows.size(), tableaus.size(), fmt::join(found, ", "), costates, rows_agree ? "rounding" : "more than rounding");
+  claim.verdict = verdict_of(worst < equal_solutions_tolerance && costates < equal_costates_tolerance && rows_agree &&
+                             count_unusable(rows) == 0);
   return claim;
 }
 
@@ -104,9 +120,42 @@ Claim difference_claim(const ResultTables& tables, const std::string& problem) {
   const double fine = largest({rows.back()}, "configuration_difference");
   claim.measured = fmt::format("relative difference in q {:.1e} at N = {}, {:.1e} at N = {}", coarse,
                                rows.front()->text("intervals"), fine, rows.back()->text("intervals"));
+  bool has_order = false;
+  for (const Row* row : rows_with(tables.rows("equivalence_slopes", problem), "tableau", "gauss")) {
+    if (row->text("verdict") != "slope") continue;
+    const double slope = row->number("slope").value_or(0.0);
+    claim.measured += fmt::format("{} s = {}: {:.2f}", has_order ? "," : "; slopes", row->text("stages"), slope);
+    has_order = true;
+    if (!(std::abs(slope - 2.0 * row->number("stages").value_or(0.0)) < near_order)) {
+      claim.verdict = Verdict::differs;
+      return claim;
+    }
+  }
   claim.verdict =
-      verdict_of(fine > equal_solutions_tolerance / 10.0 && coarse > clearly_larger * equal_solutions_tolerance &&
-                 fine < coarse && count_unusable(rows) == 0);
+      verdict_of(has_order && fine > equal_solutions_tolerance / 10.0 &&
+                 coarse > clearly_larger * equal_solutions_tolerance && fine < coarse && count_unusable(rows) == 0);
+  return claim;
+}
+
+Claim coincidence_claim(const ResultTables& tables) {
+  Claim claim{.id = std::string(oscillator) + "/tangent_coincides",
+              .where = "section 4.2, ex:RK",
+              .paper = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
+              .measured = "",
+              .verdict = Verdict::not_yet};
+  const Rows rows =
+      rows_with(rows_with(tables.rows("equivalence", oscillator), "method", "tangent"), "tableau", "gauss");
+  if (rows.empty()) return claim;
+  double worst = 0.0;
+  for (const char* column :
+       {"configuration_difference", "momentum_difference", "control_difference", "objective_difference"}) {
+    worst = std::max(worst, largest(rows, column));
+  }
+  claim.measured = fmt::format("largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}",
+                               rows.size(), worst, largest(rows, "costate_difference"));
+  claim.verdict =
+      verdict_of(worst < equal_solutions_tolerance && largest(rows, "costate_difference") < equal_costates_tolerance &&
+                 count_unusable(rows) == 0);
   return claim;
 }
 

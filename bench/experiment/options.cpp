@@ -61,16 +61,28 @@ std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   return tableaus;
 }
 
+bool is_offered(const std::string& tableau, int stages) {
+  const std::vector<int> known = tableau_stages(tableau);
+  return std::find(known.begin(), known.end(), stages) != known.end();
+}
+
+/// Throws `Error` if none of the tableaus is offered with one of the numbers of stages.
+void require_offered(const std::vector<std::string>& tableaus, const std::vector<int>& stages) {
+  for (const int s : stages) {
+    if (std::any_of(tableaus.begin(), tableaus.end(), [&](const auto& tableau) { return is_offered(tableau, s); })) {
+      continue;
+    }
+    const std::string& tableau = tableaus.front();
+    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", tableau,
+                            fmt::join(tableau_stages(tableau), ", "), s));
+  }
+}
+
+/// The chosen numbers of stages that a tableau is offered with, ascending, each once.
 std::vector<int> sorted_stages(std::vector<int> stages, const std::string& tableau) {
   std::sort(stages.begin(), stages.end());
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
-  const std::vector<int> known = tableau_stages(tableau);
-  for (const int s : stages) {
-    if (std::find(known.begin(), known.end(), s) == known.end()) {
-      throw Error(
-          fmt::format("--stages: {} is offered with {} stages, not with {}", tableau, fmt::join(known, ", "), s));
-    }
-  }
+  std::erase_if(stages, [&](int s) { return !is_offered(tableau, s); });
   return stages;
 }
 
@@ -87,7 +99,9 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
          "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
          "the tables then call lobatto_shared")
       ->capture_default_str();
-  app.add_option("--stages", options.stages, "numbers of stages s")->delimiter(',')->capture_default_str();
+  app.add_option("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--solver", options.solvers, "solvers, as `list` names them")->delimiter(',')->capture_default_str();
   app.add_option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
       ->delimiter(',')
@@ -154,6 +168,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
   const auto tableaus = in_order("tableau", chosen_tableaus(options), tableau_names());
+  require_offered(tableaus, options.stages);
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());

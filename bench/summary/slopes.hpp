@@ -19,21 +19,32 @@ constexpr long long exact_reference = -1;
 
 /// Fitted slopes, and what a reader should know about them.
 struct SlopeTable {
-  /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points; finest and coarsest are
-  /// numbers of intervals, quantities are the columns of errors without "_error".
+  /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points,floor,verdict; finest and
+  /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope",
+  /// "floor" where too few grids lie above the floor (such a row has no slope), or "few grids" where there are too few
+  /// of them anyway. `floor` is empty where none was measured.
   Table table;
   std::vector<std::string> notes;
 };
 
 /// Slopes of log(error) over log(step) for every curve and every error of a convergence table.
 ///
-/// Without a range, grids from N = 32 (64 with more than one stage: the start of the asymptotic range on the two-link)
-/// to a quarter of the reference are taken: against a reference of N_ref intervals an error of order 2 is proportional
-/// to h² - h_ref², which bends the slope of finer grids; a range that goes beyond gets a note. `reference` is the
-/// reference's number of intervals, 0 for the finest grid of a curve; `exact_reference` bends nothing, and grids are
-/// taken up to the finest one, or to where an error reaches rounding or begins to fall at less than two thirds of its
-/// order before: there it is the solver's tolerance. Errors at the level of rounding are left out.
+/// Against a finer grid: without a range, grids from N = 32 (64 with more than one stage) to a quarter of the reference
+/// are taken: against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which bends
+/// the slope of finer grids; a range that goes beyond gets a note. Errors at the level of rounding are left out.
+/// `reference` is the reference's number of intervals, 0 for the finest grid of a curve.
+///
+/// Against an `exact_reference` nothing is bent: grids are taken from the start of the asymptotic range on (measured:
+/// the orbit N = 16, else 32 with one stage, 64 with several, 96 for order 8) while the error is above 100 times the
+/// floor, and there must be four of them. The floor is measured: the median of the errors on a curve's finest grids,
+/// where they fall with less than half the order before; the smallest floor of a problem's and method's curves holds
+/// for all of them. With a range, every error in it is taken.
 [[nodiscard]] SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& range,
                                     long long reference);
+
+/// Slopes over the step of a column of differences from DMOC (a table of `equivalence`) for every curve of
+/// tangent-space collocation, in the columns and by the rules of an exact reference. The floor is the largest such
+/// difference of Hamiltonian collocation on the same problem: by (th:equi) that is rounding.
+[[nodiscard]] Table fit_differences(const Table& equivalence, const std::string& quantity);
 
 }  // namespace dmocbench

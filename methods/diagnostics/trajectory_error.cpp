@@ -7,6 +7,31 @@
 
 namespace dmocbench {
 
+namespace {
+
+double largest_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& reference) {
+  return (values - reference).rowwise().norm().maxCoeff();
+}
+
+StageError stage_error(const Trajectory& trajectory, const Trajectory& reference) {
+  StageError error{.configuration = largest_distance(trajectory.stage_q, reference.stage_q),
+                   .momentum = largest_distance(trajectory.stage_p, reference.stage_p),
+                   .costate_q = {},
+                   .costate_p = {}};
+  if (trajectory.has_costates() && reference.has_costates()) {
+    error.costate_q = largest_distance(trajectory.stage_psi_q, reference.stage_psi_q);
+    error.costate_p = largest_distance(trajectory.stage_psi_p, reference.stage_psi_p);
+  }
+  return error;
+}
+
+bool has_same_stages(const Trajectory& trajectory, const Trajectory& reference) {
+  return trajectory.stage_p.rows() > 0 && trajectory.stage_p.rows() == reference.stage_p.rows() &&
+         trajectory.stage_times == reference.stage_times;
+}
+
+}  // namespace
+
 TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference) {
   TrajectoryError error;
   const bool compare_costates = trajectory.has_costates() && reference.has_costates();
@@ -33,6 +58,7 @@ TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory&
         control_at(reference, trajectory.stage_times[i] * stretch, ends_interval ? Side::left : Side::right);
     error.control = std::max(error.control, (trajectory.stage_u.row(i).transpose() - u).norm());
   }
+  if (has_same_stages(trajectory, reference)) error.stages = stage_error(trajectory, reference);
   error.objective = std::abs(trajectory.cost - reference.cost);
   return error;
 }

@@ -6,6 +6,14 @@
 
 namespace dmocbench {
 
+/// Largest differences at the stages, Euclidean norm.
+struct StageError {
+  double configuration = 0.0;       ///< of Q_i
+  double momentum = 0.0;            ///< of P_i
+  std::optional<double> costate_q;  ///< of Ψ^q_i; none without multipliers
+  std::optional<double> costate_p;  ///< of Ψ^p_i
+};
+
 /// Largest differences between a trajectory and a reference, Euclidean norm as in section 4.2 of the paper.
 struct TrajectoryError {
   double state = 0.0;     ///< max over the nodes of |q(t_k) - q_ref(t_k)|
@@ -13,6 +21,9 @@ struct TrajectoryError {
   double control = 0.0;   ///< max over the stages of |u - u_ref| at the stage times
   std::optional<double> costate;  ///< max over the nodes of |ψ - ψ_ref|, ψ = (ψ_q, ψ_p); none without multipliers
   double objective = 0.0;         ///< |J - J_ref|
+  /// None unless the reference is given at the same stage times: stage values have an order of their own, which a value
+  /// interpolated between other stages would hide.
+  std::optional<StageError> stages;
 };
 
 /// Errors against a reference on a finer grid. Controls are compared at the coarse grid's stage times, the reference's

@@ -121,14 +121,19 @@ Trajectory IndirectSolution::sampled_like(const Trajectory& trajectory) const {
     sampled.psi_q.row(k) = point.psi_q.transpose();
     sampled.psi_p.row(k) = point.psi_p.transpose();
   }
-  sampled.stage_q.resize(stages, n);
-  sampled.stage_v.resize(stages, n);
+  for (Eigen::MatrixXd* table :
+       {&sampled.stage_q, &sampled.stage_v, &sampled.stage_p, &sampled.stage_psi_q, &sampled.stage_psi_p}) {
+    table->resize(stages, n);
+  }
   sampled.stage_u.resize(stages, function_->control_size());
   for (Eigen::Index i = 0; i < stages; ++i) {
     const IndirectPoint point = at(trajectory.stage_times[i]);
     sampled.stage_q.row(i) = point.q.transpose();
     sampled.stage_v.row(i) = point.v.transpose();
     sampled.stage_u.row(i) = point.u.transpose();
+    sampled.stage_p.row(i) = point.p.transpose();
+    sampled.stage_psi_q.row(i) = point.psi_q.transpose();
+    sampled.stage_psi_p.row(i) = point.psi_p.transpose();
   }
   return sampled;
 }

@@ -22,10 +22,15 @@ struct Trajectory {
   Eigen::MatrixXd stage_q;      ///< Q_i, N s × n
   Eigen::MatrixXd stage_v;      ///< Q̇_i (V_i for tangent-space collocation, equal to it), N s × n
   Eigen::MatrixXd stage_u;      ///< U_i, N s × m
+  Eigen::MatrixXd stage_p;      ///< P_i = L_v(Q_i, Q̇_i), N s × n
 
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;
+  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, and where path rows (bounds on
+  /// velocities, path constraints) have multipliers of their own there.
+  Eigen::MatrixXd stage_psi_q;
+  Eigen::MatrixXd stage_psi_p;
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 

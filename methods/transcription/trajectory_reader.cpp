@@ -4,6 +4,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/columns.hpp"
 #include "methods/transcription/costates.hpp"
+#include "methods/transcription/stage_costates.hpp"
 
 namespace dmocbench {
 
@@ -45,6 +46,19 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   }
 }
 
+/// P_i = L_v(Q_i, Q̇_i).
+Eigen::MatrixXd stage_momenta(const TracedProblem& problem, const Trajectory& trajectory) {
+  LegendreTransform legendre(problem);
+  Eigen::MatrixXd p(trajectory.stage_q.rows(), trajectory.stage_q.cols());
+  for (Eigen::Index i = 0; i < p.rows(); ++i) {
+    p.row(i) = legendre
+                   .momentum(trajectory.stage_q.row(i).transpose(), trajectory.stage_v.row(i).transpose(),
+                             trajectory.stage_times[i])
+                   .transpose();
+  }
+  return p;
+}
+
 /// v_k with L_v(q_k, v_k) = p_k; each solve starts at a velocity nearby.
 Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& trajectory) {
   LegendreTransform legendre(problem);
@@ -80,12 +94,18 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   }
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
+  trajectory.stage_p = stage_momenta(transcription.traced_problem(), trajectory);
   trajectory.v = velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
+    if (transcription.functions().path_rows == 0) {
+      StageCostates stages = stage_costates(transcription, multipliers, trajectory);
+      trajectory.stage_psi_q = std::move(stages.psi_q);
+      trajectory.stage_psi_p = std::move(stages.psi_p);
+    }
   }
   return trajectory;
 }

@@ -1,6 +1,7 @@
 // Claims are judged by predicates on tables; doctored tables have to be caught.
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -65,8 +66,9 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
       objective.push_back(row);
       if (method == "dmoc") continue;
       const double difference = method == "tangent" ? h * h : 1e-13;
-      for (const char* column : {"configuration_difference", "momentum_difference", "control_difference",
-                                 "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+      for (const char* column :
+           {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
+            "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
         row.set(column, difference);
       }
       equivalence.push_back(row);
@@ -76,7 +78,42 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
   finish("consistency", consistency);
   finish("convergence", convergence);
   finish("objective", objective);
+  std::vector<Row> difference_slopes;
+  std::vector<Row> indirect_slopes;
+  for (const char* tableau : {"gauss", "lobatto"}) {
+    for (const long long stages : {2LL, 3LL}) {
+      const double order =
+          tableau == std::string("gauss") ? 2.0 * static_cast<double>(stages) : 2.0 * static_cast<double>(stages) - 2.0;
+      Row row = solved_row("tangent", 0);
+      row.set("tableau", tableau);
+      row.set("stages", stages);
+      row.set("verdict", "slope");
+      row.set("slope", order);
+      difference_slopes.push_back(row);
+      for (const char* method : {"dmoc", "hamiltonian"}) {
+        row.set("method", method);
+        for (const char* quantity : {"state", "momentum", "costate", "control_from_costate", "control"}) {
+          row.set("quantity", quantity);
+          row.set("slope", quantity == std::string("control") ? static_cast<double>(stages) + 1.0 : order + 0.05);
+          indirect_slopes.push_back(row);
+        }
+        Row solve = solved_row(method, 64);
+        solve.set("tableau", tableau);
+        solve.set("stages", stages);
+        for (const char* column :
+             {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
+              "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+          if (method == std::string("hamiltonian")) solve.set(column, 1e-13);
+        }
+        solve.set("adjoint_residual", 1e-12);
+        solve.set("adjoint_residual_by_plain_coefficients", tableau == std::string("gauss") ? 1e-12 : 1e-2);
+        equivalence.push_back(solve);
+      }
+    }
+  }
   finish("equivalence", equivalence);
+  finish("equivalence_slopes", difference_slopes);
+  finish("convergence_indirect_slopes", indirect_slopes);
   for (const std::string method : methods) {
     for (const long long intervals : {32LL, 64LL, 128LL}) {
       const long long free = method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4;
@@ -124,10 +161,43 @@ bool is(const Row& row, const std::string& method) { return row.text("method") =
 TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
   for (const char* claim :
        {"state_slope", "control_slope", "momentum_consistency", "equal_solutions", "tangent_differs", "variable_ratio",
-        "objective_evolution", "reference_step", "minor_iteration_ratio", "minor_iterations_equal_variable_ratio",
-        "automatic_differentiation"}) {
+        "objective_evolution", "order_of_convergence", "order_of_adjoint_scheme", "reference_step",
+        "minor_iteration_ratio", "minor_iterations_equal_variable_ratio", "automatic_differentiation"}) {
     EXPECT_EQ(verdict_on(claim, tables()), Verdict::reproduced) << claim;
   }
+}
+
+TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
+  const auto judged = [](double slope, double difference) {
+    ResultTables results;
+    Table slopes({"problem", "method", "tableau", "stages", "quantity", "slope", "verdict"});
+    Row row = solved_row("dmoc", 0);
+    row.set("problem", "two_link_manipulator");
+    row.set("quantity", "control");
+    row.set("stages", 2LL);
+    row.set("slope", slope);
+    row.set("verdict", "slope");
+    slopes.append(row);
+    results.add("convergence_indirect_slopes", slopes);
+    Table equivalence({"problem"});
+    Row solve = solved_row("tangent", 64);
+    solve.set("problem", "forced_oscillator");
+    for (const char* column : {"configuration_difference", "momentum_difference", "control_difference",
+                               "costate_difference", "objective_difference"}) {
+      solve.set(column, difference);
+    }
+    equivalence.append(solve);
+    results.add("equivalence", equivalence);
+    std::map<std::string, Verdict> verdicts;
+    for (const Claim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
+    return verdicts;
+  };
+  auto good = judged(2.95, 1e-13);
+  EXPECT_EQ(good["two_link_manipulator/order_of_stage_controls"], Verdict::reproduced);
+  EXPECT_EQ(good["forced_oscillator/tangent_coincides"], Verdict::reproduced);
+  auto bad = judged(4.0, 1e-6);
+  EXPECT_EQ(bad["two_link_manipulator/order_of_stage_controls"], Verdict::differs);
+  EXPECT_EQ(bad["forced_oscillator/tangent_coincides"], Verdict::differs);
 }
 
 TEST(Claims, WithoutTablesNothingIsReproducedOrRefuted) {
@@ -165,12 +235,53 @@ TEST(Claims, ATangentSpaceMethodThatKeepsTheBalanceDiffers) {
 
 TEST(Claims, UnequalSolutionsDiffer) {
   for (const char* column :
-       {"configuration_difference", "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+       {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
+        "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
     const ResultTables doctored = tables("equivalence", [&](Row& row) {
       if (is(row, "hamiltonian")) row.set(column, 1e-7);
     });
     EXPECT_EQ(verdict_on("equal_solutions", doctored), Verdict::differs) << column;
   }
+}
+
+TEST(Claims, ATangentSpaceDifferenceOfAnotherOrderDiffers) {
+  const ResultTables doctored =
+      tables("equivalence_slopes", [](Row& row) { row.set("slope", *row.number("stages") * 2.0 - 1.0); });
+  EXPECT_EQ(verdict_on("tangent_differs", doctored), Verdict::differs);
+}
+
+TEST(Claims, AMissedOrderOfAnyQuantityAtTheNodesDiffers) {
+  for (const char* quantity : {"state", "momentum", "costate", "control_from_costate"}) {
+    for (const double wrong : {-1.0, 1.0}) {
+      const ResultTables doctored = tables("convergence_indirect_slopes", [&](Row& row) {
+        if (is(row, "hamiltonian") && row.text("quantity") == quantity && row.text("stages") == "3") {
+          row.set("slope", *row.number("slope") + wrong);
+        }
+      });
+      EXPECT_EQ(verdict_on("order_of_convergence", doctored), Verdict::differs) << quantity;
+      EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored),
+                quantity == std::string("costate") ? Verdict::differs : Verdict::reproduced);
+    }
+  }
+}
+
+TEST(Claims, OrdersOfWhichNoneRisesAboveTheFloorAreNeitherReproducedNorRefuted) {
+  const ResultTables floored = tables("convergence_indirect_slopes", [](Row& row) {
+    row.set("verdict", "floor");
+    row.set("slope", Cell());
+  });
+  EXPECT_EQ(verdict_on("order_of_convergence", floored), Verdict::floor);
+}
+
+TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
+  const auto doctored = [](const char* column, double value) {
+    return tables("equivalence", [=](Row& row) {
+      if (row.number("adjoint_residual")) row.set(column, value);
+    });
+  };
+  EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored("adjoint_residual", 1e-6)), Verdict::differs);
+  EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored("adjoint_residual_by_plain_coefficients", 1e-12)),
+            Verdict::differs);
 }
 
 TEST(Claims, AnotherRatioOfVariablesDiffers) {
@@ -262,7 +373,9 @@ TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
   std::set<std::string> seen;
   for (const Claim& claim : judge_claims(tables())) {
     EXPECT_TRUE(seen.insert(claim.id).second) << claim.id;
-    EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/")) << claim.id;
+    EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/") ||
+                claim.id.starts_with("forced_oscillator/"))
+        << claim.id;
     EXPECT_FALSE(claim.paper.empty());
     EXPECT_FALSE(claim.where.empty());
   }

@@ -74,19 +74,73 @@ TEST(Slopes, GoToTheFinestGridAgainstAnExactReference) {
   EXPECT_TRUE(fit_slopes(table, FitRange{32, 1024}, exact_reference).notes.empty());
 }
 
-TEST(Slopes, EndAtTheSolversToleranceAgainstAnExactReference) {
-  const auto floored = [](double n) { return 1e3 * std::pow(n, -6.0) + 1e-10; };
-  const Table table = convergence_of({{.error = floored}}, sixteen_to_1024);
-  const Row row = slope_of(fit_slopes(table, std::nullopt, exact_reference), "state");
-  EXPECT_EQ(row.text("finest"), "128");
-  EXPECT_NEAR(*row.number("slope"), 6.0, 0.3);
-  // 256 is at rounding, and what lies above it on finer grids is noise.
-  const auto noisy = [](double n) { return n < 256.0 ? 1e3 * std::pow(n, -6.0) : (n == 256.0 ? 5e-12 : 2e-11); };
-  const Row before =
-      slope_of(fit_slopes(convergence_of({{.error = noisy}}, sixteen_to_1024), std::nullopt, exact_reference), "state");
-  EXPECT_EQ(before.text("finest"), "128");
-  EXPECT_NEAR(*before.number("slope"), 6.0, 1e-9);
-  EXPECT_EQ(slope_of(fit_slopes(table, FitRange{32, 1024}, exact_reference), "state").text("finest"), "1024");
+/// Grids off the powers of two: enough of them above a floor.
+const std::vector<long long> dense_grids{16, 32, 40, 48, 56, 64, 96, 128, 192, 256, 512, 768, 1024};
+
+/// Order 6 down to 1e-12, where errors stay.
+double with_floor(double n) { return 1e3 * std::pow(n, -6.0) + 1e-12; }
+
+TEST(Slopes, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference) {
+  const SlopeTable slopes =
+      fit_slopes(convergence_of({{.error = with_floor}}, dense_grids), std::nullopt, exact_reference);
+  const Row row = slope_of(slopes, "state");
+  EXPECT_EQ(row.text("verdict"), "slope");
+  EXPECT_EQ(row.text("coarsest"), "32");
+  EXPECT_EQ(row.text("finest"), "128");  // 2.3e-10; 192 has 2.1e-11
+  EXPECT_EQ(row.text("points"), "7");
+  EXPECT_NEAR(*row.number("floor"), 1e-12, 5e-14);
+  EXPECT_NEAR(*row.number("slope"), 6.0, 0.01);
+  const Table same = convergence_of({{.error = with_floor}}, dense_grids);
+  EXPECT_EQ(slope_of(fit_slopes(same, FitRange{32, 256}, exact_reference), "state").text("finest"), "192");
+}
+
+TEST(Slopes, ThroughFewerThanFourGridsAboveTheFloorAreNone) {
+  const std::vector<long long> powers_of_two{16, 32, 64, 128, 256, 512, 1024};
+  const Row row = slope_of(
+      fit_slopes(convergence_of({{.error = with_floor}}, powers_of_two), std::nullopt, exact_reference), "state");
+  EXPECT_EQ(row.text("verdict"), "floor");
+  EXPECT_EQ(row.text("slope"), "");
+  EXPECT_EQ(row.text("points"), "3");
+}
+
+TEST(Slopes, AFloorMeasuredOnOneCurveHoldsForAllOfItsMethod) {
+  const auto slow = [](double n) { return 1e-6 * std::pow(n, -2.0); };  // 1e-10 only below N = 100
+  const Table table = convergence_of({{.error = slow}, {.stages = "3", .error = with_floor}}, dense_grids);
+  const SlopeTable slopes = fit_slopes(table, std::nullopt, exact_reference);
+  for (const Row& row : slopes.table.rows()) {
+    if (row.text("quantity") == "state" && row.text("stages") == "1") {
+      EXPECT_EQ(row.text("finest"), "96");
+    }
+  }
+}
+
+TEST(Slopes, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
+  Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "step", "status",
+               "branch", "configuration_difference"});
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const long long n : dense_grids) {
+      Row row;
+      row.set("problem", "pendulum");
+      row.set("method", method);
+      row.set("tableau", "gauss");
+      row.set("stages", "1");
+      row.set("intervals", n);
+      row.set("step", 1.0 / static_cast<double>(n));
+      row.set("status", "solved");
+      row.set("branch", "same");
+      const bool tangent = method == std::string("tangent");
+      const double h = 1.0 / static_cast<double>(n);
+      if (method != std::string("dmoc")) row.set("configuration_difference", tangent ? h * h : 1e-7);
+      table.append(row);
+    }
+  }
+  const Table slopes = fit_differences(table, "configuration_difference");
+  ASSERT_EQ(slopes.rows().size(), 1U);
+  const Row& row = slopes.rows().front();
+  EXPECT_EQ(row.text("method"), "tangent");
+  EXPECT_EQ(row.text("verdict"), "slope");
+  EXPECT_NEAR(*row.number("slope"), 2.0, 1e-9);
+  EXPECT_EQ(row.text("finest"), "256");  // 1.5e-5; the floor is 1e-7
 }
 
 TEST(Slopes, UnsolvedRowsAndOtherBranchesAreLeftOut) {

@@ -73,6 +73,25 @@ TEST(TrajectoryError, ComparesCostatesAsOneVectorPerNode) {
   EXPECT_NEAR(trajectory_error(moved, reference).costate.value(), 5.0, 1e-13);
 }
 
+TEST(TrajectoryError, ComparesStagesOnlyWithStagesAtTheSameTimes) {
+  const auto problem = make_problem("two_link_manipulator");
+  const Motion& start = tests::common_start(*problem);
+  const Trajectory trajectory = tests::solve(*problem, {"dmoc", 2}, Grid::uniform(24), start).trajectory;
+  Trajectory moved = trajectory;
+  moved.stage_q(3, 1) += 0.5;
+  moved.stage_p(4, 0) -= 0.25;
+  moved.stage_psi_q(5, 1) += 2.0;
+  moved.stage_psi_p(6, 0) -= 3.0;
+  const TrajectoryError error = trajectory_error(moved, trajectory);
+  ASSERT_TRUE(error.stages.has_value());
+  EXPECT_NEAR(error.stages->configuration, 0.5, 1e-14);
+  EXPECT_NEAR(error.stages->momentum, 0.25, 1e-12);
+  EXPECT_NEAR(error.stages->costate_q.value_or(0.0), 2.0, 1e-12);
+  EXPECT_NEAR(error.stages->costate_p.value_or(0.0), 3.0, 1e-12);
+  const Trajectory finer = tests::solve(*problem, {"dmoc", 2}, Grid::uniform(48), start).trajectory;
+  EXPECT_FALSE(trajectory_error(trajectory, finer).stages.has_value());
+}
+
 TEST(TrajectoryError, TakesTheReferencesPolynomialWhereNodesDoNotMeet) {
   // 7 and 10 intervals share only the ends; the polynomials are exact, so nothing is left.
   const TrajectoryError error = trajectory_error(parabola(7), parabola(10));

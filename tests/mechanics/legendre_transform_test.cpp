@@ -32,12 +32,13 @@ TEST(LegendreTransform, InvertsItselfForEveryProblem) {
   RandomPoints random;
   for (const auto& problem : problems) {
     LegendreTransform legendre{TracedProblem(*problem)};
+    const Eigen::Index n = problem->configuration_size();
     for (int trial = 0; trial < 20; ++trial) {
-      const Eigen::VectorXd q = random.vector(2, 0.5, 2.0);
-      const Eigen::VectorXd v = random.vector(2, -3.0, 3.0);
+      const Eigen::VectorXd q = random.vector(n, 0.5, 2.0);
+      const Eigen::VectorXd v = random.vector(n, -3.0, 3.0);
       const double t = random.number(0.0, 2.0);
       const Eigen::VectorXd p = legendre.momentum(q, v, t);
-      EXPECT_LT((legendre.velocity(q, p, t, random.vector(2)) - v).norm(), 1e-12) << problem->name();
+      EXPECT_LT((legendre.velocity(q, p, t, random.vector(n)) - v).norm(), 1e-12) << problem->name();
     }
   }
 }

@@ -21,10 +21,15 @@ std::unique_ptr<Problem> problem_named(const std::string& name) {
   return make_problem(name);
 }
 
-class CostatesOf : public testing::TestWithParam<std::tuple<std::string, std::string, int>> {
+struct NamedTableau {
+  std::string family;
+  int stages;
+};
+
+class CostatesOf : public testing::TestWithParam<std::tuple<std::string, std::string, NamedTableau>> {
  protected:
   std::unique_ptr<Problem> problem_ = problem_named(std::get<0>(GetParam()));
-  Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam())};
+  Scheme scheme_{std::get<1>(GetParam()), std::get<2>(GetParam()).stages, std::get<2>(GetParam()).family};
   Grid grid_ = tests::graded_grid(24);
   Solved solved_ = tests::solve(*problem_, scheme_, grid_, tests::common_start(*problem_), 1e-11);
 };
@@ -126,13 +131,24 @@ TEST_P(CostatesOf, InnerNodesAreTheSameSeenFromTheLeftAndFromTheRight) {
   }
 }
 
+std::string name_of(const std::tuple<std::string, std::string, NamedTableau>& parameters) {
+  const auto& [problem, method, tableau] = parameters;
+  return problem + "_" + method + "_" + tableau.family + "_" + std::to_string(tableau.stages);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, CostatesOf,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
-                                          testing::ValuesIn(element_names()), testing::Values(1, 2)),
-                         [](const auto& instance) {
-                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +
-                                  std::to_string(std::get<2>(instance.param));
-                         });
+                                          testing::ValuesIn(element_names()),
+                                          testing::Values(NamedTableau{"gauss", 1}, NamedTableau{"gauss", 2})),
+                         [](const auto& instance) { return name_of(instance.param); });
+
+// More stages and the pair of Lobatto for the two families of the theorem.
+INSTANTIATE_TEST_SUITE_P(HighOrder, CostatesOf,
+                         testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
+                                          testing::Values("dmoc", "hamiltonian"),
+                                          testing::Values(NamedTableau{"gauss", 3}, NamedTableau{"lobatto", 2},
+                                                          NamedTableau{"lobatto", 3})),
+                         [](const auto& instance) { return name_of(instance.param); });
 
 TEST(Costates, OfTheDoubleIntegratorApproachTheClosedForm) {
   // H = ½u² + ψ_q p + ψ_p u: u = -ψ_p = 6 - 12t, ψ_q = -ψ̇_p = -12.

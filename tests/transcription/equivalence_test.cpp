@@ -33,7 +33,7 @@ double allowed(const Transcription& program) {
 
 TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {
   for (const auto& problem : problems()) {
-    for (const int s : {1, 2, 3}) {
+    for (const int s : {1, 2, 3, 4}) {
       SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
       const Grid grid = tests::graded_grid(24);
       const Motion& start = tests::common_start(*problem);
@@ -50,9 +50,9 @@ TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {
 TEST(Equivalence, HoldsForThePairLobattoIIIAAndIIIB) {
   // Gauss cannot tell A from its conjugate; here A and Ã differ, and only the symplectic pair is variational.
   for (const auto& problem : problems()) {
-    for (const std::vector<long double>& nodes : {std::vector<long double>{0.0L, 1.0L}, {0.0L, 0.5L, 1.0L}}) {
-      SCOPED_TRACE(problem->name() + ", lobatto " + std::to_string(nodes.size()));
-      const Tableau lobatto = collocation_tableau("lobatto", nodes, 2 * static_cast<int>(nodes.size()) - 2);
+    for (const int s : {2, 3, 4}) {
+      SCOPED_TRACE(problem->name() + ", lobatto " + std::to_string(s));
+      const Tableau lobatto = lobatto_tableau(s);
       const Grid grid = tests::graded_grid(24);
       const Motion& start = tests::common_start(*problem);
       const Solved dmoc = tests::solve(*problem, "dmoc", lobatto, grid, start, tolerance);
@@ -88,23 +88,28 @@ TEST(Equivalence, DmocAndHamiltonianHaveTheSameOptimum) {
 }
 
 TEST(Equivalence, TangentSolvesTheHamiltonianRowsIfTheMassIsConstant) {
-  const tests::Pendulum pendulum;
-  const Motion guess = guessed_motion(pendulum);
-  for (const int s : {1, 2, 3}) {
-    const Grid grid = tests::graded_grid(20);
-    const Solved tangent = tests::solve(pendulum, {"tangent", s}, grid, guess, tolerance);
-    const Solved hamiltonian = tests::solve(pendulum, {"hamiltonian", s}, grid, guess, tolerance);
-    EXPECT_LT(row_residual(*hamiltonian.transcription, pack(*hamiltonian.transcription, tangent.trajectory)),
-              allowed(*tangent.transcription));
-    EXPECT_LT(row_residual(*tangent.transcription, pack(*tangent.transcription, hamiltonian.trajectory)),
-              allowed(*tangent.transcription));
-    EXPECT_NEAR(tangent.trajectory.cost, hamiltonian.trajectory.cost, 1e-9);
+  const tests::Pendulum pendulum;  // not linear in q
+  const auto oscillator = make_problem("forced_oscillator");
+  for (const Problem* problem :
+       {static_cast<const Problem*>(&pendulum), static_cast<const Problem*>(oscillator.get())}) {
+    const Motion guess = guessed_motion(*problem);
+    for (const int s : {1, 2, 3, 4}) {
+      SCOPED_TRACE(problem->name() + ", s = " + std::to_string(s));
+      const Grid grid = tests::graded_grid(20);
+      const Solved tangent = tests::solve(*problem, {"tangent", s}, grid, guess, tolerance);
+      const Solved hamiltonian = tests::solve(*problem, {"hamiltonian", s}, grid, guess, tolerance);
+      EXPECT_LT(row_residual(*hamiltonian.transcription, pack(*hamiltonian.transcription, tangent.trajectory)),
+                allowed(*tangent.transcription));
+      EXPECT_LT(row_residual(*tangent.transcription, pack(*tangent.transcription, hamiltonian.trajectory)),
+                allowed(*tangent.transcription));
+      EXPECT_NEAR(tangent.trajectory.cost, hamiltonian.trajectory.cost, 1e-9);
+    }
   }
 }
 
 TEST(Equivalence, TangentDiffersFromHamiltonianIfTheMassDependsOnTheConfiguration) {
   // Otherwise the test above would hold for the wrong reason.
-  for (const std::string& name : problem_names()) {
+  for (const char* name : {"orbital_transfer", "two_link_manipulator"}) {
     const auto problem = make_problem(name);
     const Solved tangent = tests::solve(*problem, {"tangent", 1}, Grid::uniform(48), tests::common_start(*problem));
     const auto hamiltonian = tests::transcribe(*problem, {"hamiltonian", 1}, Grid::uniform(48));

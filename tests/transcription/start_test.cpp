@@ -74,7 +74,7 @@ TEST(Sample, GivesFixedVariablesTheirValuesWhateverTheMotion) {
         EXPECT_EQ(x[i], program->variable_lower()[i]);
         ++fixed;
       }
-      EXPECT_EQ(fixed, scheme.method == "dmoc" ? 4 : 8);
+      EXPECT_EQ(fixed, (scheme.method == "dmoc" ? 2 : 4) * problem->configuration_size());
     }
   }
 }

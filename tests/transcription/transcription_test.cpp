@@ -120,7 +120,8 @@ TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
     const BoundaryState last = problem->final_state();
     for (const Scheme& scheme : tests::all_schemes()) {
       const auto program = tests::transcribe(*problem, scheme, Grid::uniform(5));
-      const std::size_t ends = scheme.method == "dmoc" ? 4 : 8;
+      const auto n = static_cast<std::size_t>(problem->configuration_size());
+      const std::size_t ends = (scheme.method == "dmoc" ? 2 : 4) * n;
       EXPECT_EQ(program->variable_count() - free_variable_count(*program), ends);
       for (std::size_t j = 0; j < program->variable_count(); ++j) {
         const auto i = static_cast<Eigen::Index>(j);
@@ -129,7 +130,7 @@ TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
         EXPECT_EQ(program->variable_upper()[i], unbounded);
       }
       if (scheme.method != "tangent") continue;
-      for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index i = 0; i < problem->configuration_size(); ++i) {
         const auto head = static_cast<Eigen::Index>(program->layout().second_column(i));
         EXPECT_EQ(program->variable_lower()[head], first.v[i]);
         EXPECT_EQ(program->variable_lower()[head + 5], last.v[i]);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// Coefficients of the adjoint partitioned Runge-Kutta scheme (eq:stateco9), s × s each:
+/// ā^q_ij = b_j - b_j a_ji / b_i for ψ^q, ā^p_ij = b_j - b_j ã_ji / b_i for ψ^p; the weights are those of the states.
+/// By (th:orderapp) they are (Ã, A): the scheme of (q, p) serves (ψ^p, ψ^q).
+struct AdjointCoefficients {
+  Eigen::MatrixXd a_q;
+  Eigen::MatrixXd a_p;
+};
+
+[[nodiscard]] AdjointCoefficients adjoint_coefficients(const Tableau& tableau);
+
+/// What costates and stage costates leave in the adjoint scheme, largest entry of any interval. Residuals of ψ^q are
+/// relative to the largest |ψ^q| of the nodes, those of ψ^p to the largest |ψ^p|: pure numbers.
+struct AdjointResidual {
+  double step_q = 0.0;   ///< ψ^q_{k+1} - ψ^q_k - h Σ b_i φ^q_i (eq:stateco5)
+  double step_p = 0.0;   ///< ψ^p_{k+1} - ψ^p_k - h Σ b_i φ^p_i (eq:stateco6)
+  double stage_q = 0.0;  ///< Ψ^q_i - ψ^q_k - h Σ ā^q_ij φ^q_j (eq:stateco7)
+  double stage_p = 0.0;  ///< Ψ^p_i - ψ^p_k - h Σ ā^p_ij φ^p_j (eq:stateco8)
+  /// H_u = C_u + f_uᵀΨ^p_i (eq:DMOC_adjoint5) relative to the largest |C_u|; none where intervals share controls, which
+  /// are then stationary for the sum of two stages only.
+  std::optional<double> control;
+
+  [[nodiscard]] double largest() const;
+};
+
+/// The residual of a trajectory's costates with φ^q = -∂H/∂q, φ^p = -∂H/∂p of the pre-Hamiltonian
+/// H(q, p, ψ, u) = C + ψ^q·v + ψ^p·(L_q + f), v = v(q, p), at the stages (Q_i, P_i, Ψ_i, U_i). Its derivatives are
+/// those of the traced formulas of the problem, no derivative of any program enters. Rounding for DMOC and Hamiltonian
+/// collocation, O(h^2s) for tangent-space collocation where L_vv depends on q. Throws `Error` without costates, or if
+/// L_vv is singular.
+[[nodiscard]] AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& trajectory,
+                                               const AdjointCoefficients& coefficients);
+
+}  // namespace dmocbench

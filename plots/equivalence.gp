@@ -1,0 +1,83 @@
+# Equal solutions of DMOC and Hamiltonian collocation, other ones of tangent-space collocation (th:equi), and what solved
+# multipliers leave in the adjoint Runge-Kutta scheme (th:orderapp), over the number of intervals.
+#   gnuplot -e "results='results'" plots/equivalence.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+name = "equivalence"
+eval require(name, "problem,method,tableau,stages,status,branch,intervals,configuration_difference,".\
+    "costate_difference,adjoint_residual,adjoint_residual_by_plain_coefficients")
+
+is_gauss(where) = entry(where, "tableau") eq "gauss"
+points_of(where) = is_gauss(where) ? 7 : 6
+dashes_of(where) = is_gauss(where) ? 1 : 2
+colour(where) = int(entry(where, "stages")) == 1 ? blue : int(entry(where, "stages")) == 2 ? vermilion\
+    : int(entry(where, "stages")) == 3 ? green : purple
+tableau_label(where) = entry(where, "tableau")." ".entry(where, "stages")
+# ": slope 3.99" of the differences in q; nothing where they are no more than rounding.
+measured(where) = exists_table("equivalence_slopes") ? system(rows_awk("-v where='".where."'", "equivalence_slopes").\
+    " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"slope\") s = i; next }\
+      $s != \"\" { printf \": slope %.2f\", $s }'") : ""
+curves_with(method, column) = distinct(name, "problem,method,tableau,stages", problem_word.",method=".method, column)
+interval_axis = "set logscale x 2; set xtics (16, 32, 64, 128, 256, 512, 1024); set xlabel 'number of intervals N'"
+
+do for [problem_word in problems_of(name, "")] {
+  problem = entry(problem_word, "problem")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_equivalence", 1400, 620)
+    set multiplot layout 1, 2 title title_text(problem_label(problem)\
+        .": collocation against DMOC by the same tableau", "",\
+        "Hamiltonian collocation differs by rounding, tangent-space collocation by a power of the step,"\
+        ." unless the mass is constant and the tableau its own conjugate (Gauss).")\
+        offset 0, -0.4 margins 0.07, 0.845, 0.12, 0.83 spacing 0.27
+    do for [column in "configuration_difference costate_difference"] {
+      eval measure(name, problem_word, "intervals", column)
+      eval power_axis("y")
+      eval interval_axis
+      set xrange [x_low / 1.1:x_high * 1.1]
+      set yrange [1e-17:(y_high > 1e-8 ? 10 * y_high : 1e-7)]
+      set ytics 1e3
+      set title (column eq "configuration_difference" ? "configurations" : "costates") offset 0, -0.5
+      set ylabel "largest difference from DMOC, relative"
+      set key at graph 1.02, graph 1 left top font ",12" samplen 2.5
+      plot for [curve in curves_with("tangent", column)] rows(name, curve, column)\
+           using (column("intervals")):(column(column))\
+           with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.7\
+           pointtype points_of(curve) dashtype dashes_of(curve)\
+           title "tangent, ".tableau_label(curve).(column eq "configuration_difference" ? measured(curve) : ""),\
+           for [curve in curves_with("hamiltonian", column)] rows(name, curve, column)\
+           using (column("intervals")):(column(column))\
+           with linespoints linewidth 1 linecolor rgb colour(curve) pointsize 0.7\
+           pointtype (is_gauss(curve) ? 5 : 4) dashtype 3 title "Hamiltonian, ".tableau_label(curve)
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_equivalence")
+
+    eval begin_figure(kind, problem."_adjoint", 1100, 620)
+    set title title_text(problem_label(problem).": solved multipliers satisfy the adjoint Runge-Kutta scheme",\
+        "with the coefficients of the theorem, and no others", "")
+    eval measure(name, problem_word.",method=dmoc,tableau=lobatto", "intervals", "adjoint_residual_by_plain_coefficients")
+    eval power_axis("y")
+    eval interval_axis
+    set xrange [x_low / 1.1:x_high * 1.1]
+    set yrange [1e-17:10 * y_high]
+    set ytics 1e3
+    set ylabel "largest residual of a step or stage, relative to the costates"
+    set key at screen 0.7, graph 1 left top font ",12" samplen 2.5
+    set rmargin at screen 0.69
+    plot for [curve in curves_with("dmoc,tableau=lobatto", "adjoint_residual")]\
+         rows(name, curve, "adjoint_residual_by_plain_coefficients")\
+         using (column("intervals")):(column("adjoint_residual_by_plain_coefficients"))\
+         with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.9 pointtype 8 dashtype 3\
+         title "DMOC, ".tableau_label(curve).", halves not exchanged",\
+         for [curve in curves_with("dmoc", "adjoint_residual")] rows(name, curve, "adjoint_residual")\
+         using (column("intervals")):(column("adjoint_residual"))\
+         with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.7\
+         pointtype points_of(curve) dashtype dashes_of(curve) title "DMOC, ".tableau_label(curve),\
+         for [curve in curves_with("hamiltonian", "adjoint_residual")] rows(name, curve, "adjoint_residual")\
+         using (column("intervals")):(column("adjoint_residual"))\
+         with linespoints linewidth 1 linecolor rgb colour(curve) pointsize 0.7\
+         pointtype (is_gauss(curve) ? 5 : 4) dashtype dashes_of(curve) title "Hamiltonian, ".tableau_label(curve)
+    eval end_figure(kind, problem."_adjoint")
+    unset rmargin
+  }
+}

@@ -1,0 +1,138 @@
+// The KKT multipliers of DMOC and of Hamiltonian collocation satisfy the adjoint partitioned Runge-Kutta scheme with
+// the coefficients of (th:orderapp); with others, or with a wrong sign, they do not.
+#include "methods/diagnostics/adjoint_scheme.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/solvers/polish.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Scheme;
+
+std::vector<std::unique_ptr<Problem>> problems() {
+  std::vector<std::unique_ptr<Problem>> all;
+  for (const std::string& name : problem_names()) all.push_back(make_problem(name));
+  all.push_back(std::make_unique<tests::MovingFrame>());
+  all.push_back(std::make_unique<tests::RelativisticSpring>());
+  return all;
+}
+
+std::vector<Scheme> schemes(const std::vector<std::string>& families) {
+  std::vector<Scheme> structured;
+  for (const Scheme& scheme : tests::schemes_of(families, 4)) {
+    if (scheme.method != "tangent") structured.push_back(scheme);
+  }
+  return structured;
+}
+
+/// The polished solution; multipliers times `sign`.
+Trajectory solved(const Problem& problem, const Scheme& scheme, double sign = 1.0) {
+  tests::Solved answer = tests::solve(problem, scheme, tests::graded_grid(24), tests::common_start(problem));
+  polish(*answer.transcription, answer.solution);
+  return read_trajectory(*answer.transcription, answer.solution.primal, sign * answer.solution.multipliers);
+}
+
+AdjointResidual residual(const Problem& problem, const Trajectory& trajectory) {
+  return adjoint_residual(problem, trajectory, adjoint_coefficients(trajectory.tableau));
+}
+
+constexpr double rounding = 1e-9;
+constexpr double far_above_rounding = 1e-5;
+
+TEST(AdjointScheme, HasTheCoefficientsOfTheStateSchemeWithBothHalvesExchanged) {
+  for (const std::string& family : tableau_names()) {
+    for (const int s : tableau_stages(family)) {
+      const Tableau tableau = make_tableau(family, s);
+      const AdjointCoefficients adjoint = adjoint_coefficients(tableau);
+      EXPECT_LT((adjoint.a_q - tableau.a_conjugate).lpNorm<Eigen::Infinity>(), 1e-15) << family << " " << s;
+      EXPECT_LT((adjoint.a_p - tableau.a).lpNorm<Eigen::Infinity>(), 1e-15) << family << " " << s;
+    }
+  }
+}
+
+TEST(AdjointScheme, ResidualIsAtRoundoffForEveryTableau) {
+  for (const auto& problem : problems()) {
+    for (const Scheme& scheme : schemes({"gauss", "lobatto", "lobatto_shared"})) {
+      const AdjointResidual left = residual(*problem, solved(*problem, scheme));
+      EXPECT_LT(left.step_q, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_LT(left.step_p, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_LT(left.stage_q, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_LT(left.stage_p, rounding) << problem->name() << ", " << scheme.label();
+      EXPECT_EQ(left.control.has_value(), scheme.family != "lobatto_shared");
+      EXPECT_LT(left.control.value_or(0.0), rounding) << problem->name() << ", " << scheme.label();
+    }
+  }
+}
+
+TEST(AdjointScheme, PlainCoefficientsLeaveMuchMoreThanRounding) {
+  // Gauss is its own conjugate and cannot tell; Lobatto IIIA and IIIB can.
+  const auto problem = make_problem("two_link_manipulator");
+  for (const Scheme& scheme : schemes({"lobatto"})) {
+    const Trajectory trajectory = solved(*problem, scheme);
+    const AdjointCoefficients plain{.a_q = trajectory.tableau.a, .a_p = trajectory.tableau.a_conjugate};
+    const AdjointResidual left = adjoint_residual(*problem, trajectory, plain);
+    EXPECT_GT(left.stage_q, far_above_rounding) << scheme.label();
+    EXPECT_GT(left.stage_p, far_above_rounding) << scheme.label();
+  }
+}
+
+TEST(AdjointScheme, MultipliersWithTheWrongSignLeaveMuchMoreThanRounding) {
+  for (const auto& problem : problems()) {
+    for (const Scheme& scheme : schemes({"gauss"})) {
+      const double left = residual(*problem, solved(*problem, scheme, -1.0)).largest();
+      EXPECT_GT(left, far_above_rounding) << problem->name() << ", " << scheme.label();
+    }
+  }
+}
+
+TEST(AdjointScheme, ADisturbedCostateIsSeen) {
+  const auto problem = make_problem("two_link_manipulator");
+  const Trajectory good = solved(*problem, {"dmoc", 2});
+  for (Eigen::MatrixXd Trajectory::*table :
+       {&Trajectory::psi_q, &Trajectory::psi_p, &Trajectory::stage_psi_q, &Trajectory::stage_psi_p}) {
+    Trajectory disturbed = good;
+    (disturbed.*table)(5, 1) *= 1.01;
+    EXPECT_GT(residual(*problem, disturbed).largest(), far_above_rounding);
+  }
+}
+
+TEST(AdjointScheme, OfTangentSpaceCollocationIsAnotherOneWhereTheMassIsNotConstant) {
+  const auto two_link = make_problem("two_link_manipulator");
+  const auto oscillator = make_problem("forced_oscillator");
+  for (const int s : {1, 2}) {
+    EXPECT_GT(residual(*two_link, solved(*two_link, {"tangent", s})).largest(), far_above_rounding);
+    EXPECT_LT(residual(*oscillator, solved(*oscillator, {"tangent", s})).largest(), rounding);
+  }
+}
+
+TEST(AdjointScheme, StageCostatesOfBothFamiliesAgree) {
+  // They are read from multipliers of different rows by different formulas.
+  for (const auto& problem : problems()) {
+    for (const Scheme& scheme : schemes({"gauss", "lobatto"})) {
+      if (scheme.method != "dmoc") continue;
+      const Trajectory a = solved(*problem, scheme);
+      const Trajectory b = solved(*problem, {"hamiltonian", scheme.stages, scheme.family});
+      const double size = std::max(b.stage_psi_q.lpNorm<Eigen::Infinity>(), b.stage_psi_p.lpNorm<Eigen::Infinity>());
+      EXPECT_LT((a.stage_psi_q - b.stage_psi_q).lpNorm<Eigen::Infinity>(), 1e-8 * size)
+          << problem->name() << ", " << scheme.label();
+      EXPECT_LT((a.stage_psi_p - b.stage_psi_p).lpNorm<Eigen::Infinity>(), 1e-8 * size)
+          << problem->name() << ", " << scheme.label();
+    }
+  }
+}
+
+TEST(AdjointScheme, NeedsCostates) {
+  const auto problem = make_problem("orbital_transfer");
+  Trajectory trajectory = solved(*problem, {"dmoc", 1});
+  trajectory.psi_q.resize(0, 0);
+  tests::expect_error_naming({"costates"}, [&] { static_cast<void>(residual(*problem, trajectory)); });
+}
+
+}  // namespace
+}  // namespace dmocbench
