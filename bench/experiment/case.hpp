@@ -19,8 +19,8 @@ struct Case {
   std::string solver;
   std::string derivatives = "tape";  ///< the back end that the solver sees
   Grid grid = Grid::uniform(1);
-  CostForm form = CostForm::bolza;
   std::string variant;  ///< what an experiment varies besides; empty in most
+  CostForm form = CostForm::bolza;
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
   /// "orbital_transfer dmoc gauss 1 ipopt tape N = 64".

@@ -178,6 +178,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   }
   if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
   const std::vector<Grid> grids = make_grids(options);
+  const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
     for (const std::string& method : methods) {
@@ -189,8 +190,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
           for (const std::string& solver : solvers) {
             for (const std::string& derivatives : back_ends) {
               for (const Grid& grid : grids) {
-                cases.push_back(
-                    {problem, method, tableau, stages, solver, derivatives, grid, cost_form_named(options.form), ""});
+                cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
               }
             }
           }

@@ -18,7 +18,7 @@ StageError stage_error(const Trajectory& trajectory, const Trajectory& reference
                    .momentum = largest_distance(trajectory.stage_p, reference.stage_p),
                    .costate_q = {},
                    .costate_p = {}};
-  if (trajectory.has_costates() && reference.has_costates()) {
+  if (trajectory.stage_psi_q.rows() > 0 && reference.stage_psi_q.rows() > 0) {
     error.costate_q = largest_distance(trajectory.stage_psi_q, reference.stage_psi_q);
     error.costate_p = largest_distance(trajectory.stage_psi_p, reference.stage_psi_p);
   }

@@ -14,7 +14,7 @@ struct IntervalRules {
   double cost_scale = 1.0;  ///< `Problem::cost_scale`
   bool mayer = false;       ///< the cost so far is one more unknown of the nodes, (eq:gDLOCP_mayer)
   bool free_horizon = false;
-  std::vector<Eigen::Index> bounded_velocities;  ///< the i whose q̇_i has bounds
+  std::vector<Eigen::Index> bounded_velocities = {};  ///< the i whose q̇_i has bounds
 };
 
 /// Everything an interval computes, traced and differentiated once, whatever the number of intervals.

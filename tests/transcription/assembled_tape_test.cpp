@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/assembled_pattern.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
@@ -17,7 +18,7 @@ Schedule multiples() {
 }
 
 Eigen::VectorXd evaluated(const std::vector<std::size_t>& firsts, std::size_t size, const Eigen::VectorXd& x) {
-  AssembledTape tape(multiples(), firsts, size, static_cast<std::size_t>(x.size()));
+  AssembledTape tape(multiples(), {firsts.begin(), firsts.end()}, size, static_cast<std::size_t>(x.size()));
   const std::vector<Tape::Input> inputs{{x.data(), false}};
   // Whatever stood there before must not matter.
   Eigen::VectorXd result = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), 1e300);
@@ -54,6 +55,26 @@ TEST(AssembledTape, AddsAnyOverlapForEveryNumberOfIntervals) {
   }
 }
 
+TEST(AssembledTape, SumsTheColumnsOfASharedPlace) {
+  const Eigen::VectorXd x = Eigen::Vector3d(1.0, 2.0, 3.0);
+  AssembledTape tape(multiples(), {0, {4, true}, {4, true}}, 6, 3);
+  const std::vector<Tape::Input> inputs{{x.data(), false}};
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(6, 1e300);
+  tape.evaluate(inputs, result);
+  Eigen::VectorXd expected(6);
+  expected << 1.0, 2.0, 3.0, 0.0, 660.0, 0.0;
+  EXPECT_EQ(result, expected);
+}
+
+TEST(AssembledTape, AsAPartAddsToWhatIsThere) {
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 2.0);
+  AssembledTape tape(multiples(), {3, 1, 1}, 4, 1, AssemblyMode::part);
+  const std::vector<Tape::Input> inputs{{x.data(), false}};
+  Eigen::VectorXd result = Eigen::Vector4d(1.0, 1.0, 1.0, 1.0);
+  tape.evaluate(inputs, result);
+  EXPECT_EQ(result, Eigen::Vector4d(1.0, 221.0, 1.0, 3.0));
+}
+
 TEST(AssembledTape, RefusesOutputsThatLeaveTheArray) {
   const Eigen::VectorXd x = Eigen::Vector3d::Ones();
   EXPECT_NO_THROW(static_cast<void>(evaluated({0, 1, 5}, 8, x)));
@@ -66,34 +87,61 @@ TEST(AssemblePattern, PutsEveryLocalEntryWhereItBelongsAndNothingTwice) {
   for (const std::size_t intervals : {1UL, 2UL, 3UL, 64UL, 65UL}) {
     const std::size_t nodes = intervals + 1;
     const std::vector<std::size_t> heads{0, 1, nodes, nodes + 1, 2 * nodes, 2 * nodes + intervals};
-    std::vector<std::size_t> rows;
-    std::vector<std::size_t> columns;
+    std::vector<ColumnPlace> rows;
+    std::vector<ColumnPlace> columns;
     for (const std::size_t row : heads) {
       for (const std::size_t column : heads) {
         rows.push_back(row);
         columns.push_back(column);
       }
     }
-    const AssembledPattern assembled = assemble_pattern(rows, columns, intervals);
+    const AssembledPattern assembled = assemble_pattern({rows, columns, intervals});
     std::map<std::pair<int, int>, std::size_t> place;
     for (std::size_t e = 0; e < assembled.pattern.size(); ++e) {
       const auto position = std::pair(assembled.pattern.rows[e], assembled.pattern.columns[e]);
       EXPECT_TRUE(place.emplace(position, e).second) << "N = " << intervals;
     }
-    ASSERT_EQ(assembled.firsts.size(), rows.size());
+    ASSERT_EQ(assembled.places.size(), rows.size());
     std::size_t reached = 0;
     std::map<std::size_t, bool> seen;
     for (std::size_t e = 0; e < rows.size(); ++e) {
       for (std::size_t k = 0; k < intervals; ++k) {
-        const auto found = place.find({static_cast<int>(rows[e] + k), static_cast<int>(columns[e] + k)});
+        const auto found = place.find({static_cast<int>(rows[e].at(k)), static_cast<int>(columns[e].at(k))});
         ASSERT_NE(found, place.end());
-        EXPECT_EQ(found->second, assembled.firsts[e] + k) << "N = " << intervals;
+        EXPECT_EQ(found->second, assembled.places[e].at(k)) << "N = " << intervals;
         if (!seen[found->second]) ++reached;
         seen[found->second] = true;
       }
     }
     EXPECT_EQ(reached, assembled.pattern.size()) << "entries that no local one reaches";
   }
+}
+
+TEST(AssemblePattern, KeepsRowsAndColumnsOfAQuantityOfTheWholeHorizon) {
+  // Rows of intervals and of nodes against one shared unknown, and that unknown against itself.
+  constexpr std::size_t intervals = 5;
+  const ColumnPlace horizon(20, true);
+  const AssembledPattern assembled =
+      assemble_pattern({{0, 1, 10, horizon}, {horizon, horizon, horizon, horizon}, intervals});
+  EXPECT_EQ(assembled.pattern.size(), (intervals + 1) + intervals + 1);
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const std::size_t left = assembled.places[0].at(k);
+    const std::size_t right = assembled.places[1].at(k);
+    EXPECT_EQ(assembled.pattern.rows[left], static_cast<int>(k));
+    EXPECT_EQ(assembled.pattern.rows[right], static_cast<int>(k + 1));
+    EXPECT_EQ(assembled.pattern.columns[right], 20);
+    EXPECT_EQ(assembled.pattern.rows[assembled.places[2].at(k)], static_cast<int>(10 + k));
+  }
+  EXPECT_TRUE(assembled.places[3].shared);
+  EXPECT_EQ(assembled.pattern.rows[assembled.places[3].first], 20);
+}
+
+TEST(ExtendPattern, FindsWhatIsThereAndAppendsTheRest) {
+  SparsityPattern pattern{{0, 1, 2}, {0, 1, 2}};
+  const std::vector<ColumnPlace> places = extend_pattern(pattern, {{1, 7, 2, 7}, {1, 0, 2, 0}, 1});
+  EXPECT_EQ(places, (std::vector<ColumnPlace>{1, 3, 2, 3}));
+  EXPECT_EQ(pattern.rows, (std::vector<int>{0, 1, 2, 7}));
+  EXPECT_EQ(pattern.columns, (std::vector<int>{0, 1, 2, 0}));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ class CollocationRows : public testing::TestWithParam<std::string> {
   void visit(const Eigen::MatrixXd& a_second, const Visitor& visitor) const {
     const Layout& layout = program_->layout();
     for (Eigen::Index k = 0; k < intervals; ++k) {
-      const double h = program_->steps()[k];
+      const double h = program_->step_inputs()[k];
       const auto q = [&](Eigen::Index node) {
         return at(layout.configuration_column(0), layout.configuration_column(1), node);
       };

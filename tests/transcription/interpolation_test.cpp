@@ -16,7 +16,7 @@ using tests::RandomPoints;
 Trajectory arbitrary_trajectory(const std::string& method, int stages, const Grid& grid) {
   const auto problem = make_problem("two_link_manipulator");
   const auto program = tests::transcribe(*problem, {method, stages}, grid);
-  const Eigen::VectorXd x = sample(*program, guessed_motion.at(*problem));
+  const Eigen::VectorXd x = sample(*program, guessed_motion(*problem));
   return read_trajectory(*program, x + RandomPoints().vector(x.size(), -0.1, 0.1), Eigen::VectorXd());
 }
 
@@ -153,7 +153,7 @@ TEST(SmoothMotion, ExistsOnASingleInterval) {
   const auto problem = make_problem("two_link_manipulator");
   const auto program = tests::transcribe(*problem, {"dmoc", 2}, Grid::uniform(1));
   const Trajectory trajectory =
-      read_trajectory(*program, sample(*program, guessed_motion.at(*problem)), Eigen::VectorXd());
+      read_trajectory(*program, sample(*program, guessed_motion(*problem)), Eigen::VectorXd());
   EXPECT_LT((smooth_motion(trajectory).at(1.0).q - problem->final_state().q).norm(), 1e-14);
 }
 

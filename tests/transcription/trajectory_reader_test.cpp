@@ -87,7 +87,7 @@ TEST(Trajectory, StageTimesAreNodesPlusStageFractionsOfTheStep) {
     for (Eigen::Index row = 0; row < trajectory.stage_times.size(); ++row) {
       const Eigen::Index k = row / scheme.stages;
       const double expected =
-          trajectory.node_times[k] + program->tableau().c[row % scheme.stages] * program->steps()[k];
+          trajectory.node_times[k] + program->tableau().c[row % scheme.stages] * program->step_inputs()[k];
       EXPECT_NEAR(trajectory.stage_times[row], expected, 1e-14);
     }
   }
