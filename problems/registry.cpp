@@ -3,7 +3,15 @@
 #include <array>
 
 #include "methods/error.hpp"
+#include "problems/container_crane.hpp"
+#include "problems/double_oscillator.hpp"
+#include "problems/hang_glider.hpp"
+#include "problems/hovercraft.hpp"
+#include "problems/kepler_cartesian.hpp"
+#include "problems/link_chain.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "problems/robot_arm.hpp"
+#include "problems/spherical_pendulum.hpp"
 #include "problems/two_link_manipulator.hpp"
 
 namespace dmocbench {
@@ -19,8 +27,10 @@ using Maker = std::unique_ptr<Problem> (*)();
 
 // One line per problem.
 constexpr std::array registry{
-    Maker{make<OrbitalTransfer>},
-    Maker{make<TwoLinkManipulator>},
+    Maker{make<OrbitalTransfer>},  Maker{make<TwoLinkManipulator>}, Maker{make<KeplerCartesian>},
+    Maker{make<LinkChain>},        Maker{make<SphericalPendulum>},  Maker{make<Hovercraft>},
+    Maker{make<RobotArm>},         Maker{make<HangGlider>},         Maker{make<ContainerCrane>},
+    Maker{make<DoubleOscillator>},
 };
 
 }  // namespace
