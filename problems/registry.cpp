@@ -3,7 +3,14 @@
 #include <array>
 
 #include "methods/error.hpp"
+#include "problems/acrobot.hpp"
+#include "problems/brachistochrone.hpp"
+#include "problems/cart_pole.hpp"
+#include "problems/double_integrator.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "problems/particle_steering.hpp"
+#include "problems/planar_quadrotor.hpp"
+#include "problems/planar_quadrotor_flip.hpp"
 #include "problems/two_link_manipulator.hpp"
 
 namespace dmocbench {
@@ -19,8 +26,9 @@ using Maker = std::unique_ptr<Problem> (*)();
 
 // One line per problem.
 constexpr std::array registry{
-    Maker{make<OrbitalTransfer>},
-    Maker{make<TwoLinkManipulator>},
+    Maker{make<OrbitalTransfer>}, Maker{make<TwoLinkManipulator>}, Maker{make<DoubleIntegrator>},
+    Maker{make<Brachistochrone>}, Maker{make<ParticleSteering>},   Maker{make<CartPole>},
+    Maker{make<Acrobot>},         Maker{make<PlanarQuadrotor>},    Maker{make<PlanarQuadrotorFlip>},
 };
 
 }  // namespace
