@@ -1,0 +1,24 @@
+#pragma once
+
+#include <numbers>
+
+#include "problems/planar_quadrotor.hpp"
+
+namespace dmocbench {
+
+/// A somersault of the planar quadrotor: from rest at (0, 0, 0) to rest at (0, 0, 2π) in T = 1 s; all else is as in
+/// `PlanarQuadrotor`, by option 0 <= u <= mg.
+class PlanarQuadrotorFlip final : public PlanarQuadrotor {
+ public:
+  PlanarQuadrotorFlip() : PlanarQuadrotor(1.0) {}
+
+  [[nodiscard]] std::string name() const override { return "planar_quadrotor_flip"; }
+  [[nodiscard]] std::string description() const override {
+    return "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector3d(0.0, 0.0, 2.0 * std::numbers::pi), .v = Eigen::Vector3d::Zero()};
+  }
+};
+
+}  // namespace dmocbench
