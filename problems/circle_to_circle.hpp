@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -33,6 +34,24 @@ class CircleToCircle : public Problem {
   }
 
  protected:
+  /// The least cost is that of the problem, whatever its coordinates.
+  [[nodiscard]] static ReferenceOptimum known_optimum(double revolutions) {
+    constexpr double after_two = 3.944909084747e-5;
+    constexpr double after_ten = 7.890332317683e-6;
+    return {.objective = revolutions == 2.0 ? after_two : after_ten,
+            .digits = 13,
+            .certificate =
+                "the indirect method with Gauss of orders 16 and 20, in polar and in Cartesian coordinates; the "
+                "replay of its control has the same cost to 13 digits",
+            .published = {},
+            .remark = "the paper shows the cost in a figure only"};
+  }
+  template <class Type>
+  [[nodiscard]] static bool is_known(const Type& transfer) {
+    const double revolutions = transfer.parameter("revolutions");
+    return has_default_parameters(transfer, {"revolutions"}) && (revolutions == 2.0 || revolutions == 10.0);
+  }
+
   CircleToCircle()
       : Problem({
             {.name = "initial_altitude",

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <limits>
+
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -9,7 +12,7 @@ namespace dmocbench {
 /// q = (x, y), L = m(½|q̇|² - g y); with the updraft U(x) = u_c (1 - e) exp(-e), e = (x/r_c - 2.5)², the velocity
 /// through the air is (ẋ, w), w = ẏ - U(x), of size v_r, and
 ///   f = ½ρS v_r (-c_L w - c_D ẋ, c_L ẋ - c_D w),   c_D = c_0 + c_1 c_L²,   u = c_L, 0 <= c_L <= 1.4,
-/// C = 0, Φ = -x(T), T free; from (0, 1000 m) to the altitude 900 m with the same velocity at both ends. Data:
+/// C = 0, Φ = -x(T), T free, ẋ >= 0; from (0, 1000 m) to the altitude 900 m with the same velocity at both ends. Data:
 /// m = 100 kg, g = 9.81 m/s², u_c = 2.5 m/s, r_c = 100 m, c_0 = 0.034, c_1 = 0.069662, S = 14 m², ρ = 1.13 kg/m³,
 /// velocity (13.23, -1.288) m/s. Bulirsch, Nerz, Pesch and von Stryk, who posed it, have g = 9.80665 m/s² and
 /// (13.2275675, -1.28750052) m/s. Solved in units of 100 m and 10 s, which leave accelerations in m/s², and of the mass
@@ -91,6 +94,11 @@ class HangGlider final : public Problem {
   [[nodiscard]] double horizon() const override { return 10.0; }
   [[nodiscard]] HorizonBounds horizon_bounds() const override { return {1.0, 100.0}; }
 
+  /// As in COPS: without it a glider that turns back in the thermal gains altitude without end.
+  [[nodiscard]] Bounds velocity_bounds() const override {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {Eigen::Vector2d(0.0, -infinity), Eigen::Vector2d(infinity, infinity)};
+  }
   [[nodiscard]] Bounds control_bounds() const override {
     return {Eigen::VectorXd::Constant(1, 0.0), Eigen::VectorXd::Constant(1, 1.4)};
   }
@@ -108,6 +116,32 @@ class HangGlider final : public Problem {
   }
 
   [[nodiscard]] Unit time_unit() const override { return {.name = "s", .factor = time_unit_in_seconds}; }
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    const bool original = parameter("gravity") == 9.80665 && parameter("forward_velocity") == 13.2275675 &&
+                          parameter("climb_velocity") == -1.28750052 &&
+                          has_default_parameters(*this, {"gravity", "forward_velocity", "climb_velocity"});
+    if (!original && !has_default_parameters(*this)) return std::nullopt;
+    ReferenceOptimum known{.objective = -1247.98760,
+                           .digits = 9,
+                           .certificate =
+                               "Gauss with 3 stages and with 2 on other grids; the replays of both controls fly as far "
+                               "to all of them",
+                           .published = {{-1255.05, "COPS 3.0, trapezoidal rule, N = 100"},
+                                         {-1250.190, "PSOPT, example glider, 5 meshes"},
+                                         {-1247.918, "CTBenchmarks.jl, midpoint rule, N = 200"}},
+                           .remark =
+                               "the published values are those of their grids: ours of the midpoint rule on 200 "
+                               "intervals is -1247.918; coarse grids of many stages have false optima near -1345 "
+                               "and -1370 that a replay refutes and that vanish under refinement"};
+    if (original) {
+      known.objective = -1248.0310;
+      known.digits = 8;
+      known.published = {};
+      known.remark = "gravity and end velocities of Bulirsch, Nerz, Pesch, von Stryk; those of COPS give -1247.9876";
+    }
+    return known;
+  }
+
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     return {{"x", "m", length_unit * x.q[0]},
             {"y", "m", length_unit * x.q[1]},

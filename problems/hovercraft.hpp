@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -69,6 +70,17 @@ class Hovercraft final : public Problem {
     ExpressionVector generator(3);
     generator << -q[1], q[0], 1.0;
     return generator;
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this)) return std::nullopt;
+    return ReferenceOptimum{.objective = 0.8719293256585,
+                            .digits = 12,
+                            .certificate =
+                                "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
+                                "same cost to 12 digits",
+                            .published = {},
+                            .remark = {}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {

@@ -62,6 +62,11 @@ class KeplerCartesian final : public CircleToCircle {
     return "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
   }
 
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!is_known(*this)) return std::nullopt;
+    return known_optimum(parameter("revolutions"));
+  }
+
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     const Expression r = radius(x.q);
     const Expression thrust = acceleration_scale() * x.u[0];

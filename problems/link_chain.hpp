@@ -1,10 +1,11 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -93,6 +94,42 @@ class LinkChain final : public Problem {
     return ExpressionVector::Constant(links(), Expression(1.0));
   }
 
+  /// The chain folds while it rises: the last rod is ahead, the one before it behind, and so on down to the first.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    MotionPoint point = Problem::guess(t);
+    const double rate = std::numbers::pi / horizon();
+    double fold = largest_fold;
+    for (Eigen::Index i = links() - 1; i > 0; --i) {
+      point.q[i] += fold * std::sin(rate * t);
+      point.v[i] += fold * rate * std::cos(rate * t);
+      fold = -fold;
+    }
+    return point;
+  }
+  [[nodiscard]] std::string guess_description() const override {
+    return "q on the straight line from q(0) to q(T) plus 2.5 sin(pi t/T) for the last rod, minus it for the rod "
+           "before, "
+           "and so on with changing signs, nothing for the first; v its slope, u = 0";
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this, {"links"})) return std::nullopt;
+    ReferenceOptimum known{.objective = 0.0, .digits = 13, .certificate = certificate, .published = {}, .remark = {}};
+    if (links() == 1) {
+      known.objective = 10.2534144826;
+    } else if (links() == 2) {
+      known.objective = 80.3790291691;
+    } else if (links() == 3) {
+      known.objective = 134.8718555982;
+      known.remark =
+          "the cheapest of the minima that 60 perturbed starts found; others lie at 159.9, 162.8, 177.2, 179.4, 188.9, "
+          "207.3, 227.2, 240.5 and above";
+    } else {
+      return std::nullopt;
+    }
+    return known;
+  }
+
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     std::vector<PictureQuantity> quantities;
     Expression tip_x = 0.0;
@@ -112,6 +149,10 @@ class LinkChain final : public Problem {
   }
 
  private:
+  static constexpr double largest_fold = 2.5;  // rad
+  static constexpr const char* certificate =
+      "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 digits";
+
   [[nodiscard]] Eigen::Index links() const { return static_cast<Eigen::Index>(parameter("links")); }
   [[nodiscard]] std::vector<std::string> numbered(const std::string& stem) const {
     std::vector<std::string> names;

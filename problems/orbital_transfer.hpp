@@ -52,6 +52,11 @@ class OrbitalTransfer final : public CircleToCircle {
     return generator;
   }
 
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!is_known(*this)) return std::nullopt;
+    return known_optimum(parameter("revolutions"));
+  }
+
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     const Expression radius = initial_radius() * x.q[0];
     const Expression thrust = acceleration_scale() * x.u[0];

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -80,6 +81,17 @@ class SphericalPendulum final : public Problem {
     ExpressionVector generator(2);
     generator << 0.0, 1.0;
     return generator;
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this)) return std::nullopt;
+    return ReferenceOptimum{.objective = 0.91134694658953,
+                            .digits = 13,
+                            .certificate =
+                                "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
+                                "same cost to 13 digits",
+                            .published = {},
+                            .remark = {}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
