@@ -41,7 +41,7 @@ TEST(DoubleOscillator, ReachesItsReferenceWithVelocitiesOfItsOwnChoice) {
   const DoubleOscillator problem;
   const ReferenceOptimum reference = problem.reference_optimum().value();
   for (const std::string& method : element_names()) {
-    const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
+    const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(32), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
     EXPECT_EQ(found.q.row(0).norm(), 0.0);
     EXPECT_GT(found.v.row(0).norm(), 1e-4);

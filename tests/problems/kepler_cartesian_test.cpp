@@ -82,14 +82,29 @@ TEST(KeplerCartesian, HasALagrangianThatRotationsLeaveAlone) {
 }
 
 TEST(KeplerCartesian, HasTheOptimumOfTheOrbitalTransferAfterAsManyRevolutions) {
+  // Trigonometric functions of time are to be resolved here, slow drifts there: hence the finer grid.
   const KeplerCartesian plane;
   const OrbitalTransfer polar;
-  const auto solved = [](const Problem& problem) {
-    return tests::solve(problem, {"dmoc", 3}, Grid::uniform(48), guessed_motion(problem)).trajectory;
+  const auto solved = [](const Problem& problem, Eigen::Index intervals) {
+    return tests::solve(problem, {"dmoc", 3}, Grid::uniform(intervals), guessed_motion(problem), 1e-11).trajectory;
   };
-  const Trajectory in_plane = solved(plane);
-  EXPECT_NEAR(in_plane.cost / solved(polar).cost, 1.0, 1e-9);
+  const Trajectory in_plane = solved(plane, 160);
+  const Trajectory in_angles = solved(polar, 48);
+  EXPECT_NEAR(in_plane.cost / in_angles.cost, 1.0, 1e-9);
   EXPECT_NEAR(swept_angle(in_plane), 4.0 * pi, 1e-9);
+  const ReferenceOptimum reference = plane.reference_optimum().value();
+  EXPECT_EQ(reference.objective, polar.reference_optimum().value().objective);
+  EXPECT_NEAR(in_angles.cost / reference.objective, 1.0, 1e-10);
+}
+
+TEST(KeplerCartesian, KnowsItsOptimumAfterTwoAndTenRevolutionsOnly) {
+  KeplerCartesian problem;
+  EXPECT_TRUE(problem.reference_optimum().has_value());
+  const double after_two = problem.reference_optimum()->objective;
+  problem.set_parameter("revolutions", 10.0);
+  EXPECT_LT(problem.reference_optimum()->objective, 0.25 * after_two);
+  problem.set_parameter("revolutions", 3.0);
+  EXPECT_FALSE(problem.reference_optimum().has_value());
 }
 
 TEST(KeplerCartesian, MakesTangentSpaceAndHamiltonianCollocationOneMethod) {

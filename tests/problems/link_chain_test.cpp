@@ -88,5 +88,14 @@ TEST(LinkChain, HasAKineticEnergyThatRotationsLeaveAlone) {
               tests::lagrangian_at(*chain, q, v), 1e-14);
 }
 
+TEST(LinkChain, ReachesItsReferenceFromItsFoldedGuess) {
+  for (const int n : {1, 2, 3}) {
+    const auto chain = chain_of(n);
+    const double reference = chain->reference_optimum().value().objective;
+    const Trajectory found = tests::solve(*chain, {"dmoc", 2}, Grid::uniform(64), guessed_motion(*chain)).trajectory;
+    EXPECT_NEAR(found.cost, reference, 2e-4 * reference) << n;
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench
