@@ -10,7 +10,7 @@ namespace dmocbench {
 /// `PlanarQuadrotor`, by option 0 <= u <= mg.
 class PlanarQuadrotorFlip final : public PlanarQuadrotor {
  public:
-  PlanarQuadrotorFlip() : PlanarQuadrotor(1.0) {}
+  PlanarQuadrotorFlip() : PlanarQuadrotor(flip_duration) {}
 
   [[nodiscard]] std::string name() const override { return "planar_quadrotor_flip"; }
   [[nodiscard]] std::string description() const override {
@@ -19,6 +19,17 @@ class PlanarQuadrotorFlip final : public PlanarQuadrotor {
   [[nodiscard]] BoundaryState final_state() const override {
     return {.q = Eigen::Vector3d(0.0, 0.0, 2.0 * std::numbers::pi), .v = Eigen::Vector3d::Zero()};
   }
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_own_data(flip_duration)) return std::nullopt;
+    return ReferenceOptimum{.objective = 14.19952298,
+                            .digits = 9,
+                            .certificate = certificate,
+                            .published = {},
+                            .remark = "nobody published a value; dearer minima turn unevenly (17.47, 19.09)"};
+  }
+
+ private:
+  static constexpr double flip_duration = 1.0;  // s
 };
 
 }  // namespace dmocbench
