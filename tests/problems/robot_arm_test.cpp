@@ -67,7 +67,7 @@ TEST(RobotArm, DoesNotKnowItsAzimuth) {
             tests::lagrangian_at(problem, Eigen::Vector3d(4.0, 2.1, 0.8), v));
 }
 
-TEST(RobotArm, ComesNearItsReferenceFromAboveOnACoarseGrid) {
+TEST(RobotArm, ComesNearItsReferenceOnACoarseGrid) {
   // A grid that does not know the switching times.
   for (const bool euler_lagrange : {true, false}) {
     RobotArm problem;

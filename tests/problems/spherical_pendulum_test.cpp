@@ -64,7 +64,8 @@ TEST(SphericalPendulum, DoesNotKnowItsAzimuth) {
   const SphericalPendulum problem;
   const Eigen::Vector2d v(0.4, 1.2);
   EXPECT_EQ(tests::generator_at(problem, v), Eigen::Vector2d(0.0, 1.0));
-  EXPECT_EQ(tests::lagrangian_at(problem, {0.7, 0.1}, v), tests::lagrangian_at(problem, {0.7, 2.3}, v));
+  EXPECT_EQ(tests::lagrangian_at(problem, Eigen::Vector2d(0.7, 0.1), v),
+            tests::lagrangian_at(problem, Eigen::Vector2d(0.7, 2.3), v));
 }
 
 TEST(SphericalPendulum, ReachesItsReference) {
