@@ -48,5 +48,15 @@ TEST(DoubleOscillator, ReachesItsReferenceWithVelocitiesOfItsOwnChoice) {
   }
 }
 
+TEST(DoubleOscillator, HasThePublishedValuesOnTheirGrids) {
+  const DoubleOscillator problem;
+  const auto cost = [&](const tests::Scheme& scheme) {
+    return tests::solve(problem, scheme, Grid::uniform(200), guessed_motion(problem)).trajectory.cost;
+  };
+  const std::vector<PublishedOptimum> published = problem.reference_optimum().value().published;
+  EXPECT_NEAR(cost({"tangent", 1}), published.at(0).objective, 1e-9);                    // midpoint rule
+  EXPECT_NEAR(cost({"tangent", 2, "lobatto_shared"}), published.at(1).objective, 1e-9);  // trapezoidal rule
+}
+
 }  // namespace
 }  // namespace dmocbench

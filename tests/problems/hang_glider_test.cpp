@@ -75,5 +75,12 @@ TEST(HangGlider, StatesItsRangeInMetres) {
   EXPECT_NEAR(found.cost, problem.reference_optimum().value().objective, 10.0);
 }
 
+TEST(HangGlider, FliesAsFarAsPublishedByTheMidpointRuleOnTwoHundredIntervals) {
+  const HangGlider problem;
+  const double found = tests::solve(problem, {"dmoc", 1}, Grid::uniform(200), guessed_motion(problem)).trajectory.cost;
+  const std::vector<PublishedOptimum> published = problem.reference_optimum().value().published;
+  EXPECT_NEAR(found, published.back().objective, 1e-3);
+}
+
 }  // namespace
 }  // namespace dmocbench

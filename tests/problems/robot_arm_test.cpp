@@ -1,5 +1,7 @@
 #include "problems/robot_arm.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -77,6 +79,23 @@ TEST(RobotArm, ComesNearItsReferenceOnACoarseGrid) {
     EXPECT_NEAR(found.cost, reference, 0.02 * reference);
     EXPECT_LT(found.stage_u.lpNorm<Eigen::Infinity>(), 1.0 + 1e-9);
   }
+}
+
+TEST(RobotArm, ReachesItsReferenceOnAGridWithItsSwitchingTimes) {
+  const std::array<double, 7> switches{0.0, 0.25, 0.3058824, 0.5, 1.0 - 0.3058824, 0.75, 1.0};
+  constexpr Eigen::Index per_arc = 6;
+  Eigen::VectorXd nodes(6 * per_arc + 1);
+  for (Eigen::Index k = 0; k < 6 * per_arc; ++k) {
+    const auto arc = static_cast<std::size_t>(k / per_arc);
+    const double fraction = static_cast<double>(k % per_arc) / per_arc;
+    nodes[k] = switches[arc] + fraction * (switches[arc + 1] - switches[arc]);
+  }
+  nodes[6 * per_arc] = 1.0;
+  const RobotArm problem;
+  const Trajectory found =
+      tests::solve(problem, {"dmoc", 3}, Grid::from_nodes(nodes), guessed_motion(problem), 1e-11).trajectory;
+  EXPECT_NEAR(found.cost, problem.reference_optimum().value().objective, 1e-7);
+  EXPECT_GT(found.stage_u.cwiseAbs().minCoeff(), 0.99);  // bang-bang
 }
 
 }  // namespace
