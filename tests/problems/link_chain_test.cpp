@@ -32,6 +32,7 @@ TEST(LinkChain, OfTwoLinksIsTheTwoLinkManipulator) {
   EXPECT_EQ(chain->initial_state().v, arm.initial_state().v);
   EXPECT_EQ(chain->final_state().v, arm.final_state().v);
   EXPECT_EQ(chain->horizon(), arm.horizon());
+  EXPECT_EQ(chain->reference_optimum().value().objective, arm.reference_optimum().value().objective);
 }
 
 TEST(LinkChain, HasTheEnergiesOfRodsComputedFromTheirTips) {
