@@ -1,6 +1,7 @@
 // Every problem's stated optimum against a solve.
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -17,6 +18,9 @@ struct Instance {
   Eigen::Index intervals = 32;
   std::map<std::string, double> settings;
 };
+
+/// Test names would show addresses without it.
+void PrintTo(const Instance& instance, std::ostream* stream) { *stream << instance.problem; }
 
 class StatedReference : public testing::TestWithParam<Instance> {};
 
