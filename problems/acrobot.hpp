@@ -91,6 +91,30 @@ class Acrobot final : public Problem {
     return {.lower = -strongest, .upper = strongest};
   }
 
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (parameter("friction") != 0.1 || parameter("horizon") != 4.0 || parameter("bounded") != 1.0) return std::nullopt;
+    if (parameter("physical") == 1.0) {
+      return ReferenceOptimum{
+          .objective = 43.0899,
+          .digits = 6,
+          .certificate = "Gauss s = 3 and s = 4 agree; replayed",
+          .published = {},
+          .remark =
+              "the best of some hundred starts, of which most end in other minima (43.25, 48.2, 56.0, 93.09407, "
+              "...) or nowhere; not known to be the least"};
+    }
+    return ReferenceOptimum{
+        .objective = 54.412699,
+        .digits = 7,
+        .certificate = "Gauss s = 3 and s = 4 on 800 and Lobatto s = 4 on 900 intervals and a replay agree",
+        .published = {{4.4432421953665, "PROPT guide, 80 collocation points"}},
+        .remark =
+            "the published cost is impossible: no motion costs less than 4 b2 dV = 27.468. Coarse grids have such "
+            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this motion. The best of some two hundred "
+            "starts, of which most end in other minima or nowhere; not known to be the least. From the guess every "
+            "method ends in a minimum of its own"};
+  }
+
   /// 4b₂ΔV, which no motion's cost is below.
   [[nodiscard]] double energy_bound() const {
     return 4.0 * parameter("friction") * 2.0 * (upper_weight() + lower_weight());
