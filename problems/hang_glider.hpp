@@ -131,9 +131,9 @@ class HangGlider final : public Problem {
                       {-1247.918, "CTBenchmarks.jl, midpoint rule, N = 200"}},
         .remark =
             "the published values are those of their grids: ours of the midpoint rule on 200 intervals is -1247.918, "
-            "of the trapezoidal rule on 50, 100, 200, 400 intervals -1282.4, -1254.6, -1248.8, -1247.97; coarse grids "
-            "of four stages have false optima near -1345 and -1370 that a replay refutes and that vanish under "
-            "refinement"};
+            "of the trapezoidal rule on 50, 100, 200, 400 intervals -1282.4, -1254.6, -1248.8, -1247.97; Lobatto with "
+            "four stages has false optima on 64 intervals, -1370 and -1445, that a replay refutes and that are gone on "
+            "128"};
     if (original) {
       known.objective = -1248.031025;
       known.published = {};
