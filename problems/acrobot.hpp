@@ -100,7 +100,7 @@ class Acrobot final : public Problem {
           .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; replayed, the end met to 4e-4",
           .published = {},
           .remark =
-              "the best of about a hundred starts, many of them around it; other minima are 43.25, 56.0, 93.09407; not "
+              "the best of about a hundred starts, many of them around it; another minimum is 93.09407; not "
               "known to be the least"};
     }
     return ReferenceOptimum{
