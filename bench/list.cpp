@@ -87,7 +87,7 @@ void print_reference(const Problem& problem) {
     print_field("optimum", "unknown for these parameters");
     return;
   }
-  print_field("optimum", fmt::format("{:.{}g}, {} digits: {}", reference->objective, reference->digits,
+  print_field("optimum", fmt::format("{:#.{}g}, {} digits: {}", reference->objective, reference->digits,
                                      reference->digits, reference->certificate));
   for (const PublishedOptimum& published : reference->published) {
     print_field("published", fmt::format("{:.12g}, {}", published.objective, published.source));

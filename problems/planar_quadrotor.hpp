@@ -61,7 +61,7 @@ class PlanarQuadrotor : public Problem {
         .certificate = certificate,
         .published = {},
         .remark =
-            "nobody published a value; the bounds, by option, are not active; dearer minima tumble on "
+            "no published value is known; the bounds, by option, are not active; dearer minima tumble on "
             "the way (23.05, 23.38, 25.58)"};
   }
 

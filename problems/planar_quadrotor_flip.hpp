@@ -32,7 +32,7 @@ class PlanarQuadrotorFlip final : public PlanarQuadrotor {
                             .digits = 11,
                             .certificate = certificate,
                             .published = {},
-                            .remark = "nobody published a value; dearer minima turn unevenly (17.47, 19.09)"};
+                            .remark = "no published value is known; dearer minima turn unevenly (17.47, 19.09)"};
   }
 
  private:
