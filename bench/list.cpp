@@ -1,4 +1,6 @@
-// What there is: problems with their parameters and guess, methods, tableaus, solvers, derivative back ends.
+// What there is: problems with everything they prescribe and what is known of their optimum, methods, tableaus,
+// solvers, derivative back ends.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -7,6 +9,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
@@ -17,19 +20,102 @@ namespace {
 
 std::string listed(const Eigen::VectorXd& vector) { return fmt::format("({:.6g})", fmt::join(vector, ", ")); }
 
-void print_problem(const Problem& problem) {
+/// A line with its label; nothing is printed without content.
+void print_field(const std::string& label, const std::string& content) {
+  if (!content.empty()) fmt::print("    {:<9} {}\n", label, content);
+}
+
+/// "-2 <= x <= 2, u_1 >= 0" of the entries that are bounded, "" if none is.
+std::string bounds_in_words(const Bounds& bounds, const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) {
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    const bool has_lower = std::isfinite(bounds.lower[i]);
+    const bool has_upper = std::isfinite(bounds.upper[i]);
+    if (has_lower && has_upper) {
+      parts.push_back(fmt::format("{:.6g} <= {} <= {:.6g}", bounds.lower[i], name, bounds.upper[i]));
+    } else if (has_lower) {
+      parts.push_back(fmt::format("{} >= {:.6g}", name, bounds.lower[i]));
+    } else if (has_upper) {
+      parts.push_back(fmt::format("{} <= {:.6g}", name, bounds.upper[i]));
+    }
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> velocity_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const std::string& name : problem.configuration_names()) names.push_back("v_" + name);
+  return names;
+}
+
+/// The state at an end, and which of its components are not prescribed.
+std::string end_in_words(const Problem& problem, const BoundaryState& state, const EndBounds& bounds) {
+  std::string words = fmt::format("q = {}, v = {}", listed(state.q), listed(state.v));
+  std::vector<std::string> free;
+  std::vector<std::string> between;
+  const auto sort = [&](const Bounds& of, const std::vector<std::string>& names) {
+    for (Eigen::Index i = 0; i < of.lower.size(); ++i) {
+      const std::string& name = names[static_cast<std::size_t>(i)];
+      if (of.is_fixed(i)) continue;
+      if (!of.is_bounded(i)) {
+        free.push_back(name);
+      } else {
+        between.push_back(bounds_in_words({of.lower.segment(i, 1), of.upper.segment(i, 1)}, {name}));
+      }
+    }
+  };
+  sort(bounds.q, problem.configuration_names());
+  sort(bounds.v, velocity_names(problem));
+  if (!free.empty()) words += fmt::format("; free (as guessed): {}", fmt::join(free, ", "));
+  if (!between.empty()) words += fmt::format("; {}", fmt::join(between, ", "));
+  return words;
+}
+
+std::string horizon_in_words(const Problem& problem) {
   const Unit time = problem.time_unit();
-  const BoundaryState first = problem.initial_state();
-  const BoundaryState last = problem.final_state();
+  const HorizonBounds bounds = problem.horizon_bounds();
+  if (!bounds.is_free())
+    return fmt::format("T = {:.6g} ({:.6g} {})", bounds.lower, bounds.lower * time.factor, time.name);
+  return fmt::format("{:.6g} <= T <= {:.6g}, guessed {:.6g} ({:.6g} {})", bounds.lower, bounds.upper, problem.horizon(),
+                     problem.horizon() * time.factor, time.name);
+}
+
+void print_reference(const Problem& problem) {
+  const auto reference = problem.reference_optimum();
+  if (!reference) {
+    print_field("optimum", "unknown for these parameters");
+    return;
+  }
+  print_field("optimum", fmt::format("{:#.{}g}, {} digits: {}", reference->objective, reference->digits,
+                                     reference->digits, reference->certificate));
+  for (const PublishedOptimum& published : reference->published) {
+    print_field("published", fmt::format("{:.12g}, {}", published.objective, published.source));
+  }
+  print_field("remark", reference->remark);
+}
+
+void print_problem(const Problem& problem) {
+  const TracedProblem traced(problem);
+  const auto q_names = problem.configuration_names();
   fmt::print("{}\n    {}\n", problem.name(), problem.description());
-  fmt::print("    source    {}\n", problem.source());
-  fmt::print("    q         ({})   u  ({})\n", fmt::join(problem.configuration_names(), ", "),
-             fmt::join(problem.control_names(), ", "));
-  fmt::print("    start     q = {}, v = {}\n", listed(first.q), listed(first.v));
-  fmt::print("    end       q = {}, v = {}\n", listed(last.q), listed(last.v));
-  fmt::print("    horizon   T = {:.6g} ({:.6g} {})\n", problem.horizon(), problem.horizon() * time.factor, time.name);
-  fmt::print("    guess     {}\n", problem.guess_description());
-  fmt::print("    scale     the cost is multiplied by {:g} for the solver\n", problem.cost_scale());
+  print_field("source", problem.source());
+  print_field("q", fmt::format("({})   u  ({})", fmt::join(q_names, ", "), fmt::join(problem.control_names(), ", ")));
+  print_field("start", end_in_words(problem, problem.initial_state(), problem.initial_bounds()));
+  print_field("end", end_in_words(problem, problem.final_state(), problem.final_bounds()));
+  print_field("horizon", horizon_in_words(problem));
+  const auto bounds_on = [](const Bounds& bounds, const std::vector<std::string>& names) {
+    const std::string words = bounds_in_words(bounds, names);
+    return words.empty() ? std::string("none") : words;
+  };
+  print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_on(problem.configuration_bounds(), q_names),
+                                    bounds_on(problem.velocity_bounds(), velocity_names(problem)),
+                                    bounds_on(problem.control_bounds(), problem.control_names())));
+  print_field("rows", fmt::format("{} path constraints, {} boundary conditions", traced.path_constraint_count(),
+                                  traced.boundary_condition_count()));
+  print_reference(problem);
+  print_field("guess", problem.guess_description());
+  print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));
   for (const Parameter& parameter : problem.parameters()) {
     fmt::print("    --set {}={:.6g}{}{}: {}, {}\n", parameter.name, parameter.value, parameter.unit.empty() ? "" : " ",
                parameter.unit, parameter.meaning, parameter.range());

@@ -3,8 +3,23 @@
 #include <array>
 
 #include "methods/error.hpp"
+#include "problems/acrobot.hpp"
+#include "problems/brachistochrone.hpp"
+#include "problems/cart_pole.hpp"
+#include "problems/container_crane.hpp"
+#include "problems/double_integrator.hpp"
+#include "problems/double_oscillator.hpp"
 #include "problems/forced_oscillator.hpp"
+#include "problems/hang_glider.hpp"
+#include "problems/hovercraft.hpp"
+#include "problems/kepler_cartesian.hpp"
+#include "problems/link_chain.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "problems/particle_steering.hpp"
+#include "problems/planar_quadrotor.hpp"
+#include "problems/planar_quadrotor_flip.hpp"
+#include "problems/robot_arm.hpp"
+#include "problems/spherical_pendulum.hpp"
 #include "problems/two_link_manipulator.hpp"
 
 namespace dmocbench {
@@ -20,9 +35,12 @@ using Maker = std::unique_ptr<Problem> (*)();
 
 // One line per problem.
 constexpr std::array registry{
-    Maker{make<OrbitalTransfer>},
-    Maker{make<TwoLinkManipulator>},
-    Maker{make<ForcedOscillator>},
+    Maker{make<OrbitalTransfer>},   Maker{make<TwoLinkManipulator>}, Maker{make<KeplerCartesian>},
+    Maker{make<LinkChain>},         Maker{make<DoubleIntegrator>},   Maker{make<ForcedOscillator>},
+    Maker{make<Brachistochrone>},   Maker{make<ParticleSteering>},   Maker{make<CartPole>},
+    Maker{make<Acrobot>},           Maker{make<PlanarQuadrotor>},    Maker{make<PlanarQuadrotorFlip>},
+    Maker{make<SphericalPendulum>}, Maker{make<Hovercraft>},         Maker{make<RobotArm>},
+    Maker{make<HangGlider>},        Maker{make<ContainerCrane>},     Maker{make<DoubleOscillator>},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -100,6 +101,19 @@ class TwoLinkManipulator final : public Problem {
     ExpressionVector generator(2);
     generator << 1.0, 1.0;
     return generator;
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this)) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 80.37902916907,
+        .digits = 13,
+        .certificate =
+            "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 "
+            "digits",
+        .published = {},
+        .remark =
+            "the paper gives no data and shows the cost in a figure only; other minima near 89.56, 167, 171, 192, 205"};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {

@@ -37,7 +37,7 @@ TEST(KktFill, GrowsInProportionToTheNumberOfIntervals) {
 }
 
 TEST(KktFill, IsLessForDmocThanForCollocation) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
     const KktFill dmoc = kkt_fill(*tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(64)));
     const KktFill hamiltonian = kkt_fill(*tests::transcribe(*problem, {"hamiltonian", 1}, Grid::uniform(64)));

@@ -33,7 +33,7 @@ TEST_P(SlsqpAndIpopt, FindTheSameOptimumFromTheCommonStart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Problems, SlsqpAndIpopt, testing::ValuesIn(problem_names()),
+INSTANTIATE_TEST_SUITE_P(Problems, SlsqpAndIpopt, testing::ValuesIn(paper_problem_names()),
                          [](const auto& problem) { return problem.param; });
 
 TEST(LeastSquaresMultipliers, AreThoseOfIpoptAtItsAnswer) {

@@ -10,8 +10,8 @@ namespace dmocbench {
 namespace {
 
 TEST(Polish, CarriesALooseSolutionToRounding) {
-  // A solver's first step solves a linear problem like the oscillator to rounding.
-  for (const std::string name : {"orbital_transfer", "two_link_manipulator"}) {
+  // A solver's first step solves a linear problem like the forced oscillator to rounding.
+  for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       SCOPED_TRACE(name + " " + method);
       const auto problem = make_problem(name);

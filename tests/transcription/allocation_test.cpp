@@ -45,7 +45,7 @@ TEST_P(Evaluations, TheCounterSeesAllocationsOfEigenAndOfTheLibrary) {
 }
 
 TEST_P(Evaluations, AllocateNothing) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
     for (const int stages : {1, 2, 3}) {
       const auto& [method, derivatives] = GetParam();

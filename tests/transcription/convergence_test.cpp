@@ -74,7 +74,7 @@ TEST_P(Convergence, OnASmoothlyGradedGridIsOfOrderTwoAsWell) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Convergence,
-                         testing::Combine(testing::ValuesIn(problem_names()), testing::ValuesIn(element_names())),
+                         testing::Combine(testing::ValuesIn(paper_problem_names()), testing::ValuesIn(element_names())),
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
                          });

@@ -125,7 +125,7 @@ class DiscretePrinciple {
 
 std::vector<std::unique_ptr<Problem>> problems() {
   std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : problem_names()) all.push_back(make_problem(name));
+  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
   all.push_back(std::make_unique<tests::MovingFrame>());
   all.push_back(std::make_unique<tests::RelativisticSpring>());
   return all;
@@ -169,7 +169,7 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
         }
         for (Eigen::Index j = 0; j + 1 < s; ++j) {
           for (std::size_t k = 0; k < intervals; ++k) {
-            const double unit = program->step_inputs()[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
+            const double unit = program->steps(x)[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
             const auto row =
                 static_cast<Eigen::Index>(layout.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
             EXPECT_NEAR(rows[row], variation(layout.slope_q_column(j, component) + k) / unit, tolerance);
@@ -199,7 +199,7 @@ class MidpointByHand : public testing::Test {
   [[nodiscard]] Eigen::Vector2d node(Eigen::Index k) const { return {x_[entry(0, k)], x_[entry(1, k)]}; }
   [[nodiscard]] Ends interval(Eigen::Index k) const {
     const auto column = static_cast<Eigen::Index>(program_->layout().control_column(0, 0));
-    return ends(node(k), node(k + 1), x_[column + k], program_->step_inputs()[k]);
+    return ends(node(k), node(k + 1), x_[column + k], program_->steps(x_)[k]);
   }
   [[nodiscard]] Eigen::Index entry(Eigen::Index i, Eigen::Index k) const {
     return static_cast<Eigen::Index>(program_->layout().configuration_column(i)) + k;

@@ -27,7 +27,7 @@ Counts counts(const Problem& problem, const Scheme& scheme, long long intervals)
 }
 
 TEST(Layout, AddsPerIntervalWhatTheSavingsRemarkCounts) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
     const auto n = static_cast<std::size_t>(problem->configuration_size());
     const auto m = static_cast<std::size_t>(problem->control_size());

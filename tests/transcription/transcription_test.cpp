@@ -114,7 +114,7 @@ TEST(Transcription, RefusesAProblemWithoutControlsAndNamesNoNumberOfIntervals) {
 }
 
 TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
     const BoundaryState first = problem->initial_state();
     const BoundaryState last = problem->final_state();

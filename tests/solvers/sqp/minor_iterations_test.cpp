@@ -149,7 +149,7 @@ void replay_first_program(NonlinearProgram& program, const Eigen::VectorXd& star
 }
 
 TEST(MinorIterations, EveryOneCanBeReplayedFromItsSets) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       const auto problem = make_problem(name);
       Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(8));
@@ -197,7 +197,7 @@ struct Count {
 
 std::vector<Count> counts(const std::map<std::string, std::string>& choices, const std::vector<Eigen::Index>& grids) {
   std::vector<Count> result;
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       for (const Eigen::Index intervals : grids) {
         const auto problem = make_problem(name);

@@ -63,7 +63,7 @@ TEST(Sqp, GivesMultipliersOfOurSign) {
 }
 
 TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
-  for (const std::string& name : problem_names()) {
+  for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       for (const Eigen::Index intervals : {16, 32, 64}) {
         SCOPED_TRACE(name + " " + method + " N = " + std::to_string(intervals));

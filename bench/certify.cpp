@@ -1,0 +1,196 @@
+// Which value of a problem's least cost can be trusted: routes to it that share as little as possible, compared with
+// the reference that the problem states.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/summary/agreement_of_routes.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/error.hpp"
+#include "methods/indirect/solve_indirect.hpp"
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+struct Scheme {
+  std::string tableau;
+  int stages = 1;
+};
+
+/// "lobatto4" is lobatto with four stages.
+Scheme parse_scheme(const std::string& text) {
+  const std::size_t digits = text.find_first_of("0123456789");
+  if (digits == 0 || digits == std::string::npos || text.size() - digits > 2 ||
+      text.find_first_not_of("0123456789", digits) != std::string::npos) {
+    throw Error(fmt::format("--routes takes tableaus with their stages like gauss3,lobatto4, not {}", text));
+  }
+  Scheme scheme{text.substr(0, digits), std::stoi(text.substr(digits))};
+  static_cast<void>(make_tableau(scheme.tableau, scheme.stages));  // refuses what is not offered
+  return scheme;
+}
+
+class Certify final : public Experiment {
+ public:
+  [[nodiscard]] std::string name() const override { return "certify"; }
+  [[nodiscard]] std::string description() const override {
+    return "The least cost by routes that share as little as possible: two tableaus on two grids each, the finest "
+           "answer's control replayed, and the indirect method where it applies. NAME_references.csv has a row per "
+           "problem: the routes, how many digits they share, and whether they confirm the reference that the problem "
+           "states.";
+  }
+  [[nodiscard]] std::string default_intervals() const override { return "64,128"; }
+  void set_defaults(ExperimentOptions& options) const override {
+    options.problems = {"all"};
+    options.methods = {"dmoc"};
+  }
+  void add_options(CLI::App& app) override {
+    app.add_option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_flag("!--no-indirect", with_indirect_, "leave the indirect method out");
+  }
+  [[nodiscard]] std::vector<std::string> own_columns() const override {
+    return {"replay_error", "replay_objective", "polish_steps"};
+  }
+  /// Digits are wanted that end where the solver's tolerance begins.
+  [[nodiscard]] bool polishes() const override { return true; }
+  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    std::vector<Case> cases;
+    for (const std::string& route : route_names_) {
+      const Scheme scheme = parse_scheme(route);
+      for (Case what : curve) {
+        what.tableau = scheme.tableau;
+        what.stages = scheme.stages;
+        cases.push_back(std::move(what));
+      }
+    }
+    return cases;
+  }
+
+  void complete(SolvedCase& solved) override {
+    Outcome& outcome = outcome_of(solved.what.problem);
+    if (!solved.trajectory || !is_solved(solved.solution.status)) return;
+    const auto intervals = static_cast<Eigen::Index>(solved.what.intervals());
+    auto& route = outcome.finest[solved.what.tableau + std::to_string(solved.what.stages)];
+    const bool is_finest = !route || route->intervals() <= intervals;
+    try {
+      const ReplayError replayed = replay_error(*solved.what.problem, *solved.trajectory);
+      solved.row.set("replay_error", replayed.norm());
+      solved.row.set("replay_objective", replayed.cost);
+      if (is_finest && (outcome.intervals < intervals || replayed.norm() < outcome.replay.norm())) {
+        outcome.replay = replayed;
+        outcome.intervals = intervals;
+      }
+    } catch (const Error& error) {
+      solved.row.set("message", solved.row.text("message") + " " + error.what());
+    }
+    if (is_finest) route = *solved.trajectory;
+  }
+
+  void finish(const Table& /*table*/, const std::filesystem::path& prefix,
+              nlohmann::ordered_json& /*metadata*/) override {
+    std::vector<std::string> columns{"problem"};
+    for (const std::string& route : route_names_) columns.push_back(route + "_objective");
+    for (const char* column :
+         {"replay_objective", "replay_error", "indirect_objective", "indirect_digits", "agreeing_digits", "reference",
+          "reference_digits", "certificate", "reference_agreement", "confirmed", "published", "remark", "message"}) {
+      columns.emplace_back(column);
+    }
+    Table references(columns);
+    for (Outcome& outcome : outcomes_) {
+      references.append(reference_row(outcome));
+      const Row& row = references.rows().back();
+      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", row.text("problem"),
+                 row.text("agreeing_digits"), row.text("confirmed"));
+    }
+    write_file(prefix.string() + "_references.csv", references.csv());
+  }
+
+ private:
+  struct Outcome {
+    std::shared_ptr<const Problem> problem;
+    std::map<std::string, std::optional<Trajectory>> finest;  // by route
+    ReplayError replay;                                       // the smallest error among those of the finest grid
+    Eigen::Index intervals = 0;                               // of the replayed answer, 0 if there is none
+  };
+
+  Outcome& outcome_of(const std::shared_ptr<const Problem>& problem) {
+    for (Outcome& outcome : outcomes_) {
+      if (outcome.problem == problem) return outcome;
+    }
+    outcomes_.push_back({problem, {}, {}, 0});
+    return outcomes_.back();
+  }
+
+  [[nodiscard]] Row reference_row(const Outcome& outcome) const {
+    const Problem& problem = *outcome.problem;
+    Row row;
+    row.set("problem", problem.name());
+    std::vector<double> objectives;
+    const Trajectory* start = nullptr;
+    for (const auto& [route, trajectory] : outcome.finest) {
+      if (!trajectory) continue;
+      objectives.push_back(trajectory->cost);
+      row.set(route + "_objective", trajectory->cost);
+      if (start == nullptr) start = &*trajectory;
+    }
+    if (outcome.intervals > 0) {
+      objectives.push_back(outcome.replay.cost);
+      row.set("replay_objective", outcome.replay.cost);
+      row.set("replay_error", outcome.replay.norm());
+    }
+    if (with_indirect_ && start != nullptr) {
+      try {
+        const IndirectSolution indirect = solve_indirect(problem, *start);
+        objectives.push_back(indirect.cost());
+        row.set("indirect_objective", indirect.cost());
+        row.set("indirect_digits", indirect.certified_digits());
+      } catch (const Error& error) {  // says what of the problem it does not know
+        row.set("message", error.what());
+      }
+    }
+    judge(problem, objectives, row);
+    return row;
+  }
+
+  static void judge(const Problem& problem, const std::vector<double>& objectives, Row& row) {
+    const RouteAgreement agreement = agreement_of_routes(objectives, problem.reference_optimum());
+    if (agreement.routes > 1) row.set("agreeing_digits", static_cast<long long>(agreement.digits));
+    row.set("confirmed", agreement.confirmed);
+    const auto reference = problem.reference_optimum();
+    if (!reference) return;
+    row.set("reference", reference->objective);
+    row.set("reference_digits", static_cast<long long>(reference->digits));
+    row.set("certificate", reference->certificate);
+    if (agreement.routes > 0) row.set("reference_agreement", static_cast<long long>(agreement.reference_digits));
+    std::vector<std::string> published;
+    for (const PublishedOptimum& value : reference->published) {
+      published.push_back(fmt::format("{:.12g} ({})", value.objective, value.source));
+    }
+    row.set("published", fmt::format("{}", fmt::join(published, "; ")));
+    row.set("remark", reference->remark);
+  }
+
+  std::vector<std::string> route_names_{"gauss3", "lobatto4"};
+  bool with_indirect_ = true;
+  std::vector<Outcome> outcomes_;
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::Certify experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
+}

@@ -1,0 +1,48 @@
+#include "bench/summary/agreement_of_routes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace dmocbench {
+
+namespace {
+
+constexpr int double_precision = 16;
+
+}  // namespace
+
+int agreeing_digits(double one, double other) {
+  const double size = std::max(std::abs(one), std::abs(other));
+  const double difference = std::abs(one - other);
+  if (!std::isfinite(difference)) return 0;
+  if (difference <= size * std::pow(10.0, -double_precision)) return double_precision;
+  return std::clamp(static_cast<int>(std::floor(-std::log10(difference / size))), 0, double_precision);
+}
+
+RouteAgreement agreement_of_routes(const std::vector<double>& objectives,
+                                   const std::optional<ReferenceOptimum>& reference) {
+  RouteAgreement agreement{
+      .routes = objectives.size(), .digits = double_precision, .reference_digits = 0, .confirmed = {}};
+  for (const double one : objectives) {
+    for (const double other : objectives) agreement.digits = std::min(agreement.digits, agreeing_digits(one, other));
+  }
+  if (objectives.size() < 2) agreement.digits = 0;
+  if (!reference || objectives.empty()) return agreement;
+  agreement.reference_digits = double_precision;
+  for (const double one : objectives) {
+    agreement.reference_digits = std::min(agreement.reference_digits, agreeing_digits(one, reference->objective));
+  }
+  if (objectives.size() < 2) return agreement;
+  if (agreement.reference_digits >= reference->digits) {
+    agreement.confirmed = "yes";
+  } else if (agreement.digits > 0 && agreement.reference_digits >= agreement.digits) {
+    agreement.confirmed = fmt::format("to {} digits", agreement.reference_digits);
+  } else {
+    agreement.confirmed = "no";
+  }
+  return agreement;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// The fastest descent, as an optimal control problem with free horizon: the reaction of the wire is the control.
+///
+/// q = (x, y), L = ½|q̇|² - gy, f = u(-ẏ, ẋ) (it does no work), minimise T from (0, 10) at rest to (10, 5), final
+/// velocity free. The cycloid x = R(φ - sin φ), y = y⁰ - R(1 - cos φ), φ = ωt, ω = sqrt(g/R), needs the constant
+/// control u = ω, so that T = φ₁ sqrt(R/g) with φ₁ and R such that it meets the end. The Hamiltonian is linear in u:
+/// all of the optimum is a singular arc, and at t = 0, where nothing moves, the control acts on nothing: Gauss has no
+/// stage there, Lobatto has and leaves its control undetermined. Data of the
+/// Dymos example (metres, seconds).
+class Brachistochrone final : public Problem {
+ public:
+  Brachistochrone()
+      : Problem({
+            {.name = "width", .value = 10.0, .unit = "m", .meaning = "x of the end", .lower = 1e-3, .upper = 1e3},
+            {.name = "drop", .value = 5.0, .unit = "m", .meaning = "y lost on the way", .lower = 1e-3, .upper = 1e3},
+            {.name = "gravity",
+             .value = 9.80665,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 1e-3,
+             .upper = 1e3},
+        }) {}
+
+  [[nodiscard]] std::string name() const override { return "brachistochrone"; }
+  [[nodiscard]] std::string description() const override {
+    return "the fastest descent between two points, controlled by the wire's reaction; free horizon";
+  }
+  [[nodiscard]] std::string source() const override { return "Johann Bernoulli 1696; data of the Dymos example"; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) - parameter("gravity") * x.q[1];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    ExpressionVector f(2);
+    f << -x.u[0] * x.v[1], x.u[0] * x.v[0];
+    return f;
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
+  [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::Vector2d(0.0, start_height), .v = Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector2d(parameter("width"), start_height - parameter("drop")), .v = Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] EndBounds final_bounds() const override {
+    return EndBounds::fixed(final_state()).free_velocity(0).free_velocity(1);
+  }
+  /// Of the guess: the slide down a straight wire.
+  [[nodiscard]] double horizon() const override {
+    const double w = parameter("width");
+    const double d = parameter("drop");
+    return std::sqrt(2.0 * (w * w + d * d) / (parameter("gravity") * d));
+  }
+  [[nodiscard]] HorizonBounds horizon_bounds() const override {
+    constexpr double factor = 10.0;
+    return {horizon() / factor, horizon() * factor};
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    const auto [radius, angle] = cycloid();
+    ReferenceOptimum optimum{.objective = angle * std::sqrt(radius / parameter("gravity")),
+                             .digits = 15,
+                             .certificate = "closed form, the cycloid through both points",
+                             .published = {},
+                             .remark =
+                                 "Lobatto tableaus leave the control at t = 0 undetermined and converge badly or not "
+                                 "at all; to certify, take Gauss ones"};
+    if (is_set_to({10.0, 5.0, 9.80665})) optimum.published.push_back({1.8016, "Dymos, example brachistochrone"});
+    if (is_set_to({2.0, 2.0, 9.8})) optimum.published.push_back({0.8247591, "PSOPT, example brac1"});
+    return optimum;
+  }
+
+  /// The slide down a straight wire, u what its reaction is at half the horizon.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    const Eigen::Vector2d way(parameter("width"), -parameter("drop"));
+    const double tau = t / horizon();
+    const double speed_at_half = way.norm() / horizon();
+    const double normal_gravity = parameter("gravity") * parameter("width") / way.norm();
+    return {.q = initial_state().q + tau * tau * way,
+            .v = 2.0 * tau / horizon() * way,
+            .u = Eigen::VectorXd::Constant(1, normal_gravity / speed_at_half)};
+  }
+  [[nodiscard]] std::string guess_description() const override {
+    return "the slide down a straight wire, u its reaction over the speed at half the time";
+  }
+
+  /// Horizontal translations; gravity spares this momentum.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    ExpressionVector generator(2);
+    generator << 1.0, 0.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const Expression speed = sqrt(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
+    return {{"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"speed", "m/s", speed}, {"reaction", "m/s^2", x.u[0] * speed}};
+  }
+
+  /// (R, φ₁) of the cycloid through both points: (φ - sin φ)/(1 - cos φ) = width/drop has one solution in (0, 2π).
+  [[nodiscard]] std::pair<double, double> cycloid() const {
+    const double w = parameter("width");
+    const double d = parameter("drop");
+    double low = 0.0;
+    double high = 2.0 * std::numbers::pi;
+    for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
+      const double excess = d * (middle - std::sin(middle)) - w * (1.0 - std::cos(middle));  // rises through 0
+      (excess < 0.0 ? low : high) = middle;
+    }
+    return {d / (1.0 - std::cos(low)), low};
+  }
+
+ private:
+  static constexpr double start_height = 10.0;
+
+  [[nodiscard]] bool is_set_to(const std::array<double, 3>& data) const {
+    return parameter("width") == data[0] && parameter("drop") == data[1] && parameter("gravity") == data[2];
+  }
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// Swing-up of a pendulum on a cart that is pushed, section 6 of Kelly's tutorial.
+///
+/// q = (x, θ), the cart's position and the pole's angle from hanging down, the bob at (x + l sin θ, -l cos θ);
+///   L = ½(m₁ + m₂)ẋ² + m₂lẋθ̇ cos θ + ½m₂l²θ̇² + m₂gl cos θ,  f = (u, 0),  C = u²,
+/// from hanging at x = 0 to upright at x = d, at rest, T = 2 s, |u| <= 20 N and |x| <= 2 m (neither is active along the
+/// two minima that are known: θ swings back first, or forward first).
+class CartPole final : public Problem {
+ public:
+  CartPole()
+      : Problem({
+            {.name = "cart_mass",
+             .value = 1.0,
+             .unit = "kg",
+             .meaning = "mass m1 of the cart",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "bob_mass",
+             .value = 0.3,
+             .unit = "kg",
+             .meaning = "mass m2 of the bob",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "length",
+             .value = 0.5,
+             .unit = "m",
+             .meaning = "length l of the pole",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "gravity",
+             .value = 9.81,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 0.0,
+             .upper = 1e3},
+            {.name = "distance",
+             .value = 1.0,
+             .unit = "m",
+             .meaning = "distance d that the cart travels",
+             .lower = -2.0,
+             .upper = 2.0},
+            {.name = "horizon",
+             .value = 2.0,
+             .unit = "s",
+             .meaning = "duration T of the swing-up",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "bounded",
+             .value = 1.0,
+             .unit = "",
+             .meaning = "1: the bounds on force and position hold, 0: there are none",
+             .lower = 0.0,
+             .upper = 1.0,
+             .whole = true},
+        }) {}
+
+  [[nodiscard]] std::string name() const override { return "cart_pole"; }
+  [[nodiscard]] std::string description() const override {
+    return "swing-up of a pendulum on a cart in fixed time, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6";
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "theta"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const double m1 = parameter("cart_mass");
+    const double m2 = parameter("bob_mass");
+    const double l = parameter("length");
+    const Expression& x_dot = x.v[0];
+    const Expression& theta_dot = x.v[1];
+    const Expression kinetic = 0.5 * (m1 + m2) * x_dot * x_dot + m2 * l * x_dot * theta_dot * cos(x.q[1]) +
+                               0.5 * m2 * l * l * theta_dot * theta_dot;
+    return kinetic + m2 * parameter("gravity") * l * cos(x.q[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    ExpressionVector f(2);
+    f << x.u[0], 0.0;
+    return f;
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector2d(parameter("distance"), std::numbers::pi), .v = Eigen::Vector2d::Zero()};
+  }
+  [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+
+  [[nodiscard]] Bounds configuration_bounds() const override {
+    if (!is_bounded()) return {};
+    Bounds bounds = Bounds::none(2);
+    constexpr double rail = 2.0;  // m to either side
+    bounds.lower[0] = -rail;
+    bounds.upper[0] = rail;
+    return bounds;
+  }
+  [[nodiscard]] Bounds control_bounds() const override {
+    if (!is_bounded()) return {};
+    const Eigen::VectorXd strongest = Eigen::VectorXd::Constant(1, 20.0);  // N
+    return {.lower = -strongest, .upper = strongest};
+  }
+
+  /// The optimum is about 58.
+  [[nodiscard]] double cost_scale() const override { return 1e-2; }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_published_data()) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 57.9447803067,
+        .digits = 10,
+        .certificate =
+            "Gauss and Lobatto with s = 4 on 192 intervals, a replay and, without the bounds, which are not active, "
+            "the indirect method agree",
+        .published = {{58.8839489745, "Dymos, test_cartpole_opt.py, after the tutorial (tolerance 1e-3)"}},
+        .remark =
+            "two minima: the pole swings back first (57.944780, from which the guess starts) or forward first "
+            "(58.807667), which the straight line and the published value are on; Dymos adds u(T) = 0 and is 0.13 % "
+            "above that one"};
+  }
+
+  /// x on the straight line; θ swings back first, which is where the cheaper of two minima lies.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    using std::numbers::pi;
+    MotionPoint point = Problem::guess(t);
+    const double phase = pi * t / horizon();
+    point.q[1] -= swing_back * std::sin(phase);
+    point.v[1] -= swing_back * pi / horizon() * std::cos(phase);
+    return point;
+  }
+  [[nodiscard]] std::string guess_description() const override {
+    return "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0";
+  }
+
+  /// Translations of the cart; the momentum of the whole changes by the work of the control alone.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    ExpressionVector generator(2);
+    generator << 1.0, 0.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const double l = parameter("length");
+    return {{"cart_x", "m", x.q[0]},
+            {"bob_x", "m", x.q[0] + l * sin(x.q[1])},
+            {"bob_y", "m", -l * cos(x.q[1])},
+            {"force", "N", x.u[0]}};
+  }
+
+ private:
+  static constexpr double swing_back = 2.0;  // rad
+
+  /// The bounds need not hold: they are not active at the optimum.
+  [[nodiscard]] bool has_published_data() const {
+    return parameter("cart_mass") == 1.0 && parameter("bob_mass") == 0.3 && parameter("length") == 0.5 &&
+           parameter("gravity") == 9.81 && parameter("distance") == 1.0 && parameter("horizon") == 2.0;
+  }
+
+  [[nodiscard]] bool is_bounded() const { return parameter("bounded") == 1.0; }
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
+
+namespace dmocbench {
+
+/// What the orbital transfer of the paper is whatever its coordinates: data, units and duration.
+///
+/// Solved nondimensionally: length r⁰, time sqrt(r⁰³/(γM)), mass of the satellite 1. The radii r⁰ and r^T are altitudes
+/// plus the Earth's radius (the paper prints the altitudes 30 km and 330 km only). After d revolutions the satellite is
+/// on the target circle, in the time T = d sqrt(4π²/8 (1 + ρ)³) with ρ = r^T/r⁰.
+class CircleToCircle : public Problem {
+ public:
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
+
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+
+  [[nodiscard]] double horizon() const override {
+    using std::numbers::pi;
+    return parameter("revolutions") * std::sqrt(4.0 * pi * pi / 8.0 * std::pow(1.0 + radius_ratio(), 3.0));
+  }
+
+  /// The optimum is about 4e-5.
+  [[nodiscard]] double cost_scale() const override { return 1e4; }
+
+  [[nodiscard]] Unit time_unit() const override {
+    constexpr double seconds_per_hour = 3600.0;
+    return {.name = "h", .factor = time_scale() / seconds_per_hour};
+  }
+
+ protected:
+  /// The least cost is that of the problem, whatever its coordinates.
+  [[nodiscard]] static ReferenceOptimum known_optimum(double revolutions) {
+    constexpr double after_two = 3.944909084747e-5;
+    constexpr double after_ten = 7.890332317683e-6;
+    return {.objective = revolutions == 2.0 ? after_two : after_ten,
+            .digits = 13,
+            .certificate =
+                "the indirect method with Gauss of orders 16 and 20, in polar and in Cartesian coordinates; the "
+                "replay of its control has the same cost to 13 digits",
+            .published = {},
+            .remark = "the paper shows the cost in a figure only"};
+  }
+  template <class Type>
+  [[nodiscard]] static bool is_known(const Type& transfer) {
+    const double revolutions = transfer.parameter("revolutions");
+    return has_default_parameters(transfer, {"revolutions"}) && (revolutions == 2.0 || revolutions == 10.0);
+  }
+
+  CircleToCircle()
+      : Problem({
+            {.name = "initial_altitude",
+             .value = 30.0,
+             .unit = "km",
+             .meaning = "altitude of the first orbit",
+             .lower = 0.0,
+             .upper = 1e6},
+            {.name = "target_altitude",
+             .value = 330.0,
+             .unit = "km",
+             .meaning = "altitude of the last orbit",
+             .lower = 0.0,
+             .upper = 1e6},
+            {.name = "revolutions",
+             .value = 2.0,
+             .unit = "",
+             .meaning = "revolutions d during the transfer",
+             .lower = 1.0,
+             .upper = 1000.0,
+             .whole = true},
+            {.name = "earth_radius",
+             .value = 6371.0,
+             .unit = "km",
+             .meaning = "radius of the Earth",
+             .lower = 1.0,
+             .upper = 1e6},
+            {.name = "gravitational_parameter",
+             .value = 398600.0,
+             .unit = "km^3/s^2",
+             .meaning = "gravitational constant times mass of the Earth",
+             .lower = 1.0,
+             .upper = 1e12},
+        }) {}
+
+  /// r⁰ in km.
+  [[nodiscard]] double initial_radius() const { return parameter("earth_radius") + parameter("initial_altitude"); }
+  /// ρ = r^T / r⁰.
+  [[nodiscard]] double radius_ratio() const {
+    return (parameter("earth_radius") + parameter("target_altitude")) / initial_radius();
+  }
+  /// The unit of time in s.
+  [[nodiscard]] double time_scale() const {
+    return std::sqrt(std::pow(initial_radius(), 3.0) / parameter("gravitational_parameter"));
+  }
+  /// The unit of acceleration in m/s².
+  [[nodiscard]] double acceleration_scale() const {
+    constexpr double metres_per_kilometre = 1e3;
+    return metres_per_kilometre * initial_radius() / (time_scale() * time_scale());
+  }
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <numbers>
+
+#include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
+
+namespace dmocbench {
+
+/// A hovercraft with two forces at its stern glides to another place and attitude.
+///
+/// q = (x, y, θ), L = ½m(ẋ² + ẏ²) + ½Jθ̇², f = (R(θ)(u₁, u₂), -r u₂): u₁ pushes along the axis, u₂ across it at the
+/// distance r behind the centre, so there are fewer controls than degrees of freedom. C = ½|u|², from (0, 0, 0) at rest
+/// to (1, 1, π/2) at rest. Data: m = 1, J = 0.05, r = 0.1, T = 5.
+class Hovercraft final : public Problem {
+ public:
+  Hovercraft()
+      : Problem({
+            {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass", .lower = 1e-3, .upper = 1e3},
+            {.name = "inertia",
+             .value = 0.05,
+             .unit = "kg m^2",
+             .meaning = "inertia about the centre",
+             .lower = 1e-6,
+             .upper = 1e3},
+            {.name = "lever",
+             .value = 0.1,
+             .unit = "m",
+             .meaning = "distance r of the forces behind the centre",
+             .lower = 1e-3,
+             .upper = 1e2},
+            {.name = "horizon", .value = 5.0, .unit = "s", .meaning = "duration T", .lower = 1e-3, .upper = 1e3},
+        }) {}
+
+  [[nodiscard]] std::string name() const override { return "hovercraft"; }
+  [[nodiscard]] std::string description() const override {
+    return "underactuated hovercraft to another place and attitude, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "the hovercraft of Junge, Marsden, Ober-Bloebaum: Discrete mechanics and optimal control, IFAC 2005, with "
+           "data of this suite";
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * parameter("mass") * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * parameter("inertia") * x.v[2] * x.v[2];
+  }
+
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    const Expression cosine = cos(x.q[2]);
+    const Expression sine = sin(x.q[2]);
+    ExpressionVector f(3);
+    f << cosine * x.u[0] - sine * x.u[1], sine * x.u[0] + cosine * x.u[1], -parameter("lever") * x.u[1];
+    return f;
+  }
+
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::Vector3d::Zero(), .v = Eigen::Vector3d::Zero()};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector3d(1.0, 1.0, std::numbers::pi / 2.0), .v = Eigen::Vector3d::Zero()};
+  }
+  [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+
+  /// Rotations of the plane about the origin: ξ = (-y, x, 1).
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
+    ExpressionVector generator(3);
+    generator << -q[1], q[0], 1.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this)) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 0.8719293256585,
+        .digits = 12,
+        .certificate =
+            "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
+            "same cost to 12 digits",
+        .published = {},
+        .remark = "another minimum costs 1.22519; of 100 perturbed starts 41 end in the reference and 59 there"};
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const double r = parameter("lever");
+    return {{"centre_x", "m", x.q[0]},
+            {"centre_y", "m", x.q[1]},
+            {"stern_x", "m", x.q[0] - r * cos(x.q[2])},
+            {"stern_y", "m", x.q[1] - r * sin(x.q[2])},
+            {"u_1", "N", x.u[0]},
+            {"u_2", "N", x.u[1]}};
+  }
+};
+
+}  // namespace dmocbench

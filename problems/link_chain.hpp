@@ -1,0 +1,165 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
+
+namespace dmocbench {
+
+/// Swing-up of a chain of n uniform rods, a motor in every joint: the two-link manipulator of the paper (section 4.2.2,
+/// imp_twolink) with as many links as are wanted.
+///
+/// q = (θ_1 .. θ_n), the orientations of the rods measured counterclockwise from the horizontal; with
+/// a_ij = n - max(i, j) + ½ for i ≠ j and a_ii = n - i + ¼,
+///   L = ½ Σ_i J θ̇_i² + ½ m l² Σ_ij a_ij cos(θ_i - θ_j) θ̇_i θ̇_j - m g l Σ_i (n - i + ½) sin θ_i,
+/// f_i = u_i - u_{i+1} (motor i turns rod i against rod i - 1, u_{n+1} = 0), C = ½|u|², from hanging at rest to upright
+/// at rest. Data: m = 1, l = 1, J = ml²/12, T = 1.
+class LinkChain final : public Problem {
+ public:
+  LinkChain()
+      : Problem({
+            {.name = "links",
+             .value = 3.0,
+             .unit = "",
+             .meaning = "number n of rods",
+             .lower = 1.0,
+             .upper = 32.0,
+             .whole = true},
+            {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of a rod", .lower = 1e-3, .upper = 1e3},
+            {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of a rod", .lower = 1e-3, .upper = 1e3},
+            {.name = "gravity",
+             .value = 9.81,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 0.0,
+             .upper = 1e3},
+            {.name = "horizon",
+             .value = 1.0,
+             .unit = "s",
+             .meaning = "duration T of the swing-up",
+             .lower = 1e-3,
+             .upper = 1e3},
+        }) {}
+
+  [[nodiscard]] std::string name() const override { return "link_chain"; }
+  [[nodiscard]] std::string description() const override {
+    return "swing-up of a planar chain of n rods in fixed time, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2, with n "
+           "links";
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return numbered("theta_"); }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("tau_"); }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const double m = parameter("mass");
+    const double l = parameter("length");
+    const Eigen::Index n = links();
+    Expression kinetic = 0.0;
+    Expression height = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto beyond = static_cast<double>(n - 1 - i);  // rods that hang on rod i
+      const double own = m * l * l * (beyond + 0.25) + m * l * l / 12.0;
+      kinetic += 0.5 * own * x.v[i] * x.v[i];
+      for (Eigen::Index j = 0; j < i; ++j) {
+        kinetic += m * l * l * (beyond + 0.5) * cos(x.q[i] - x.q[j]) * x.v[i] * x.v[j];
+      }
+      height += l * (beyond + 0.5) * sin(x.q[i]);
+    }
+    return kinetic - m * parameter("gravity") * height;
+  }
+
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    ExpressionVector f = x.u;
+    for (Eigen::Index i = 0; i + 1 < links(); ++i) f[i] = x.u[i] - x.u[i + 1];
+    return f;
+  }
+
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::VectorXd::Constant(links(), -std::numbers::pi / 2.0), .v = Eigen::VectorXd::Zero(links())};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::VectorXd::Constant(links(), std::numbers::pi / 2.0), .v = Eigen::VectorXd::Zero(links())};
+  }
+  [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+
+  /// Rotations of the whole chain: ξ = (1 .. 1). Gravity breaks the symmetry, so its torque counts among the forces.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    return ExpressionVector::Constant(links(), Expression(1.0));
+  }
+
+  /// The chain folds while it rises: the last rod is ahead, the one before it behind, and so on down to the first.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    MotionPoint point = Problem::guess(t);
+    const double rate = std::numbers::pi / horizon();
+    double fold = largest_fold;
+    for (Eigen::Index i = links() - 1; i > 0; --i) {
+      point.q[i] += fold * std::sin(rate * t);
+      point.v[i] += fold * rate * std::cos(rate * t);
+      fold = -fold;
+    }
+    return point;
+  }
+  [[nodiscard]] std::string guess_description() const override {
+    return "q on straight lines plus 2.5 sin(pi t/T) for the last rod, minus it for the rod before and so on with "
+           "changing signs, nothing for the first; v its slope, u = 0";
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this, {"links"})) return std::nullopt;
+    ReferenceOptimum known{.objective = 0.0, .digits = 13, .certificate = certificate, .published = {}, .remark = {}};
+    if (links() == 1) {
+      known.objective = 10.2534144826;
+      known.digits = 12;
+    } else if (links() == 2) {
+      known.objective = 80.37902916907;
+      known.remark = "the two-link manipulator's; other minima near 89.56, 167, 171, 192, 205";
+    } else if (links() == 3) {
+      known.objective = 134.8718555982;
+      known.remark =
+          "the cheapest of the minima that 66 perturbed starts found; others near 159.9, 162.8, 177.2, 179.4, 188.9, "
+          "207.3, 227.2, 240.5 and above";
+    } else {
+      return std::nullopt;
+    }
+    return known;
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    std::vector<PictureQuantity> quantities;
+    Expression tip_x = 0.0;
+    Expression tip_y = 0.0;
+    for (Eigen::Index i = 0; i < links(); ++i) {
+      tip_x += parameter("length") * cos(x.q[i]);
+      tip_y += parameter("length") * sin(x.q[i]);
+      const std::string number = std::to_string(i + 1);
+      quantities.push_back({"tip_" + number + "_x", "m", tip_x});
+      quantities.push_back({"tip_" + number + "_y", "m", tip_y});
+    }
+    const std::vector<std::string> motors = control_names();
+    for (Eigen::Index i = 0; i < links(); ++i) {
+      quantities.push_back({motors[static_cast<std::size_t>(i)], "N m", x.u[i]});
+    }
+    return quantities;
+  }
+
+ private:
+  static constexpr double largest_fold = 2.5;  // rad
+  static constexpr const char* certificate =
+      "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 digits";
+
+  [[nodiscard]] Eigen::Index links() const { return static_cast<Eigen::Index>(parameter("links")); }
+  [[nodiscard]] std::vector<std::string> numbered(const std::string& stem) const {
+    std::vector<std::string> names;
+    for (Eigen::Index i = 1; i <= links(); ++i) names.push_back(stem + std::to_string(i));
+    return names;
+  }
+};
+
+}  // namespace dmocbench

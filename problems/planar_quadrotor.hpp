@@ -1,0 +1,154 @@
+#pragma once
+
+#include <utility>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// A quadrotor in a vertical plane, flown from one place to another.
+///
+/// q = (x, y, θ), θ counterclockwise from level; u = (u₁, u₂) the thrusts of the right and the left pair of rotors,
+/// F = u₁ + u₂:
+///   L = ½m(ẋ² + ẏ²) + ½Iθ̇² - mgy,  f = (-F sin θ, F cos θ, r(u₁ - u₂)),  C = u₁² + u₂²,
+/// m = 0.486, I = 0.00383, r = 0.25. From (0, 0, 0) to (2, 1, 0) at rest in T = 1.5 s; by option 0 <= u <= mg.
+class PlanarQuadrotor : public Problem {
+ public:
+  PlanarQuadrotor() : PlanarQuadrotor(flight_duration) {}
+
+  [[nodiscard]] std::string name() const override { return "planar_quadrotor"; }
+  [[nodiscard]] std::string description() const override {
+    return "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's";
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const double m = parameter("mass");
+    return 0.5 * m * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * parameter("inertia") * x.v[2] * x.v[2] -
+           m * parameter("gravity") * x.q[1];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    const Expression thrust = x.u[0] + x.u[1];
+    ExpressionVector f(3);
+    f << -thrust * sin(x.q[2]), thrust * cos(x.q[2]), parameter("arm") * (x.u[0] - x.u[1]);
+    return f;
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return x.u[0] * x.u[0] + x.u[1] * x.u[1];
+  }
+
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return {.q = Eigen::Vector3d::Zero(), .v = Eigen::Vector3d::Zero()};
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector3d(2.0, 1.0, 0.0), .v = Eigen::Vector3d::Zero()};
+  }
+  [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+  [[nodiscard]] Bounds control_bounds() const override {
+    if (!is_bounded()) return {};
+    return {.lower = Eigen::Vector2d::Zero(), .upper = Eigen::Vector2d::Constant(weight())};
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_own_data(flight_duration)) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 19.81198431842,
+        .digits = 11,
+        .certificate = certificate,
+        .published = {},
+        .remark =
+            "no published value is known; the bounds, by option, are not active; dearer minima tumble on "
+            "the way (23.05, 23.38, 25.58)"};
+  }
+
+  /// Hovering for a second costs 11.4.
+  [[nodiscard]] double cost_scale() const override { return 0.1; }
+
+  /// The straight line, hovering.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    MotionPoint point = Problem::guess(t);
+    point.u.setConstant(0.5 * weight());
+    return point;
+  }
+  [[nodiscard]] std::string guess_description() const override {
+    return "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers";
+  }
+
+  /// Horizontal translations.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    ExpressionVector generator(3);
+    generator << 1.0, 0.0, 0.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const double r = parameter("arm");
+    const Expression arm_x = r * cos(x.q[2]);
+    const Expression arm_y = r * sin(x.q[2]);
+    return {{"x", "m", x.q[0]},
+            {"y", "m", x.q[1]},
+            {"right_x", "m", x.q[0] + arm_x},
+            {"right_y", "m", x.q[1] + arm_y},
+            {"left_x", "m", x.q[0] - arm_x},
+            {"left_y", "m", x.q[1] - arm_y},
+            {"right_thrust", "N", x.u[0]},
+            {"left_thrust", "N", x.u[1]}};
+  }
+
+ protected:
+  static constexpr double flight_duration = 1.5;  // s
+  static constexpr const char* certificate =
+      "Gauss and Lobatto with s = 4 on 192 intervals, a replay and the indirect method agree";
+  /// A flight that lasts `duration` seconds unless it is set.
+  explicit PlanarQuadrotor(double duration)
+      : Problem({
+            {.name = "mass", .value = 0.486, .unit = "kg", .meaning = "mass m", .lower = 1e-3, .upper = 1e3},
+            {.name = "inertia",
+             .value = 0.00383,
+             .unit = "kg m^2",
+             .meaning = "inertia I about the centre",
+             .lower = 1e-6,
+             .upper = 1e3},
+            {.name = "arm",
+             .value = 0.25,
+             .unit = "m",
+             .meaning = "distance r of the rotors from the centre",
+             .lower = 1e-3,
+             .upper = 1e2},
+            {.name = "gravity",
+             .value = 9.81,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 0.0,
+             .upper = 1e3},
+            {.name = "horizon",
+             .value = duration,
+             .unit = "s",
+             .meaning = "duration T of the flight",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "bounded",
+             .value = 0.0,
+             .unit = "",
+             .meaning = "1: 0 <= u <= m g for either thrust, 0: thrusts are free",
+             .lower = 0.0,
+             .upper = 1.0,
+             .whole = true},
+        }) {}
+
+  /// True if all parameters are the defaults of a flight of that duration, for which references are certified.
+  [[nodiscard]] bool has_own_data(double duration) const {
+    return parameter("mass") == 0.486 && parameter("inertia") == 0.00383 && parameter("arm") == 0.25 &&
+           parameter("gravity") == 9.81 && parameter("horizon") == duration;
+  }
+
+  [[nodiscard]] bool is_bounded() const { return parameter("bounded") == 1.0; }
+  /// mg in N.
+  [[nodiscard]] double weight() const { return parameter("mass") * parameter("gravity"); }
+};
+
+}  // namespace dmocbench

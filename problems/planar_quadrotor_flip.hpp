@@ -1,0 +1,42 @@
+#pragma once
+
+#include <numbers>
+
+#include "problems/planar_quadrotor.hpp"
+
+namespace dmocbench {
+
+/// A somersault of the planar quadrotor: from rest at (0, 0, 0) to rest at (0, 0, 2π) in T = 1 s; all else is as in
+/// `PlanarQuadrotor`, by option 0 <= u <= mg.
+class PlanarQuadrotorFlip final : public PlanarQuadrotor {
+ public:
+  PlanarQuadrotorFlip() : PlanarQuadrotor(flip_duration) {}
+
+  [[nodiscard]] std::string name() const override { return "planar_quadrotor_flip"; }
+  [[nodiscard]] std::string description() const override {
+    return "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return {.q = Eigen::Vector3d(0.0, 0.0, 2.0 * std::numbers::pi), .v = Eigen::Vector3d::Zero()};
+  }
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_own_data(flip_duration)) return std::nullopt;
+    if (is_bounded()) {
+      return ReferenceOptimum{.objective = 15.3075,
+                              .digits = 6,
+                              .certificate = "Gauss s = 3 on 256 and Lobatto s = 4 on 192 intervals and a replay agree",
+                              .published = {},
+                              .remark = {}};
+    }
+    return ReferenceOptimum{.objective = 14.19952298017,
+                            .digits = 11,
+                            .certificate = certificate,
+                            .published = {},
+                            .remark = "no published value is known; dearer minima turn unevenly (17.47, 19.09)"};
+  }
+
+ private:
+  static constexpr double flip_duration = 1.0;  // s
+};
+
+}  // namespace dmocbench

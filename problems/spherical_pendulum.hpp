@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "methods/mechanics/problem.hpp"
+#include "problems/default_parameters.hpp"
+
+namespace dmocbench {
+
+/// A spherical pendulum is carried from one steady cone to a wider one while it goes around the vertical.
+///
+/// q = (θ, φ), the angle from below and the azimuth; L = ½ml²(θ̇² + sin²θ φ̇²) + mgl cos θ, f = u, C = ½|u|². On the
+/// cone θ the pendulum goes around at the rate sqrt(g/(l cos θ)) without any torque: both ends are such motions, from
+/// π/4 to π/3 during d revolutions. The coordinates are singular at θ = 0, far below both cones. Data: m = 1, l = 1,
+/// T = 1.5.
+class SphericalPendulum final : public Problem {
+ public:
+  SphericalPendulum()
+      : Problem({
+            {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of the bob", .lower = 1e-3, .upper = 1e3},
+            {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of the rod", .lower = 1e-3, .upper = 1e3},
+            {.name = "gravity",
+             .value = 9.81,
+             .unit = "m/s^2",
+             .meaning = "gravitational acceleration",
+             .lower = 1e-3,
+             .upper = 1e3},
+            {.name = "initial_cone",
+             .value = std::numbers::pi / 4.0,
+             .unit = "rad",
+             .meaning = "angle of the first cone from below",
+             .lower = 0.1,
+             .upper = 1.5},
+            {.name = "target_cone",
+             .value = std::numbers::pi / 3.0,
+             .unit = "rad",
+             .meaning = "angle of the last cone from below",
+             .lower = 0.1,
+             .upper = 1.5},
+            {.name = "revolutions",
+             .value = 1.0,
+             .unit = "",
+             .meaning = "revolutions d during the transfer",
+             .lower = 0.0,
+             .upper = 100.0,
+             .whole = true},
+            {.name = "horizon", .value = 1.5, .unit = "s", .meaning = "duration T", .lower = 1e-3, .upper = 1e3},
+        }) {}
+
+  [[nodiscard]] std::string name() const override { return "spherical_pendulum"; }
+  [[nodiscard]] std::string description() const override {
+    return "spherical pendulum from one steady cone to a wider one, least control effort";
+  }
+  [[nodiscard]] std::string source() const override {
+    return "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady";
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta", "phi"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_theta", "u_phi"}; }
+
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const double m = parameter("mass");
+    const double l = parameter("length");
+    const Expression sine = sin(x.q[0]);
+    return 0.5 * m * l * l * (x.v[0] * x.v[0] + sine * sine * x.v[1] * x.v[1]) +
+           m * parameter("gravity") * l * cos(x.q[0]);
+  }
+
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
+
+  [[nodiscard]] BoundaryState initial_state() const override { return on_cone(parameter("initial_cone"), 0.0); }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return on_cone(parameter("target_cone"), 2.0 * std::numbers::pi * parameter("revolutions"));
+  }
+  [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+
+  /// Rotations about the vertical: ξ = (0, 1).
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    ExpressionVector generator(2);
+    generator << 0.0, 1.0;
+    return generator;
+  }
+
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    if (!has_default_parameters(*this)) return std::nullopt;
+    return ReferenceOptimum{.objective = 0.91134694658953,
+                            .digits = 13,
+                            .certificate =
+                                "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
+                                "same cost to 13 digits",
+                            .published = {},
+                            .remark = {}};
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const double l = parameter("length");
+    return {{"bob_x", "m", l * sin(x.q[0]) * cos(x.q[1])},
+            {"bob_y", "m", l * sin(x.q[0]) * sin(x.q[1])},
+            {"bob_z", "m", -l * cos(x.q[0])},
+            {"u_theta", "N m", x.u[0]},
+            {"u_phi", "N m", x.u[1]}};
+  }
+
+ private:
+  /// The steady motion on a cone.
+  [[nodiscard]] BoundaryState on_cone(double theta, double phi) const {
+    const double rate = std::sqrt(parameter("gravity") / (parameter("length") * std::cos(theta)));
+    return {.q = Eigen::Vector2d(theta, phi), .v = Eigen::Vector2d(0.0, rate)};
+  }
+};
+
+}  // namespace dmocbench

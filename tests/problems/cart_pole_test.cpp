@@ -1,0 +1,90 @@
+#include "problems/cart_pole.hpp"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/point_function.hpp"
+#include "tests/support/random_points.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// The equations as the tutorial prints them, solved for the accelerations.
+Eigen::Vector2d printed_acceleration(const Problem& problem, double theta, double omega, double u) {
+  const double m1 = problem.parameter("cart_mass");
+  const double m2 = problem.parameter("bob_mass");
+  const double l = problem.parameter("length");
+  const double g = problem.parameter("gravity");
+  const double s = std::sin(theta);
+  const double c = std::cos(theta);
+  return {(l * m2 * s * omega * omega + u + m2 * g * c * s) / (m1 + m2 * s * s),
+          -(l * m2 * c * s * omega * omega + u * c + (m1 + m2) * g * s) / (l * m1 + l * m2 * s * s)};
+}
+
+TEST(CartPole, ObeysTheEquationsOfTheTutorial) {
+  CartPole problem;
+  problem.set_parameter("cart_mass", 1.3);
+  problem.set_parameter("length", 0.7);
+  EquationsOfMotion motion{TracedProblem(problem)};
+  tests::RandomPoints random;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Vector2d q = random.vector(2, -3.0, 3.0);
+    const Eigen::Vector2d v = random.vector(2, -5.0, 5.0);
+    const double u = random.number(-20.0, 20.0);
+    const Eigen::Vector2d expected = printed_acceleration(problem, q[1], v[1], u);
+    EXPECT_LT((motion.acceleration(q, v, Eigen::VectorXd::Constant(1, u), 0.0) - expected).norm(), 1e-11);
+  }
+}
+
+TEST(CartPole, BeginsAndEndsInEquilibriumAtRest) {
+  const CartPole problem;
+  EquationsOfMotion motion{TracedProblem(problem)};
+  for (const BoundaryState& state : {problem.initial_state(), problem.final_state()}) {
+    EXPECT_EQ(state.v.norm(), 0.0);
+    EXPECT_LT(motion.acceleration(state.q, state.v, Eigen::VectorXd::Zero(1), 0.0).norm(), 1e-14);
+  }
+}
+
+TEST(CartPole, DropsItsBoundsByOption) {
+  CartPole problem;
+  EXPECT_EQ(problem.control_bounds().upper[0], 20.0);
+  EXPECT_EQ(problem.configuration_bounds().lower[0], -2.0);
+  EXPECT_FALSE(problem.configuration_bounds().is_bounded(1));
+  problem.set_parameter("bounded", 0.0);
+  EXPECT_TRUE(problem.control_bounds().empty());
+  EXPECT_TRUE(problem.configuration_bounds().empty());
+}
+
+TEST(CartPole, IsSymmetricUnderTranslationsOfTheCart) {
+  const CartPole problem;
+  const State x{input_vector(0, 2), input_vector(2, 2), Expression::input(5)};
+  State moved = x;
+  moved.q = x.q + Expression::input(6) * problem.symmetry(x.q).value();
+  EXPECT_TRUE(problem.lagrangian(moved).is_same(problem.lagrangian(x)));
+}
+
+TEST(CartPole, PicturesABobAtTheLengthOfThePole) {
+  const CartPole problem;
+  std::vector<std::string> names;
+  PointFunction picture(2, 1, [&](const ControlledState& x) {
+    const auto quantities = problem.picture(x);
+    ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
+    for (const PictureQuantity& quantity : quantities) {
+      values[static_cast<Eigen::Index>(names.size())] = quantity.value;
+      names.push_back(quantity.name);
+    }
+    return values;
+  });
+  Eigen::VectorXd values(picture.output_count());
+  picture.evaluate(Eigen::Vector2d(0.4, 2.0), Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, 3.0), 0.0, values);
+  std::map<std::string, double> named;
+  for (std::size_t i = 0; i < names.size(); ++i) named[names[i]] = values[static_cast<Eigen::Index>(i)];
+  EXPECT_NEAR(std::hypot(named["bob_x"] - named["cart_x"], named["bob_y"]), 0.5, 1e-15);
+  EXPECT_GT(named["bob_y"], 0.0);  // above the cart beyond π/2
+  EXPECT_EQ(named["force"], 3.0);
+}
+
+}  // namespace
+}  // namespace dmocbench

@@ -1,0 +1,69 @@
+// Every problem's stated optimum against a solve.
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "problems/registry.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// A smooth problem whose optimum a small grid knows, found from its own guess.
+struct Instance {
+  std::string problem;
+  Eigen::Index intervals = 32;
+  std::map<std::string, double> settings;
+};
+
+/// Test names would show addresses without it.
+void PrintTo(const Instance& instance, std::ostream* stream) { *stream << instance.problem; }
+
+class StatedReference : public testing::TestWithParam<Instance> {};
+
+TEST_P(StatedReference, IsWhatGaussWithThreeStagesFinds) {
+  const auto problem = make_problem(GetParam().problem);
+  for (const auto& [name, value] : GetParam().settings) problem->set_parameter(name, value);
+  const auto reference = problem->reference_optimum();
+  ASSERT_TRUE(reference.has_value());
+  const double cost = tests::solve(*problem, {"dmoc", 3}, Grid::uniform(GetParam().intervals), guessed_motion(*problem))
+                          .trajectory.cost;
+  constexpr double coarsest = 1e-7;
+  const double tolerance = std::max(coarsest, std::pow(10.0, -reference->digits)) * std::abs(reference->objective);
+  EXPECT_NEAR(cost, reference->objective, tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Smooth, StatedReference,
+    testing::Values(Instance{"double_integrator", 4, {}},
+                    Instance{"double_integrator", 4, {{"distance", 2.0}, {"horizon", 3.0}}},
+                    Instance{"particle_steering", 32, {}}, Instance{"brachistochrone", 16, {}},
+                    Instance{"cart_pole", 64, {}}, Instance{"planar_quadrotor", 48, {}},
+                    Instance{"planar_quadrotor_flip", 64, {}}, Instance{"orbital_transfer", 32, {}},
+                    Instance{"orbital_transfer", 128, {{"revolutions", 10.0}}}, Instance{"link_chain", 96, {}},
+                    Instance{"link_chain", 64, {{"links", 2.0}}}, Instance{"spherical_pendulum", 24, {}},
+                    Instance{"hovercraft", 32, {}}, Instance{"double_oscillator", 32, {}}),
+    [](const auto& instance) { return instance.param.problem + (instance.param.settings.empty() ? "" : "_as_set"); });
+
+TEST(References, SayHowTheyAreKnown) {
+  for (const std::string& name : problem_names()) {
+    const auto reference = make_problem(name)->reference_optimum();
+    if (!reference) continue;
+    EXPECT_TRUE(std::isfinite(reference->objective)) << name;
+    EXPECT_GE(reference->digits, 1) << name;
+    EXPECT_LE(reference->digits, 16) << name;
+    EXPECT_FALSE(reference->certificate.empty()) << name;
+    for (const PublishedOptimum& published : reference->published) {
+      EXPECT_FALSE(published.source.empty()) << name;
+      // Whoever differs in the first three digits is owed an explanation.
+      const double difference = std::abs(published.objective / reference->objective - 1.0);
+      EXPECT_TRUE(difference <= 1e-3 || !reference->remark.empty()) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench
