@@ -37,6 +37,14 @@ class ForcedOscillator final : public Problem {
   [[nodiscard]] BoundaryState final_state() const override {
     return {.q = Eigen::VectorXd::Ones(1), .v = Eigen::VectorXd::Zero(1)};
   }
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+    constexpr int all_digits = 16;
+    return ReferenceOptimum{.objective = std::numbers::inv_pi,
+                            .digits = all_digits,
+                            .certificate = "closed form: 1/pi",
+                            .published = {},
+                            .remark = ""};
+  }
   [[nodiscard]] double horizon() const override { return std::numbers::pi; }
 
   /// Translations, ξ = 1, under which the kinetic energy is invariant; the spring's force counts as one of the forces.

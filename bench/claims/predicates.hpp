@@ -61,6 +61,10 @@ struct ConsistencyClaim {
 [[nodiscard]] Claim symplecticity_claim(const ResultTables& tables);
 /// Energy over many periods.
 [[nodiscard]] Claim modified_energy_claim(const ResultTables& tables);
+/// Local minima from many starts.
+[[nodiscard]] Claim local_minima_claim(const ResultTables& tables, const std::string& problem);
+/// That one method finds the best of them more often.
+[[nodiscard]] Claim best_minimum_claim(const ResultTables& tables, const std::string& problem);
 /// A row of the table of slips.
 [[nodiscard]] Claim slip_claim(const Row& row);
 

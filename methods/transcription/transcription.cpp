@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/guess_survey.hpp"
 
 namespace dmocbench {
 
@@ -53,27 +53,11 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count()};
 }
 
-/// max|q| and max|L_vv| over the ends and the guess.
-double rounding_floor_of(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
-  constexpr int samples = 16;
+/// From max|q| and max|L_vv| over the ends and the guess.
+double rounding_floor_of(const GuessSurvey& survey, double smallest_step) {
   constexpr double safety = 20.0;
-  LegendreTransform legendre(traced);
-  double largest_q = 0.0;
-  double largest_mass = 0.0;
-  const auto include = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-    largest_q = std::max(largest_q, q.lpNorm<Eigen::Infinity>());
-    largest_mass = std::max(largest_mass, legendre.mass(q, v, t).lpNorm<Eigen::Infinity>());
-  };
-  const double horizon = problem.horizon();
-  include(problem.initial_state().q, problem.initial_state().v, 0.0);
-  include(problem.final_state().q, problem.final_state().v, horizon);
-  for (int i = 0; i <= samples; ++i) {
-    const double t = horizon * i / samples;
-    const MotionPoint point = problem.guess(t);
-    include(point.q, point.v, t);
-  }
-  const double smallest_step = horizon * grid.relative_widths().minCoeff();
-  return safety * std::numeric_limits<double>::epsilon() * largest_q * largest_mass / smallest_step;
+  return safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass /
+         smallest_step;
 }
 
 }  // namespace
@@ -101,7 +85,8 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       end_functions_(trace_ends(problem, traced_, end_rules_)),
       layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
       bounds_(program_bounds(problem, traced_, problem_bounds_, end_rules_, layout_)),
-      rounding_floor_(rounding_floor_of(problem, traced_, grid)),
+      rounding_floor_(rounding_floor_of(survey_guess(problem, traced_, grid),
+                                        guessed_horizon_ * grid.relative_widths().minCoeff())),
       step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
       time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
       jacobian_pattern_(assemble_pattern(

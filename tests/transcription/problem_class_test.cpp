@@ -238,5 +238,45 @@ TEST(ProblemClassRefusals, NameTheFunctionAndTheQuantity) {
             std::string::npos);
 }
 
+TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
+  const tests::DoubleIntegrator base;
+  const auto sentence = [&](const std::function<void(Statement&)>& change) {
+    const Restated problem(base, change);
+    return tests::sentence_of_error([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
+  };
+  // The guess is q = t: sqrt(q - 0.6) is not a number before t = 0.6.
+  EXPECT_NE(sentence([](Statement& s) {
+              s.running_cost = [](const ControlledState& x) { return sqrt(x.q[0] - 0.6) + x.u[0] * x.u[0]; };
+            }).find("at its guess in interval 0 (t = 0.007812) running_cost is not a number"),
+            std::string::npos);
+  EXPECT_NE(sentence([](Statement& s) {
+              s.path = [](const ControlledState& x) {
+                ExpressionVector h(2);
+                h << x.q[0], log(0.5 - x.q[0]);
+                return h;
+              };
+            }).find("in interval 4 (t = 0.507812) path_constraints[1] is not a number"),
+            std::string::npos);
+}
+
+TEST(ProblemClassRefusals, NameASingularMass) {
+  class Degenerate final : public tests::SmallProblem {
+   public:
+    Degenerate()
+        : SmallProblem("degenerate", {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()},
+                       {Eigen::Vector2d::Ones(), Eigen::Vector2d::Zero()}, 1.0, 2) {}
+    [[nodiscard]] Expression lagrangian(const State& x) const override {
+      const Expression sum = x.v[0] + x.v[1];
+      return 0.5 * sum * sum;
+    }
+    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  };
+  EXPECT_NE(tests::sentence_of_error([] {
+              tests::transcribe(Degenerate(), {"dmoc", 1}, Grid::uniform(8));
+            }).find("L_vv is singular"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace dmocbench

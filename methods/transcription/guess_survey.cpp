@@ -1,0 +1,119 @@
+#include "methods/transcription/guess_survey.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/point_function.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// One of the problem's functions with its values at a point.
+struct Quantity {
+  std::string name;
+  Eigen::Index entries;
+};
+
+class Surveyor {
+ public:
+  Surveyor(const Problem& problem, const TracedProblem& traced, const Grid& grid)
+      : problem_(&problem),
+        grid_(&grid),
+        n_(traced.configuration_size()),
+        quantities_{{"lagrangian by q (L_q)", n_},
+                    {"lagrangian by q̇ (L_v)", n_},
+                    {"force", n_},
+                    {"running_cost", 1},
+                    {"path_constraints", traced.path_constraint_count()}},
+        formulas_(n_, traced.control_size(),
+                  [&](const ControlledState& x) {
+                    const TracedProblem::Values values = traced.at(x);
+                    ExpressionVector all(3 * n_ + 1 + traced.path_constraint_count());
+                    all << values.configuration_force, values.momentum, values.control_force,
+                        ExpressionVector::Constant(1, values.running_cost), values.path_constraints;
+                    return all;
+                  }),
+        legendre_(traced) {}
+
+  /// At a time along the guess.
+  void look_at(double t) {
+    const MotionPoint point = problem_->guess(t);
+    require_sizes(point, t);
+    Eigen::VectorXd values(formulas_.output_count());
+    formulas_.evaluate(point.q, point.v, point.u, t, values);
+    Eigen::Index first = 0;
+    for (const Quantity& quantity : quantities_) {
+      for (Eigen::Index i = first; i < first + quantity.entries; ++i) {
+        if (!std::isfinite(values[i])) {
+          throw Error(where(t) + quantity.name + entry(i - first, quantity.entries) + " is not a number");
+        }
+      }
+      first += quantity.entries;
+    }
+    measure(point.q, point.v, t);
+    if (!legendre_.mass(point.q, point.v, t).fullPivLu().isInvertible()) {
+      throw Error(where(t) + "L_vv is singular, so the Lagrangian is not regular");
+    }
+  }
+
+  /// Of a state alone.
+  void measure(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+    survey_.largest_configuration = std::max(survey_.largest_configuration, q.lpNorm<Eigen::Infinity>());
+    survey_.largest_mass = std::max(survey_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
+  }
+
+  [[nodiscard]] const GuessSurvey& survey() const { return survey_; }
+
+ private:
+  [[nodiscard]] std::string where(double t) const {
+    const Eigen::VectorXd& nodes = grid_->relative_times();
+    const auto above = std::upper_bound(nodes.begin(), nodes.end(), t / problem_->horizon());
+    const auto interval = std::clamp<std::ptrdiff_t>(above - nodes.begin() - 1, 0, nodes.size() - 2);
+    return problem_->name() + ": at its guess in interval " + std::to_string(interval) + " (t = " + std::to_string(t) +
+           ") ";
+  }
+  static std::string entry(Eigen::Index i, Eigen::Index entries) {
+    return entries > 1 ? "[" + std::to_string(i) + "]" : "";
+  }
+  void require_sizes(const MotionPoint& point, double t) const {
+    const auto require = [&](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
+      if (part.size() == size) return;
+      throw Error(where(t) + name + " has " + std::to_string(part.size()) + " entries, expected " +
+                  std::to_string(size));
+    };
+    require("q", point.q, n_);
+    require("v", point.v, n_);
+    require("u", point.u, problem_->control_size());
+    if (!point.q.allFinite() || !point.v.allFinite() || !point.u.allFinite()) {
+      throw Error(where(t) + "the guess itself is not a number");
+    }
+  }
+
+  const Problem* problem_;
+  const Grid* grid_;
+  Eigen::Index n_;
+  std::vector<Quantity> quantities_;
+  PointFunction formulas_;
+  LegendreTransform legendre_;
+  GuessSurvey survey_;
+};
+
+}  // namespace
+
+GuessSurvey survey_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
+  constexpr int points = 64;
+  Surveyor surveyor(problem, traced, grid);
+  const double horizon = problem.horizon();
+  surveyor.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
+  surveyor.measure(problem.final_state().q, problem.final_state().v, horizon);
+  for (int i = 0; i < points; ++i) surveyor.look_at(horizon * (i + 0.5) / points);
+  return surveyor.survey();
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,102 @@
+#include "bench/summary/minima.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench/experiment/perturbed_guess.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+namespace {
+
+Row answer(const char* method, double objective, double replay_error, const char* status = "solved") {
+  Row row;
+  row.set("problem", "p");
+  row.set("method", method);
+  row.set("tableau", "gauss");
+  row.set("stages", 1LL);
+  row.set("intervals", 48LL);
+  row.set("status", status);
+  row.set("objective", objective);
+  row.set("replay_error", replay_error);
+  return row;
+}
+
+Table answers() {
+  Table table({"problem"});
+  table.append(answer("dmoc", 80.0, 0.01));
+  table.append(answer("dmoc", 90.0, 0.01));
+  table.append(answer("dmoc", 60.0, 0.01, "iteration limit"));
+  table.append(answer("tangent", 80.3, 0.01));
+  table.append(answer("tangent", 70.0, 5.0));
+  table.append(answer("tangent", 80.1, 0.02));
+  return table;
+}
+
+TEST(DistinctMinima, AreTheClustersOfTheObjectivesAndTheBestIsTheLowestThatAReplayConfirms) {
+  const Table minima = distinct_minima(answers(), 0.01, 0.3);
+  ASSERT_EQ(minima.rows().size(), 3U);
+  const auto expect = [&](std::size_t i, double objective, const char* best, double dmoc, double tangent) {
+    const Row& row = minima.rows()[i];
+    EXPECT_EQ(row.number("objective"), objective);
+    EXPECT_EQ(row.text("is_best"), best);
+    EXPECT_EQ(row.number("dmoc"), dmoc);
+    EXPECT_EQ(row.number("tangent"), tangent);
+  };
+  expect(0, 70.0, "no", 0.0, 1.0);
+  expect(1, 80.0, "yes", 1.0, 2.0);
+  expect(2, 90.0, "no", 1.0, 0.0);
+}
+
+TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
+  const Table shares = best_minimum_shares(answers(), 0.01, 0.3);
+  ASSERT_EQ(shares.rows().size(), 2U);
+  EXPECT_EQ(shares.rows()[0].number("starts"), 3.0);
+  EXPECT_EQ(shares.rows()[0].number("solved"), 2.0);
+  EXPECT_EQ(shares.rows()[0].number("best"), 1.0);
+  EXPECT_EQ(shares.rows()[1].number("best"), 2.0);
+  EXPECT_LT(*shares.rows()[0].number("share_lower"), 1.0 / 3.0);
+  EXPECT_GT(*shares.rows()[0].number("share_upper"), 1.0 / 3.0);
+}
+
+TEST(WilsonInterval, SolvesItsQuadraticEquation) {
+  // The ends are the shares π with |hits/n - π| = z sqrt(π(1 - π)/n).
+  constexpr double z = 1.959963984540054;
+  for (const auto& [hits, trials] : {std::pair(10LL, 40LL), {1LL, 7LL}, {199LL, 200LL}}) {
+    const auto n = static_cast<double>(trials);
+    const double share = static_cast<double>(hits) / n;
+    const ShareInterval interval = wilson_interval(hits, trials);
+    for (const double end : {interval.lower, interval.upper}) {
+      EXPECT_NEAR(std::abs(share - end), z * std::sqrt(end * (1.0 - end) / n), 1e-12);
+    }
+  }
+  EXPECT_EQ(wilson_interval(0, 20).lower, 0.0);
+  EXPECT_GT(wilson_interval(0, 20).upper, 0.0);
+  EXPECT_EQ(wilson_interval(20, 20).upper, 1.0);
+}
+
+TEST(PerturbedGuess, KeepsTheEndsAndTheSeedTellsItApart) {
+  const auto problem = make_problem("two_link_manipulator");
+  const Motion guess{[&](double t) { return problem->guess(t); }, problem->horizon()};
+  const Motion moved = perturbed(guess, 0.5, 7, 3);
+  for (const double t : {0.0, problem->horizon()}) EXPECT_LT((moved.at(t).q - guess.at(t).q).norm(), 1e-14);
+  EXPECT_GT((moved.at(0.4).q - guess.at(0.4).q).norm(), 1e-3);
+  EXPECT_EQ(moved.at(0.4).q, perturbed(guess, 0.5, 7, 3).at(0.4).q);
+  EXPECT_NE(moved.at(0.4).q, perturbed(guess, 0.5, 7, 4).at(0.4).q);
+  EXPECT_NE(moved.at(0.4).q, perturbed(guess, 0.5, 8, 3).at(0.4).q);
+  EXPECT_EQ(perturbed(guess, 0.5, 7, 0).at(0.4).q, guess.at(0.4).q);
+}
+
+TEST(PerturbedGuess, HasTheVelocityThatIsItsSlope) {
+  const auto problem = make_problem("orbital_transfer");
+  const Motion guess{[&](double t) { return problem->guess(t); }, problem->horizon()};
+  const Motion moved = perturbed(guess, 0.3, 1, 5);
+  constexpr double e = 1e-6;
+  for (const double t : {0.5, 3.0, 9.0}) {
+    const Eigen::VectorXd slope = (moved.at(t + e).q - moved.at(t - e).q) / (2.0 * e);
+    const Eigen::VectorXd guess_slope = (guess.at(t + e).q - guess.at(t - e).q) / (2.0 * e);
+    EXPECT_LT((slope - guess_slope - (moved.at(t).v - guess.at(t).v)).norm(), 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench

@@ -1,0 +1,64 @@
+#include "bench/summary/performance_profile.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace dmocbench {
+namespace {
+
+Row solve(const char* problem, const char* method, double seconds, const char* success = "yes") {
+  Row row;
+  row.set("problem", problem);
+  row.set("intervals", 32LL);
+  row.set("method", method);
+  row.set("tableau", "gauss");
+  row.set("stages", 1LL);
+  row.set("solver", "ipopt");
+  row.set("seconds", seconds);
+  row.set("evaluations", seconds);
+  row.set("major_iterations", seconds);
+  row.set("success", success);
+  return row;
+}
+
+/// Four instances: dmoc best on two, tangent on one, one that nobody solves.
+Table contest() {
+  Table rows({"problem"});
+  rows.append(solve("a", "dmoc", 1.0));
+  rows.append(solve("a", "tangent", 2.0));
+  rows.append(solve("b", "dmoc", 1.0));
+  rows.append(solve("b", "tangent", 0.1, "no"));  // fast and wrong
+  rows.append(solve("c", "dmoc", 4.0));
+  rows.append(solve("c", "tangent", 1.0));
+  rows.append(solve("d", "dmoc", 1.0, "no"));
+  rows.append(solve("d", "tangent", 1.0, "no"));
+  return rows;
+}
+
+TEST(PerformanceProfiles, AreSharesOfAllInstancesWhereFailuresNeverArrive) {
+  std::map<std::string, std::map<double, double>> share;
+  const Table profiles = performance_profiles(contest());
+  for (const Row& row : profiles.rows()) {
+    if (row.text("measure") == "seconds") share[row.text("method")][*row.number("ratio")] = *row.number("share");
+  }
+  EXPECT_EQ(share["dmoc"], (std::map<double, double>{{1.0, 0.5}, {4.0, 0.75}}));
+  EXPECT_EQ(share["tangent"], (std::map<double, double>{{1.0, 0.25}, {2.0, 0.5}, {4.0, 0.5}}));
+}
+
+TEST(ProfileSummary, CountsSuccessesAndWinsAndAveragesWhatAllSolved) {
+  const Table table = profile_summary(contest());
+  ASSERT_EQ(table.rows().size(), 2U);
+  const Row& dmoc = table.rows()[0];
+  EXPECT_EQ(dmoc.number("instances"), 4.0);
+  EXPECT_EQ(dmoc.number("successes"), 3.0);
+  EXPECT_EQ(dmoc.number("common"), 2.0);
+  EXPECT_EQ(dmoc.number("wins_seconds"), 2.0);
+  // Instances a and c: 1, 4 and 2, 1, whose median (the upper one) is the shift 2.
+  EXPECT_NEAR(*dmoc.number("seconds"), std::sqrt(3.0 * 6.0) - 2.0, 1e-12);
+  EXPECT_NEAR(*table.rows()[1].number("seconds"), std::sqrt(4.0 * 3.0) - 2.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace dmocbench

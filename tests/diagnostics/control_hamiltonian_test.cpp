@@ -1,0 +1,87 @@
+#include "methods/diagnostics/control_hamiltonian.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/diagnostics/violation_between_nodes.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Restated;
+using tests::Scheme;
+using Statement = Restated::Statement;
+
+Trajectory solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
+  return tests::solve(problem, scheme, Grid::uniform(intervals), guessed_motion(problem)).trajectory;
+}
+
+TEST(ControlHamiltonian, OfTheDoubleIntegratorIsItsClosedForm) {
+  // u = 6 - 12t, ψ_p = -u, ψ_q = -12: H = ½u² + ψ_q v + ψ_p u = -½u² - 12v = -18 at all times.
+  for (const std::string& method : element_names()) {
+    const Eigen::VectorXd hamiltonian =
+        control_hamiltonian(tests::DoubleIntegrator(), solved(tests::DoubleIntegrator(), {method, 2}, 8));
+    EXPECT_LT((hamiltonian.array() + 18.0).abs().maxCoeff(), 1e-8) << method;
+  }
+}
+
+TEST(ControlHamiltonian, IsConstantUpToTheOrderWhereNothingDependsOnTime) {
+  const tests::Pendulum pendulum;
+  for (const std::string& method : element_names()) {
+    const auto spread = [&](Eigen::Index intervals) {
+      const Eigen::VectorXd hamiltonian = control_hamiltonian(pendulum, solved(pendulum, {method, 1}, intervals));
+      return hamiltonian.maxCoeff() - hamiltonian.minCoeff();
+    };
+    const double order = std::log2(spread(32) / spread(64));
+    EXPECT_GT(order, 1.7) << method;
+    EXPECT_LT(order, 2.3) << method;
+  }
+}
+
+TEST(FreeHorizonResidual, VanishesAtTheBestHorizonAndNotAtAnother) {
+  // Effort and time: min ∫ ½u² dt + 18 T from 0 to 1 at rest, J = 6/T³ + 18T, best T = 1.
+  const tests::DoubleIntegrator base;
+  const auto priced = [&](double price, bool free) {
+    return Restated(base, [=](Statement& s) {
+      if (free) s.horizon = {0.2, 5.0};
+      s.final_cost = [price](const State& last) { return price * last.t; };
+    });
+  };
+  for (const std::string& method : element_names()) {
+    const Restated best = priced(18.0, true);
+    const Trajectory trajectory = solved(best, {method, 2}, 8);
+    EXPECT_NEAR(trajectory.node_times[8], 1.0, 1e-7) << method;
+    EXPECT_NEAR(free_horizon_residual(best, trajectory), 0.0, 1e-6) << method;
+    const Restated fixed = priced(10.0, false);
+    EXPECT_NEAR(free_horizon_residual(fixed, solved(fixed, {method, 2}, 8)), -8.0, 1e-6) << method;
+  }
+}
+
+TEST(ControlHamiltonian, NeedsCostates) {
+  Trajectory trajectory = solved(tests::DoubleIntegrator(), {"dmoc", 1}, 8);
+  trajectory.psi_q.resize(0, 0);
+  tests::expect_error_naming({"costates"},
+                             [&] { static_cast<void>(control_hamiltonian(tests::DoubleIntegrator(), trajectory)); });
+}
+
+TEST(ViolationBetweenNodes, IsWhatAMotionDoesBetweenThePointsWhereItIsBounded) {
+  const tests::DoubleIntegrator base;
+  const Trajectory trajectory = solved(base, {"dmoc", 2}, 8);
+  const auto violation = [&](const std::function<void(Statement&)>& state) {
+    return violation_between_nodes(Restated(base, state), trajectory);
+  };
+  // v = 6t(1 - t) reaches 1.5 at t = ½, u = 6 - 12t reaches 6 at the ends, where no stage lies.
+  EXPECT_EQ(violation([](Statement&) {}), 0.0);
+  EXPECT_NEAR(violation([](Statement& s) { s.v = tests::all_between(1, -1.0, 1.25); }), 0.25, 1e-3);
+  EXPECT_NEAR(violation([](Statement& s) { s.u = tests::all_between(1, -5.0, 9.0); }), 1.0, 1e-6);
+  EXPECT_NEAR(violation([](Statement& s) {
+                s.path = [](const ControlledState& x) { return ExpressionVector::Constant(1, 0.75 - x.q[0]); };
+              }),
+              0.25, 1e-9);
+  EXPECT_EQ(violation([](Statement& s) { s.q = tests::all_between(1, -1.0, 1.5); }), 0.0);
+}
+
+}  // namespace
+}  // namespace dmocbench
