@@ -4,6 +4,8 @@
 #       zero in `need` and an empty field in `without`
 #   awk -f rows.awk -v take=unsolved ... TABLE       (or take=all)
 #       the same of the rows that were tried and not solved, or of both
+#   awk -f rows.awk -v branches=any ... TABLE
+#       the same whatever the branch, for tables that tell none
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
 #       of those rows, the distinct values: words such as problem=a,method=b, which serve as `where` again
 #   awk -f rows.awk -v missing=step,state_error TABLE
@@ -31,7 +33,7 @@ NR == 1 {
 
 {
   solved = !("status" in position) || $position["status"] == "solved"
-  same = !("branch" in position) || $position["branch"] == "same"
+  same = branches == "any" || !("branch" in position) || $position["branch"] == "same"
 }
 take == "" && !(solved && same) { next }
 take == "unsolved" && (solved || $position["status"] == "not run") { next }

@@ -1,0 +1,167 @@
+# All methods across the library of problems: performance profiles after Dolan and Moré, and what accuracy costs on
+# every problem.
+#   gnuplot -e "results='results'" plots/profile.gp
+# Reads profile.csv, profile_profiles.csv and profile_summary.csv; draws nothing if they are not there.
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+if (!exists_table("profile")) { exit }
+eval require("profile",\
+    "problem,method,tableau,stages,solver,status,intervals,success,reference_objective,objective_error,seconds")
+eval require("profile_profiles", "measure,method,tableau,stages,solver,ratio,share")
+eval require("profile_summary", "method,tableau,stages,solver,instances,successes")
+
+# Competitors, those first that solve most; more than these are not drawn. A colour per method; dashes per tableau,
+# stages and solver where there are several, else per method.
+most_competitors = 9
+all_competitors = system(rows_awk("-v distinct=successes,method,tableau,stages,solver", "profile_summary").\
+    " | LC_ALL=C sort -s -t = -k 2,2nr")
+count = words(all_competitors) < most_competitors ? words(all_competitors) : most_competitors
+variants = distinct("profile_summary", "tableau,stages,solver", "", "")
+where_of(i) = word(all_competitors, i)[strstrt(word(all_competitors, i), ",") + 1:*]
+successes(i) = int(entry(word(all_competitors, i), "successes"))
+instances = int(entry(word(distinct("profile_summary", "instances", "", ""), 1), "instances"))
+variant_of(i) = "tableau=".after(where_of(i), "tableau")
+place_in(list, text) = sum [k = 1:words(list)] (word(list, k) eq text ? k : 0)
+colour(i) = word(blue." ".vermilion." ".green." ".purple, method_style(entry(where_of(i), "method")))
+marker(i) = int(word("7 6 9 5", method_style(entry(where_of(i), "method"))))
+pattern(i) = words(variants) > 1 ? place_in(variants, variant_of(i)) : method_style(entry(where_of(i), "method"))
+width(i) = method_style(entry(where_of(i), "method")) == 1 ? 2.6 : 1.8
+dashes = "'1' '(6, 4)' '(10, 4, 2, 4)' '(2, 3)' '(12, 4)' '(10, 3, 2, 3, 2, 3)'"
+dash(i) = word(dashes, (pattern(i) - 1) % words(dashes) + 1)
+line_of(i) = sprintf("linecolor rgb '%s' linewidth %g dashtype %s", colour(i), width(i), dash(i))
+differ(column) = words(distinct("profile_summary", column, "", "")) > 1
+label_of(i) = method_label(entry(where_of(i), "method")).variant_label(i)
+variant_label(i) = (differ("tableau") ? ", ".entry(where_of(i), "tableau") : "")\
+    .(differ("stages") ? ", s = ".entry(where_of(i), "stages") : "")\
+    .(differ("solver") ? ", ".entry(where_of(i), "solver") : "")
+plateau_label(i) = sprintf("%s\n%d of %d%s", method_label(entry(where_of(i), "method")), successes(i), instances,\
+    variant_label(i))
+left_out = count < words(all_competitors)\
+    ? sprintf(" Shown are the %d of %d that solve most.", count, words(all_competitors)) : ""
+# A line style from text cannot stand in a plot with iteration.
+do for [i = 1:count] { eval sprintf("set linetype %d %s pointtype %d pointsize 0.7", 20 + i, line_of(i), marker(i)) }
+
+# --- Performance profiles --------------------------------------------------------------------------------------------
+measures = "seconds evaluations major_iterations"
+measure_labels = "'time of the solver' 'evaluations' 'major iterations'"
+profile_rows(i, measure) = rows("profile_profiles", where_of(i).",measure=".measure, "")
+fine_ratios = "set xtics (1, 1.5, 2, 3, 5, 10, 15, 20)"
+coarse_ratios = "set xtics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)"
+
+# Places of the labels, from the top: beside the plateau where there is room, below the one before.
+array label_at[most_competitors]
+label_gap = 0.1
+lower(a, b) = a < b ? a : b
+do for [i = 1:count] {
+  share = real(successes(i)) / instances
+  label_at[i] = i == 1 ? share : lower(share, label_at[i - 1] - label_gap)
+}
+do for [i = 1:count] { if (label_at[i] < label_gap * (count - i)) { label_at[i] = label_gap * (count - i) } }
+
+do for [kind in kinds] {
+  eval begin_figure(kind, "profile", 1400, 600)
+  set multiplot layout 1, 3 title title_text(\
+      "Share of the library that each method solves within a multiple of the best method's effort", "",\
+      sprintf("%d instances, each a problem on a grid. A curve that stays below 1 failed on the rest: not solved,\
+ or off the reference's cost.%s", instances, left_out))\
+      offset 0, -0.4 margins 0.062, 0.8, 0.13, 0.80 spacing 0.022
+  do for [m = 1:3] {
+    measure = word(measures, m)
+    unset logscale; set autoscale
+    stats "< ".rows_awk("-v where=measure=".measure, "profile_profiles") using (column("ratio")) name 'S' nooutput
+    x_high = S_max > 1.2 ? S_max : 1.2
+    set logscale x 10
+    set format x "%g"
+    eval x_high < 20 ? fine_ratios : coarse_ratios
+    if (x_high > 1000) { eval one_power_axis("x") }
+    unset mxtics
+    set xrange [1:x_high]
+    set yrange [0:1]
+    set ytics 0, 0.2, 1
+    set format y (m == 1 ? "%.1f" : "")
+    set title word(measure_labels, m) font ",15"
+    set xlabel "multiple of the best"
+    set ylabel (m == 1 ? "share of the instances" : "")
+    unset key
+    if (m == 3) {
+      set label 100 "instances solved" at graph 1.12, first label_at[1] + 1.1 * label_gap left\
+          font ",13" textcolor rgb grey
+      do for [i = 1:count] {
+        eval sprintf("set arrow %d from graph 1, first %g to graph 1.1, first %g nohead %s",\
+            i, real(successes(i)) / instances, label_at[i], line_of(i))
+        set label i plateau_label(i) at graph 1.12, first label_at[i] left font ",13" textcolor rgb "#202020"
+      }
+    }
+    plot for [i = 1:count] profile_rows(i, measure) using (column("ratio")):(column("share")) with steps linetype 20 + i
+  }
+  unset arrow; unset label
+  unset multiplot
+  eval end_figure(kind, "profile")
+}
+
+# --- Work and precision, a panel per problem -------------------------------------------------------------------------
+met = "-v branches=any -v need=objective_error -v where=success=yes"
+solved_rows(where) = "< ".rows_awk(met.",".where, "profile")
+problems = system(rows_awk("-v branches=any -v take=all -v distinct=problem", "profile"))
+with_points = system(rows_awk(met." -v distinct=problem", "profile"))
+without_reference = system(rows_awk("-v branches=any -v take=all -v without=reference_objective -v distinct=problem",\
+    "profile"))
+columns = 5
+lines = words(problems) / columns + 1  # there is always a free place, which holds the legend
+unit_of(problem) = described(problem, "cost_unit")
+panel_title(problem) = with_unit(problem_label(problem), unit_of(problem) eq "dimensionless" ? "" : unit_of(problem))
+# Times in ms, the fewer per decade the more decades there are.
+time_tics(decades) = "set xtics nomirror (".(decades < 0.6 ? times_many : decades < 1.1 ? times_125\
+    : decades < 2 ? times_13 : times_1).")"
+times_many = ""; times_125 = ""; times_13 = ""; times_1 = ""
+add_time(text, ms) = text.sprintf("%s'%g' %g", strlen(text) == 0 ? "" : ", ", ms, 1e-3 * ms)
+do for [k = -3:7] {
+  times_1 = add_time(times_1, 10.0**k)
+  do for [d in "1 3"] { times_13 = add_time(times_13, d * 10.0**k) }
+  do for [d in "1 2 5"] { times_125 = add_time(times_125, d * 10.0**k) }
+  do for [d in "1 1.5 2 3 4 6"] { times_many = add_time(times_many, d * 10.0**k) }
+}
+
+height = 150 + 235 * lines
+no_rows = "< printf 'seconds,objective_error\nNaN,NaN\n'"
+do for [kind in kinds] {
+  eval begin_figure(kind, "library_work_precision", 1400, height)
+  set multiplot layout lines, columns title title_text(\
+      "What an accurate cost takes on every problem of the library", "",\
+      "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)\
+      offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - 100.0 / height spacing 0.045, 74.0 / height
+  do for [p = 1:words(problems)] {
+    problem_word = word(problems, p)
+    drawn = place_in(with_points, problem_word) > 0
+    unset logscale; set autoscale; unset mxtics; set xlabel ""; set ylabel ""; unset key
+    set title panel_title(entry(problem_word, "problem")) font ",13" offset 0, -0.5
+    if (p == 1) {
+      set label 100 "error of the cost |J − J_{ref}| [unit beside the title]"\
+          at screen 0.017, screen 0.5 center rotate by 90
+      set label 101 "time of the solver [ms]" at screen 0.5, screen 22.0 / height center
+      set key at screen 0.985, screen 90.0 / height right bottom vertical maxrows count
+    }
+    if (drawn) {
+      stats solved_rows(problem_word) using (column("seconds")):(column("objective_error")) name 'S' nooutput
+      eval power_axis("xy")
+      unset mxtics
+      eval set_range("x", S_min_x, S_max_x, 1.25)
+      eval time_tics(log10(S_max_x / S_min_x))
+      set format x '%g'
+      set yrange [10**floor(log10(S_min_y / 1.2)):10**ceil(log10(S_max_y * 1.2))]
+      set xtics font ",12"; set ytics nomirror font ",12"
+    } else {
+      unset xtics; unset ytics; unset mytics
+      set xrange [0:1]; set yrange [0:1]
+      set label 1 (place_in(without_reference, problem_word) > 0 ? "no reference cost\nto compare with"\
+          : "no solve met\nthe reference's cost") at graph 0.5, 0.55 center font ",13" textcolor rgb grey
+    }
+    plot for [i = 1:count] drawn ? solved_rows(problem_word.",".where_of(i)) : no_rows\
+           using (column("seconds")):(column("objective_error")) with linespoints linetype 20 + i,\
+         for [i = 1:p == 1 ? count : 0] keyentry with linespoints linetype 20 + i title label_of(i)
+    unset label 1; unset label 100; unset label 101
+    set xtics nomirror; set ytics nomirror
+  }
+  unset multiplot
+  eval end_figure(kind, "library_work_precision")
+}
