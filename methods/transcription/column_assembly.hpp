@@ -50,9 +50,9 @@ class ColumnAssembly {
 
  private:
   struct Addition {
-    std::size_t column;   // goes to a scratch column first
-    std::size_t scratch;  // where that begins
-    ColumnPlace place;    // and is added from this entry on
+    std::size_t column = 0;   // goes to a scratch column first
+    std::size_t scratch = 0;  // where that begins
+    ColumnPlace place;        // and is added from this entry on
   };
 
   void add_later(std::size_t column);

@@ -20,6 +20,12 @@ void require_inside(double value, double lower, double upper, const std::string&
               std::to_string(upper));
 }
 
+/// "what: q[1]".
+std::string named_entry(std::string what, char part, Eigen::Index i) {
+  what.append(": ").append(1, part).append("[").append(std::to_string(i)).append("]");
+  return what;
+}
+
 void require_state(const BoundaryState& state, const EndBounds& bounds, const Problem& problem, const char* name) {
   const Eigen::Index n = problem.configuration_size();
   const std::string what = problem.name() + ": the boundary state " + name;
@@ -30,9 +36,8 @@ void require_state(const BoundaryState& state, const EndBounds& bounds, const Pr
     if (!part->allFinite()) throw Error(what + " is not finite");
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    const std::string entry = "[" + std::to_string(i) + "]";
-    require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], what + ": q" + entry);
-    require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], what + ": v" + entry);
+    require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], named_entry(what, 'q', i));
+    require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], named_entry(what, 'v', i));
   }
 }
 

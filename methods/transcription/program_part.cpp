@@ -9,6 +9,7 @@ namespace {
 /// The places of those rows that are not zero for every motion.
 std::vector<ColumnPlace> rows_there(const LocalFunctions& functions, const PartPlaces& places) {
   std::vector<ColumnPlace> there;
+  there.reserve(functions.rows.places.size());
   for (const std::size_t row : functions.rows.places) there.push_back(places.rows[row]);
   return there;
 }
@@ -47,17 +48,20 @@ double ProgramPart::cost(const VectorIn& x) {
   return costs_.sum();
 }
 
-void ProgramPart::rows(const VectorIn& x, VectorOut result) { rows_.evaluate(bind(x, no_multipliers_, 1.0), result); }
+void ProgramPart::rows(const VectorIn& x, const VectorOut& result) {
+  rows_.evaluate(bind(x, no_multipliers_, 1.0), result);
+}
 
-void ProgramPart::gradient(const VectorIn& x, VectorOut result) {
+void ProgramPart::gradient(const VectorIn& x, const VectorOut& result) {
   derivatives_->gradient(bind(x, no_multipliers_, 1.0), result);
 }
 
-void ProgramPart::jacobian(const VectorIn& x, VectorOut values) {
+void ProgramPart::jacobian(const VectorIn& x, const VectorOut& values) {
   derivatives_->jacobian(bind(x, no_multipliers_, 1.0), values);
 }
 
-void ProgramPart::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
+void ProgramPart::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
+                          const VectorOut& values) {
   derivatives_->hessian(bind(x, multipliers, objective_factor), values);
 }
 

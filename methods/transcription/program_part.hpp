@@ -45,10 +45,10 @@ class ProgramPart {
 
   [[nodiscard]] double cost(const VectorIn& x);
   // What these write, or add to, are the program's whole arrays.
-  void rows(const VectorIn& x, VectorOut result);
-  void gradient(const VectorIn& x, VectorOut result);
-  void jacobian(const VectorIn& x, VectorOut values);
-  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values);
+  void rows(const VectorIn& x, const VectorOut& result);
+  void gradient(const VectorIn& x, const VectorOut& result);
+  void jacobian(const VectorIn& x, const VectorOut& values);
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, const VectorOut& values);
 
  private:
   LocalInputs numbers_;

@@ -16,8 +16,8 @@ class Sampler {
         layout_(&transcription.layout()),
         motion_(&motion),
         legendre_(transcription.traced_problem()),
+        horizon_(transcription.guessed_horizon()),
         x_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transcription.variable_count()))) {
-    horizon_ = transcription.guessed_horizon();
     if (transcription.has_free_horizon()) {
       const auto place = static_cast<Eigen::Index>(layout_->horizon());
       x_[place] =
@@ -106,7 +106,7 @@ class Sampler {
   const Layout* layout_;
   const Motion* motion_;
   LegendreTransform legendre_;
-  double horizon_ = 0.0;
+  double horizon_;
   Eigen::VectorXd x_;
 };
 

@@ -93,13 +93,12 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
-  // The patterns have to be whole before arrays are made for them.
-  std::optional<PartPlaces> places_of_ends;
-  if (end_functions_) places_of_ends = end_places();
-  intervals_ = std::make_unique<ProgramPart>(functions_, interval_places(), step_inputs_, time_inputs_, derivatives);
-  if (places_of_ends) {
-    ends_ = std::make_unique<ProgramPart>(*end_functions_, *places_of_ends, step_inputs_, time_inputs_, derivatives);
+  // The ends extend the patterns, which have to be whole before the arrays of the intervals are made for them.
+  if (end_functions_) {
+    PartPlaces places = end_places(*end_functions_);
+    ends_ = std::make_unique<ProgramPart>(*end_functions_, std::move(places), step_inputs_, time_inputs_, derivatives);
   }
+  intervals_ = std::make_unique<ProgramPart>(functions_, interval_places(), step_inputs_, time_inputs_, derivatives);
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
@@ -140,8 +139,7 @@ PartPlaces Transcription::interval_places() const {
                           .hessian_size = hessian_pattern_.pattern.size()}};
 }
 
-PartPlaces Transcription::end_places() {
-  const EndFunctions& functions = *end_functions_;
+PartPlaces Transcription::end_places(const EndFunctions& functions) {
   const std::vector<ColumnPlace>& unknowns = layout_.end_unknown_places();
   const std::vector<ColumnPlace>& rows = layout_.end_row_places();
   const auto jacobian = extend_pattern(jacobian_pattern_.pattern, jacobian_entries(functions, rows, unknowns, 1));

@@ -95,7 +95,8 @@ class Transcription final : public NonlinearProgram {
  private:
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] PartPlaces interval_places() const;
-  [[nodiscard]] PartPlaces end_places();
+  /// Extends the patterns by the entries of the ends.
+  [[nodiscard]] PartPlaces end_places(const EndFunctions& functions);
 
   Tableau tableau_;
   Grid grid_;

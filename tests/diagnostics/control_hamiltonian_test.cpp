@@ -72,8 +72,8 @@ TEST(ViolationBetweenNodes, IsWhatAMotionDoesBetweenThePointsWhereItIsBounded) {
   const auto violation = [&](const std::function<void(Statement&)>& state) {
     return violation_between_nodes(Restated(base, state), trajectory);
   };
-  // v = 6t(1 - t) reaches 1.5 at t = ½ (its lines between stages 1/64 more), u = 6 - 12t reaches 6 at the ends, where no
-  // stage lies.
+  // v = 6t(1 - t) reaches 1.5 at t = ½ (its lines between stages 1/64 more), u = 6 - 12t reaches 6 at the ends, where
+  // no stage lies.
   EXPECT_EQ(violation([](Statement&) {}), 0.0);
   EXPECT_NEAR(violation([](Statement& s) { s.v = tests::all_between(1, -1.0, 1.25); }), 0.25, 0.02);
   EXPECT_NEAR(violation([](Statement& s) { s.u = tests::all_between(1, -5.0, 9.0); }), 1.0, 1e-6);
