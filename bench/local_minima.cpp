@@ -38,7 +38,9 @@ class LocalMinima final : public Experiment {
     app.add_option("--starts", starts_, "starts per case: the guess, and perturbed ones")
         ->check(CLI::Range(1LL, most_starts))
         ->capture_default_str();
-    app.add_option("--seed", seed_, "of the random curves; the same seed gives the same starts")->capture_default_str();
+    app.add_option("--seed", seed_, "of the random curves; the same seed gives the same starts")
+        ->check(CLI::Range(0LL, largest_seed))
+        ->capture_default_str();
     app.add_option("--amplitude", amplitude_, "of the random curves, relative to the range of each coordinate")
         ->check(CLI::Range(0.0, largest_amplitude))
         ->capture_default_str();
@@ -78,6 +80,7 @@ class LocalMinima final : public Experiment {
 
  private:
   static constexpr long long most_starts = 100000;
+  static constexpr long long largest_seed = 0xffffffffLL;
   static constexpr double largest_amplitude = 10.0;
   // Costs of one minimum by different methods differ by less than this share, those of different minima by more.
   static constexpr double separation = 0.01;

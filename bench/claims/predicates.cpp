@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bench/claims/claim_rows.hpp"
+#include "bench/summary/performance_profile.hpp"
 
 namespace dmocbench {
 
@@ -59,6 +60,10 @@ std::vector<Claim> judge_claims(const ResultTables& tables) {
   claims.push_back(noether_claim(tables, "orthogonal"));
   claims.push_back(symplecticity_claim(tables));
   claims.push_back(modified_energy_claim(tables));
+  // The library is swept by choice only.
+  if (!tables.rows("profile_summary").empty()) {
+    for (const std::string& measure : profile_measures()) claims.push_back(library_claim(tables, measure));
+  }
   for (const Row* row : tables.rows("slips")) claims.push_back(slip_claim(*row));
   return claims;
 }

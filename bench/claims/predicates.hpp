@@ -65,6 +65,8 @@ struct ConsistencyClaim {
 [[nodiscard]] Claim local_minima_claim(const ResultTables& tables, const std::string& problem);
 /// That one method finds the best of them more often.
 [[nodiscard]] Claim best_minimum_claim(const ResultTables& tables, const std::string& problem);
+/// Who is best over the library by a measure of `profile_measures`.
+[[nodiscard]] Claim library_claim(const ResultTables& tables, const std::string& measure);
 /// A row of the table of slips.
 [[nodiscard]] Claim slip_claim(const Row& row);
 

@@ -131,6 +131,7 @@ class Run {
     };
     const auto collect = [&](std::size_t i) {
       const std::filesystem::path file = part_of(i) + ".csv";
+      if (!std::filesystem::exists(file)) return;  // it ended before it had written anything
       const Table part = Table::from_csv(read_file(file));
       std::filesystem::remove(file);
       for (const Row& row : part.rows()) keep(row, heads[i], heads[i + 1], progress);

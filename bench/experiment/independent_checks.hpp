@@ -12,7 +12,7 @@ namespace dmocbench {
 
 /// Looks at a case's trajectory without believing solver or discretisation: `replay_error` (its controls integrated on
 /// the continuous equations), `replay_cost` (the cost integrated along), `violation_between_nodes` (of bounds and path
-/// constraints where no point imposes them), `free_horizon_residual` (what is left of H(T) + ∂Φ/∂T = 0; empty for a
+/// constraints where no point imposes them), `free_horizon_residual` (what is left of the condition on T; empty for a
 /// fixed horizon). What cannot be computed stays empty, and the message says why.
 void check_independently(SolvedCase& solved);
 

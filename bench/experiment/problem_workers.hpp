@@ -9,8 +9,9 @@ namespace dmocbench {
 /// `done(i)` here after each has ended. Processes, not threads: the sparse factorisation below Ipopt is not made for
 /// threads.
 ///
-/// An interrupt of the terminal reaches the processes too; those that have not begun then are not begun. What a process
-/// finds it has to write to a file. Throws `Error` if a process cannot be made, or one ends other than by returning.
+/// An interrupt reaches the processes too; those that have not begun then are not begun. What a process finds it has to
+/// write to a file. Throws `Error`, once all have ended, if a process cannot be made, `done` throws, or one ends other
+/// than by returning.
 void for_each_in_processes(std::size_t count, std::size_t jobs, const std::function<void(std::size_t)>& work,
                            const std::function<void(std::size_t)>& done);
 

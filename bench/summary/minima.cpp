@@ -1,29 +1,30 @@
 #include "bench/summary/minima.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dmocbench {
 
 namespace {
 
-/// Rows that are compared with each other: one problem, tableau and grid.
-using Group = std::tuple<std::string, std::string, std::string, std::string>;
+/// Rows that are compared with each other: they differ in method and start only.
+using Group = std::array<std::string, 6>;
+
+constexpr std::array group_columns{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
 
 Group group_of(const Row& row) {
-  return {row.text("problem"), row.text("tableau"), row.text("stages"), row.text("intervals")};
+  Group group;
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = row.text(group_columns[i]);
+  return group;
 }
 
 Row head_of(const Group& group) {
   Row row;
-  row.set("problem", std::get<0>(group));
-  row.set("tableau", std::get<1>(group));
-  row.set("stages", std::get<2>(group));
-  row.set("intervals", std::get<3>(group));
+  for (std::size_t i = 0; i < group.size(); ++i) row.set(group_columns[i], group[i]);
   return row;
 }
 
@@ -47,12 +48,11 @@ std::vector<Minimum> minima_of(const std::vector<const Row*>& rows, double separ
   std::sort(answers.begin(), answers.end(),
             [](const Row* a, const Row* b) { return *a->number("objective") < *b->number("objective"); });
   std::vector<Minimum> minima;
-  double previous = 0.0;
   for (const Row* row : answers) {
     const double objective = *row->number("objective");
-    const bool is_new = minima.empty() || objective - previous > separation * std::abs(previous);
+    const bool is_new =
+        minima.empty() || objective - minima.back().objective > separation * std::abs(minima.back().objective);
     if (is_new) minima.push_back({.objective = objective, .confirmed = false, .count = {}});
-    previous = objective;
     ++minima.back().count[row->text("method")];
     const auto replay = row->number("replay_error");
     minima.back().confirmed = minima.back().confirmed || (replay && *replay < confirmed_replay);
@@ -84,7 +84,8 @@ std::vector<std::string> methods_in(const Table& rows) {
 }  // namespace
 
 Table distinct_minima(const Table& rows, double separation, double confirmed_replay) {
-  std::vector<std::string> columns{"problem", "tableau", "stages", "intervals", "minimum", "objective", "is_best"};
+  std::vector<std::string> columns{"problem",   "tableau", "stages",    "solver", "derivatives",
+                                   "intervals", "minimum", "objective", "is_best"};
   const std::vector<std::string> methods = methods_in(rows);
   columns.insert(columns.end(), methods.begin(), methods.end());
   Table table(columns);
@@ -104,8 +105,8 @@ Table distinct_minima(const Table& rows, double separation, double confirmed_rep
 }
 
 Table best_minimum_shares(const Table& rows, double separation, double confirmed_replay) {
-  Table table({"problem", "method", "tableau", "stages", "intervals", "starts", "solved", "best", "share",
-               "share_lower", "share_upper"});
+  Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "starts", "solved",
+               "best", "share", "share_lower", "share_upper"});
   for (const auto& [group, members] : grouped(rows)) {
     const std::vector<Minimum> minima = minima_of(members, separation, confirmed_replay);
     const std::size_t best = best_of(minima);

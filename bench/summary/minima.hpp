@@ -5,16 +5,18 @@
 namespace dmocbench {
 
 /// The distinct minima that many starts of a problem ended in:
-/// problem,tableau,stages,intervals,minimum,objective,is_best, then a column per method with how often it ended there.
+/// problem,tableau,stages,solver,derivatives,intervals,minimum,objective,is_best, then a column per method with how
+/// often it ended there.
 ///
-/// Two answers are the same minimum if their objectives, scaled to that of the lowest, differ by less than `separation`
-/// relative: discretisations differ by less, minima by more. `minimum` counts from the lowest cost upwards; the best is
+/// Answers are the same minimum if their objectives differ from the lowest of them by less than `separation`, relative
+/// to it: discretisations differ by less, minima by more. `minimum` counts from the lowest cost upwards; the best is
 /// the lowest whose motion a replay confirms for some method: replay error below `confirmed_replay`. Rows that were not
 /// solved are in no minimum.
 [[nodiscard]] Table distinct_minima(const Table& rows, double separation, double confirmed_replay);
 
-/// How often each method found the best minimum: problem,method,tableau,stages,intervals,starts,solved,best,share,
-/// share_lower,share_upper. The interval is Wilson's, 95 %.
+/// How often each method found the best minimum:
+/// problem,method,tableau,stages,solver,derivatives,intervals,starts,solved,best,share, share_lower,share_upper. The
+/// interval is Wilson's, 95 %.
 [[nodiscard]] Table best_minimum_shares(const Table& rows, double separation, double confirmed_replay);
 
 /// Wilson's interval at 95 % for a share of `hits` in `trials`.

@@ -12,13 +12,17 @@ namespace dmocbench {
 
 namespace {
 
+constexpr double smallest_effort = 1e-9;  // below it efforts are alike
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr std::array competitor_columns{"method", "tableau", "stages", "solver"};
+constexpr std::array competitor_columns{"method", "tableau", "stages", "solver", "derivatives"};
+
+/// A column that every solved row has.
+constexpr const char* always_told = "objective";
 
 using Competitor = std::array<std::string, competitor_columns.size()>;
 using Instance = std::pair<std::string, std::string>;  // problem, intervals
 
-/// What every competitor takes on every instance, by one measure; `never` where it failed or has no row.
+/// What every competitor takes on every instance, by one measure; `never` where it failed, has no row or does not tell.
 struct Contest {
   std::vector<Competitor> competitors;  // in the order of the rows
   std::vector<Instance> instances;
@@ -60,7 +64,7 @@ Contest contest_of(const Table& rows, const std::string& measure) {
 }
 
 /// x / y where both may be 0, as counts can.
-double ratio(double x, double y) { return x == y ? 1.0 : x / std::max(y, std::numeric_limits<double>::min()); }
+double ratio(double x, double y) { return x == y ? 1.0 : x / std::max(y, smallest_effort); }
 
 void set_competitor(Row& row, const Competitor& competitor) {
   for (std::size_t i = 0; i < competitor.size(); ++i) row.set(competitor_columns[i], competitor[i]);
@@ -90,6 +94,28 @@ std::optional<double> shifted_geometric_mean(const std::vector<double>& values, 
   return std::exp(sum / static_cast<double>(picked.size())) - shift;
 }
 
+/// Means and wins by one measure.
+void set_measure(const Contest& contest, const std::string& measure, const std::vector<std::size_t>& common,
+                 std::vector<Row>& summary) {
+  std::vector<double> all;
+  for (const auto& values : contest.taken) {
+    for (const std::size_t i : common) {
+      if (values[i] < never) all.push_back(values[i]);
+    }
+  }
+  const double shift = median(all);
+  for (std::size_t who = 0; who < summary.size(); ++who) {
+    const std::vector<double>& values = contest.taken[who];
+    const bool tells = std::all_of(common.begin(), common.end(), [&](std::size_t i) { return values[i] < never; });
+    if (tells) summary[who].set(measure, shifted_geometric_mean(values, common, shift));
+    long long wins = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < never && values[i] == contest.best(i)) ++wins;
+    }
+    summary[who].set("wins_" + measure, wins);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& profile_measures() {
@@ -98,7 +124,7 @@ const std::vector<std::string>& profile_measures() {
 }
 
 Table performance_profiles(const Table& rows) {
-  Table table({"measure", "method", "tableau", "stages", "solver", "ratio", "share"});
+  Table table({"measure", "method", "tableau", "stages", "solver", "derivatives", "ratio", "share"});
   for (const std::string& measure : profile_measures()) {
     const Contest contest = contest_of(rows, measure);
     std::vector<std::vector<double>> ratios(contest.competitors.size());
@@ -139,33 +165,20 @@ Table profile_summary(const Table& rows) {
   columns.insert(columns.end(), {"instances", "successes", "common"});
   for (const std::string& measure : profile_measures()) columns.insert(columns.end(), {measure, "wins_" + measure});
   Table table(columns);
-  std::vector<Row> summary;
-  for (const std::string& measure : profile_measures()) {
-    const Contest contest = contest_of(rows, measure);
-    summary.resize(contest.competitors.size());
-    const std::vector<std::size_t> common = common_instances(contest);
-    std::vector<double> all;
-    for (const auto& values : contest.taken) {
-      for (const std::size_t i : common) all.push_back(values[i]);
-    }
-    const double shift = median(all);
-    for (std::size_t who = 0; who < summary.size(); ++who) {
-      const std::vector<double>& values = contest.taken[who];
-      long long successes = 0;
-      long long wins = 0;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] == never) continue;
-        ++successes;
-        if (values[i] == contest.best(i)) ++wins;
-      }
-      set_competitor(summary[who], contest.competitors[who]);
-      summary[who].set("instances", static_cast<long long>(values.size()));
-      summary[who].set("successes", successes);
-      summary[who].set("common", static_cast<long long>(common.size()));
-      summary[who].set(measure, shifted_geometric_mean(values, common, shift));
-      summary[who].set("wins_" + measure, wins);
-    }
+  // Who succeeded where does not depend on what is measured.
+  const Contest successes = contest_of(rows, always_told);
+  const std::vector<std::size_t> common = common_instances(successes);
+  std::vector<Row> summary(successes.competitors.size());
+  for (std::size_t who = 0; who < summary.size(); ++who) {
+    const std::vector<double>& values = successes.taken[who];
+    set_competitor(summary[who], successes.competitors[who]);
+    summary[who].set("instances", static_cast<long long>(values.size()));
+    summary[who].set("successes", static_cast<long long>(std::count_if(values.begin(), values.end(),
+                                                                       [](double taken) { return taken < never; })));
+    summary[who].set("common", static_cast<long long>(common.size()));
   }
+  for (const std::string& measure : profile_measures())
+    set_measure(contest_of(rows, measure), measure, common, summary);
   for (Row& row : summary) table.append(std::move(row));
   return table;
 }

@@ -12,18 +12,21 @@ namespace dmocbench {
 
 namespace {
 
-/// ∂Φ/∂T, of a point with its own inputs: the time of a point function is the last of them.
-double final_cost_by_time(const Problem& problem, const Trajectory& trajectory) {
+/// ∂Φ/∂T at given velocities, then L_vt, at the last node.
+Eigen::VectorXd end_rates(const Problem& problem, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
   PointFunction rate(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
     ExpressionVector time(1);
     time << x.t;
-    return gradient(problem.final_cost(x.state()), time);
+    ExpressionVector rates(1 + problem.configuration_size());
+    rates << gradient(problem.final_cost(x.state()), time), traced.at(x).momentum_by_time;
+    return rates;
   });
   const Eigen::Index last = trajectory.intervals();
-  Eigen::VectorXd value(1);
+  Eigen::VectorXd value(1 + problem.configuration_size());
   rate.evaluate(trajectory.q.row(last).transpose(), trajectory.v.row(last).transpose(), Eigen::VectorXd(),
                 trajectory.node_times[last], value);
-  return value[0];
+  return value;
 }
 
 }  // namespace
@@ -53,7 +56,9 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
 
 double free_horizon_residual(const Problem& problem, const Trajectory& trajectory) {
   const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
-  return hamiltonian[hamiltonian.size() - 1] + final_cost_by_time(problem, trajectory);
+  const Eigen::Index last = trajectory.intervals();
+  const Eigen::VectorXd rates = end_rates(problem, trajectory);
+  return hamiltonian[last] + rates[0] - trajectory.psi_p.row(last).dot(rates.tail(rates.size() - 1));
 }
 
 }  // namespace dmocbench

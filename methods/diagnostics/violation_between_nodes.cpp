@@ -1,6 +1,7 @@
 #include "methods/diagnostics/violation_between_nodes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -38,7 +39,8 @@ double violation_between_nodes(const Problem& problem, const Trajectory& traject
       worst = std::max({worst, outside(q, q_bounds), outside(v, v_bounds), outside(u, u_bounds)});
       if (h.size() == 0) continue;
       path.evaluate(q, v, u, t, h);
-      worst = std::max(worst, -h.minCoeff());
+      // Where a constraint is not even a number the motion has left its domain.
+      worst = h.allFinite() ? std::max(worst, -h.minCoeff()) : std::numeric_limits<double>::infinity();
     }
   }
   return worst;

@@ -42,8 +42,7 @@ struct EndFunctions : LocalFunctions {
   Eigen::Index conditions = 0;  ///< boundary conditions
 };
 
-/// None if the ends are clamped and nothing depends on them. Throws `Error` if the problem has boundary conditions
-/// without unknowns.
+/// None if the ends are clamped and nothing depends on them.
 [[nodiscard]] std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced,
                                                      const EndRules& rules);
 

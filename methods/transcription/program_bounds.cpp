@@ -26,16 +26,21 @@ std::string named_entry(std::string what, char part, Eigen::Index i) {
   return what;
 }
 
-void require_state(const BoundaryState& state, const EndBounds& bounds, const Problem& problem, const char* name) {
-  const Eigen::Index n = problem.configuration_size();
+void require_state(const BoundaryState& state, const Problem& problem, const char* name) {
   const std::string what = problem.name() + ": the boundary state " + name;
   for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
-    if (part->size() != n) {
-      throw Error(what + " has " + std::to_string(part->size()) + " entries, expected " + std::to_string(n));
+    if (part->size() != problem.configuration_size()) {
+      throw Error(what + " has " + std::to_string(part->size()) + " entries, expected " +
+                  std::to_string(problem.configuration_size()));
     }
     if (!part->allFinite()) throw Error(what + " is not finite");
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
+}
+
+void require_state_inside(const BoundaryState& state, const EndBounds& bounds, const Problem& problem,
+                          const char* name) {
+  const std::string what = problem.name() + ": the boundary state " + name;
+  for (Eigen::Index i = 0; i < state.q.size(); ++i) {
     require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], named_entry(what, 'q', i));
     require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], named_entry(what, 'v', i));
   }
@@ -44,6 +49,7 @@ void require_state(const BoundaryState& state, const EndBounds& bounds, const Pr
 EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, const Problem& problem, const char* name) {
   const Eigen::Index n = problem.configuration_size();
   const std::string what = problem.name() + ": " + name;
+  if (end.q.empty() || end.v.empty()) throw Error(what + " need " + std::to_string(n) + " entries each for q and v");
   EndBounds checked{checked_bounds(end.q, n, what + " of q"), checked_bounds(end.v, n, what + " of v")};
   for (Eigen::Index i = 0; i < n; ++i) {
     const double lower = std::max(checked.q.lower[i], everywhere.lower[i]);
@@ -121,6 +127,8 @@ std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
 ProblemBounds problem_bounds(const Problem& problem) {
   const Eigen::Index n = problem.configuration_size();
   const std::string name = problem.name() + ": ";
+  require_state(problem.initial_state(), problem, "initial_state");
+  require_state(problem.final_state(), problem, "final_state");
   ProblemBounds bounds;
   bounds.horizon = checked_horizon(problem);
   bounds.q = checked_bounds(problem.configuration_bounds(), n, name + "configuration_bounds");
@@ -128,8 +136,8 @@ ProblemBounds problem_bounds(const Problem& problem) {
   bounds.u = checked_bounds(problem.control_bounds(), problem.control_size(), name + "control_bounds");
   bounds.first = checked_end(problem.initial_bounds(), bounds.q, problem, "initial_bounds");
   bounds.last = checked_end(problem.final_bounds(), bounds.q, problem, "final_bounds");
-  require_state(problem.initial_state(), bounds.first, problem, "initial_state");
-  require_state(problem.final_state(), bounds.last, problem, "final_state");
+  require_state_inside(problem.initial_state(), bounds.first, problem, "initial_state");
+  require_state_inside(problem.final_state(), bounds.last, problem, "final_state");
   return bounds;
 }
 

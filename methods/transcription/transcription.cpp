@@ -102,26 +102,39 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
-  // Free variables less equations on so many intervals; fixed variables and the rows of the ends are always the same.
+  // Free variables less equations on so many intervals.
   const auto fixed = static_cast<long long>(variable_count()) - static_cast<long long>(free_variable_count(*this));
+  const long long fixed_in_interval = fixed_variables_of_an_interval();
   const auto surplus = [&](std::size_t intervals) {
     LayoutShape shape = layout_.shape();
     shape.intervals = intervals;
     const Layout layout(shape);
     const auto inequalities = static_cast<long long>(intervals) * shape.path_rows;
-    return static_cast<long long>(layout.variable_count()) - fixed -
+    const auto more = static_cast<long long>(intervals) - static_cast<long long>(layout_.intervals());
+    return static_cast<long long>(layout.variable_count()) - fixed - more * fixed_in_interval -
            (static_cast<long long>(layout.row_count()) - inequalities);
   };
   const std::size_t intervals = layout_.intervals();
   if (surplus(intervals) >= 0) return;
   const long long gain = surplus(intervals + 1) - surplus(intervals);
   if (gain <= 0) {
-    throw Error(problem.name() + " has no control: no number of intervals lets it meet both ends");
+    throw Error(problem.name() + " has no control that is free: no number of intervals lets it meet both ends");
   }
   std::size_t smallest = intervals;
   while (surplus(smallest) < 0) ++smallest;
   throw Error(problem.name() + " with " + element.name() + " has fewer free variables than rows on " +
               std::to_string(intervals) + " intervals; it needs at least " + std::to_string(smallest));
+}
+
+long long Transcription::fixed_variables_of_an_interval() const {
+  const std::vector<Place>& places = layout_.structure().unknowns;
+  long long fixed = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto entry = static_cast<Eigen::Index>(i);
+    const bool of_first = places[i].kind == Place::Kind::interval && places[i].index == 0;
+    if (of_first && variable_lower()[entry] == variable_upper()[entry]) ++fixed;
+  }
+  return fixed;
 }
 
 PartPlaces Transcription::interval_places() const {

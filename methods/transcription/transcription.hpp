@@ -94,6 +94,7 @@ class Transcription final : public NonlinearProgram {
 
  private:
   void require_enough_intervals(const Problem& problem, const Element& element) const;
+  [[nodiscard]] long long fixed_variables_of_an_interval() const;
   [[nodiscard]] PartPlaces interval_places() const;
   /// Extends the patterns by the entries of the ends.
   [[nodiscard]] PartPlaces end_places(const EndFunctions& functions);

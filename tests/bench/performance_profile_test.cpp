@@ -16,6 +16,8 @@ Row solve(const char* problem, const char* method, double seconds, const char* s
   row.set("tableau", "gauss");
   row.set("stages", 1LL);
   row.set("solver", "ipopt");
+  row.set("derivatives", "tape");
+  row.set("objective", 1.0);
   row.set("seconds", seconds);
   row.set("evaluations", seconds);
   row.set("major_iterations", seconds);
@@ -58,6 +60,20 @@ TEST(ProfileSummary, CountsSuccessesAndWinsAndAveragesWhatAllSolved) {
   // Instances a and c: 1, 4 and 2, 1, whose median (the upper one) is the shift 2.
   EXPECT_NEAR(*dmoc.number("seconds"), std::sqrt(3.0 * 6.0) - 2.0, 1e-12);
   EXPECT_NEAR(*table.rows()[1].number("seconds"), std::sqrt(4.0 * 3.0) - 2.0, 1e-12);
+}
+
+TEST(ProfileSummary, OfASolverThatDoesNotTellItsIterationsStillCountsItsSuccesses) {
+  Table rows({"problem"});
+  Row silent = solve("a", "tangent", 2.0);
+  silent.set("major_iterations", Cell());
+  rows.append(solve("a", "dmoc", 1.0));
+  rows.append(silent);
+  const Table table = profile_summary(rows);
+  EXPECT_EQ(table.rows()[1].number("successes"), 1.0);
+  EXPECT_EQ(table.rows()[1].number("common"), 1.0);
+  EXPECT_TRUE(table.rows()[1].number("seconds").has_value());
+  EXPECT_FALSE(table.rows()[1].number("major_iterations").has_value());
+  EXPECT_TRUE(table.rows()[0].number("major_iterations").has_value());
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "methods/diagnostics/control_hamiltonian.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/violation_between_nodes.hpp"
@@ -56,6 +58,28 @@ TEST(FreeHorizonResidual, VanishesAtTheBestHorizonAndNotAtAnother) {
     EXPECT_NEAR(free_horizon_residual(best, trajectory), 0.0, 1e-6) << method;
     const Restated fixed = priced(10.0, false);
     EXPECT_NEAR(free_horizon_residual(fixed, solved(fixed, {method, 2}, 8)), -8.0, 1e-6) << method;
+  }
+}
+
+/// L = ½(v + t)², so that the momentum of a given velocity grows with time; q̈ = u - 1. Cost ½u² + 1 from 0 to 1 at
+/// rest, T free: J = 3T/2 + 6/T³ + const, hence T⁴ = 12.
+class GrowingMomentum final : public tests::SmallProblem {
+ public:
+  GrowingMomentum() : SmallProblem("growing_momentum", at(0.0, 0.0), at(1.0, 0.0), 1.5, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression sum = x.v[0] + x.t;
+    return 0.5 * sum * sum;
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0] + 1.0; }
+  [[nodiscard]] HorizonBounds horizon_bounds() const override { return {0.5, 5.0}; }
+};
+
+TEST(FreeHorizonResidual, KnowsMomentaThatGrowWithTime) {
+  for (const std::string& method : element_names()) {
+    const Trajectory trajectory = solved(GrowingMomentum(), {method, 2}, 8);
+    EXPECT_NEAR(std::pow(trajectory.node_times[8], 4), 12.0, 1e-6) << method;
+    EXPECT_NEAR(free_horizon_residual(GrowingMomentum(), trajectory), 0.0, 1e-6) << method;
   }
 }
 
