@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dmocbench {
@@ -41,15 +42,14 @@ struct Minimum {
 };
 
 std::vector<Minimum> minima_of(const std::vector<const Row*>& rows, double separation, double confirmed_replay) {
-  std::vector<const Row*> answers;
+  std::vector<std::pair<double, const Row*>> answers;  // cost and row
   for (const Row* row : rows) {
-    if (row->text("status") == "solved" && row->number("objective")) answers.push_back(row);
+    const auto objective = row->number("objective");
+    if (row->text("status") == "solved" && objective) answers.emplace_back(*objective, row);
   }
-  std::sort(answers.begin(), answers.end(),
-            [](const Row* a, const Row* b) { return *a->number("objective") < *b->number("objective"); });
+  std::sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Minimum> minima;
-  for (const Row* row : answers) {
-    const double objective = *row->number("objective");
+  for (const auto& [objective, row] : answers) {
     const bool is_new =
         minima.empty() || objective - minima.back().objective > separation * std::abs(minima.back().objective);
     if (is_new) minima.push_back({.objective = objective, .confirmed = false, .count = {}});
