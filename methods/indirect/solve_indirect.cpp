@@ -68,6 +68,10 @@ void require_smooth_class(const Problem& problem) {
   if (problem.configuration_bounds().any() || problem.velocity_bounds().any()) refuse("bounds on the state");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
+  const Eigen::Index n = traced.configuration_size();
+  const auto size = static_cast<std::size_t>(n);
+  const State end{input_vector(0, n), input_vector(size, n), Expression::input(2 * size)};
+  if (!problem.final_cost(end).is_zero()) refuse("a final cost");
 }
 
 void require_fit(const Problem& problem, const Trajectory& start) {

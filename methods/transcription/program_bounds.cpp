@@ -74,14 +74,14 @@ HorizonBounds checked_horizon(const Problem& problem) {
   return bounds;
 }
 
-/// Writes the bounds of columns of unknowns.
-class VariableBounds {
+/// Writes the bounds of columns of unknowns, or of rows.
+class BoundsWriter {
  public:
-  VariableBounds(Bounds& bounds, const Layout& layout) : bounds_(&bounds), layout_(&layout) {}
+  BoundsWriter(Bounds& bounds, const Layout& layout) : bounds_(&bounds), layout_(&layout) {}
 
-  void set(std::size_t variable, double lower, double upper) {
-    bounds_->lower[static_cast<Eigen::Index>(variable)] = lower;
-    bounds_->upper[static_cast<Eigen::Index>(variable)] = upper;
+  void set(std::size_t entry, double lower, double upper) {
+    bounds_->lower[static_cast<Eigen::Index>(entry)] = lower;
+    bounds_->upper[static_cast<Eigen::Index>(entry)] = upper;
   }
   void set_column(std::size_t head, std::size_t length, double lower, double upper) {
     for (std::size_t k = 0; k < length; ++k) set(head + k, lower, upper);
@@ -97,10 +97,25 @@ class VariableBounds {
   const Layout* layout_;
 };
 
-void bound_controls(VariableBounds& variables, const Bounds& u, const Layout& layout) {
+void bound_controls(BoundsWriter& variables, const Bounds& u, const Layout& layout) {
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
       variables.set_column(layout.control_column(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
+    }
+  }
+}
+
+/// Per stage the bounded velocities, then h >= 0.
+void bound_path_rows(BoundsWriter& rows, const ProblemBounds& bounds, Eigen::Index path_constraints,
+                     const Layout& layout) {
+  const std::vector<Eigen::Index> velocities = bounds.bounded_velocities();
+  Eigen::Index row = layout.shape().private_rows;
+  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
+    for (const Eigen::Index i : velocities) {
+      rows.set_column(layout.private_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);
+    }
+    for (Eigen::Index i = 0; i < path_constraints; ++i) {
+      rows.set_column(layout.private_row_column(row++), layout.intervals(), 0.0, unbounded);
     }
   }
 }
@@ -147,8 +162,8 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   const std::size_t last_node = layout.intervals();
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
-  VariableBounds variables(result.variables, layout);
-  VariableBounds rows(result.rows, layout);
+  BoundsWriter variables(result.variables, layout);
+  BoundsWriter rows(result.rows, layout);
   LegendreTransform legendre(traced);
   const Bounds first_momentum =
       end_momentum(ends.first_clamped, bounds.first.q.lower, bounds.first.v.lower, 0.0, legendre, problem, "start");
@@ -182,17 +197,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   bound_controls(variables, bounds.u, layout);
   if (layout.shape().mayer) variables.set(layout.cost_column(), 0.0, 0.0);
   if (bounds.horizon.is_free()) variables.set(layout.horizon(), bounds.horizon.lower, bounds.horizon.upper);
-
-  const std::vector<Eigen::Index> velocities = bounds.bounded_velocities();
-  Eigen::Index row = layout.shape().private_rows;
-  for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
-    for (const Eigen::Index i : velocities) {
-      rows.set_column(layout.private_row_column(row++), last_node, bounds.v.lower[i], bounds.v.upper[i]);
-    }
-    for (Eigen::Index i = 0; i < traced.path_constraint_count(); ++i) {
-      rows.set_column(layout.private_row_column(row++), last_node, 0.0, unbounded);
-    }
-  }
+  bound_path_rows(rows, bounds, traced.path_constraint_count(), layout);
   return result;
 }
 

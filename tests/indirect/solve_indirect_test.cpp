@@ -1,5 +1,8 @@
 #include "methods/indirect/solve_indirect.hpp"
 
+#include <functional>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/replay_error.hpp"
@@ -7,6 +10,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
+#include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -172,6 +176,23 @@ TEST(SolveIndirect, AMaximumOfTheHamiltonianIsRefused) {
   const Trajectory start = direct_solution(tests::DoubleIntegrator());
   const WithCost problem([](const Expression& u) { return -0.5 * u * u; });
   tests::expect_error_naming({"not a minimum", "convex"}, [&] { static_cast<void>(solve_indirect(problem, start)); });
+}
+
+TEST(SolveIndirect, WhatTheMaximumPrincipleHereDoesNotCoverIsRefusedByName) {
+  using Statement = tests::Restated::Statement;
+  const tests::DoubleIntegrator base;
+  const auto refuses = [&](const std::string& named, const std::function<void(Statement&)>& change) {
+    tests::expect_error_naming({named, base.name()},
+                               [&] { static_cast<void>(solve_indirect(tests::Restated(base, change), Trajectory())); });
+  };
+  refuses("free or bounded ends", [](Statement& s) { s.last.free_velocity(0); });
+  refuses("a free horizon", [](Statement& s) { s.horizon = {0.5, 2.0}; });
+  refuses("bounds on the controls", [](Statement& s) { s.u = tests::all_between(1, -5.0, 5.0); });
+  refuses("bounds on the state", [](Statement& s) { s.v = tests::all_between(1, -5.0, 5.0); });
+  refuses("path constraints", [](Statement& s) { s.path = [](const ControlledState& x) { return x.q; }; });
+  refuses("boundary conditions",
+          [](Statement& s) { s.conditions = [](const State&, const State& last) { return last.v; }; });
+  refuses("a final cost", [](Statement& s) { s.final_cost = [](const State& last) { return last.q[0]; }; });
 }
 
 TEST(SolveIndirect, AStartWithoutCostatesOrOfAnotherProblemIsRefused) {

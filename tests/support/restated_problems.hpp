@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cmath>
+#include <functional>
 #include <limits>
-#include <memory>
-#include <numbers>
-#include <utility>
 
 #include "tests/support/problems_for_tests.hpp"
 
