@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "methods/error.hpp"
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
 #include "methods/solvers/nlopt_solver.hpp"
 #include "methods/solvers/sqp/sqp_solver.hpp"
@@ -26,6 +27,7 @@ std::unique_ptr<Solver> make(const SolverOptions& options) {
 // One line per solver, the default first.
 constexpr std::array registry{
     Entry{"ipopt", make<IpoptSolver>},
+    Entry{"interior_point", make<InteriorPointSolver>},
     Entry{"sqp", make<SqpSolver>},
     Entry{"nlopt", make<NloptSolver>},
 };

@@ -1,0 +1,117 @@
+#include "methods/solvers/interior_point/barrier_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+BoundList bounds_of(const Eigen::VectorXd& bounds, const Eigen::VectorXd& others) {
+  BoundList list;
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
+    if (!std::isfinite(bounds[i]) || bounds[i] == others[i]) continue;
+    list.entries.push_back(i);
+    values.push_back(bounds[i]);
+  }
+  list.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return list;
+}
+
+/// Moves a number away from its bounds: by a hundredth of its size, at most a hundredth of their distance.
+double pushed_inside(double value, double lower, double upper) {
+  constexpr double share = 1e-2;
+  const double distance = upper - lower;  // infinite where a bound is missing
+  if (std::isfinite(lower)) value = std::max(value, lower + share * std::min(std::max(1.0, std::abs(lower)), distance));
+  if (std::isfinite(upper)) value = std::min(value, upper - share * std::min(std::max(1.0, std::abs(upper)), distance));
+  return value;
+}
+
+void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i]);
+  }
+}
+
+double sum_of_logarithms(const Eigen::VectorXd& vector, const BoundList& bounds, double side) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+    sum += std::log(side * (vector[bounds.entries[i]] - bounds.values[static_cast<Eigen::Index>(i)]));
+  }
+  return sum;
+}
+
+}  // namespace
+
+BarrierProgram::BarrierProgram(NonlinearProgram& program)
+    : program_(program),
+      x_lower_(bounds_of(program.variable_lower(), program.variable_upper())),
+      x_upper_(bounds_of(program.variable_upper(), program.variable_lower())),
+      s_lower_(bounds_of(program.constraint_lower(), program.constraint_upper())),
+      s_upper_(bounds_of(program.constraint_upper(), program.constraint_lower())),
+      gradient_(static_cast<Eigen::Index>(program.variable_count())),
+      jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
+      hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())) {
+  for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
+  const Eigen::VectorXd& lower = program.constraint_lower();
+  for (Eigen::Index i = 0; i < lower.size(); ++i) is_equality_.push_back(lower[i] == program.constraint_upper()[i]);
+}
+
+template <class Evaluation>
+void BarrierProgram::timed(const Evaluation& evaluation) {
+  const auto begin = std::chrono::steady_clock::now();
+  evaluation();
+  evaluation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Point BarrierProgram::interior(const Eigen::VectorXd& start) {
+  Point point;
+  point.x = start;
+  push_inside(point.x, program_.variable_lower(), program_.variable_upper());
+  point.s.resize(static_cast<Eigen::Index>(program_.constraint_count()));
+  program_.constraints(point.x, point.s);
+  push_inside(point.s, program_.constraint_lower(), program_.constraint_upper());
+  point.multipliers.setZero(point.s.size());
+  point.x_lower.setOnes(x_lower_.values.size());
+  point.x_upper.setOnes(x_upper_.values.size());
+  point.s_lower.setOnes(s_lower_.values.size());
+  point.s_upper.setOnes(s_upper_.values.size());
+  return point;
+}
+
+bool BarrierProgram::evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows) {
+  timed([&] {
+    objective = program_.objective(x);
+    program_.constraints(x, rows);
+  });
+  ++evaluations_;
+  return std::isfinite(objective) && rows.allFinite();
+}
+
+bool BarrierProgram::differentiate(const Eigen::VectorXd& x) {
+  timed([&] {
+    program_.gradient(x, gradient_);
+    program_.jacobian(x, jacobian_);
+  });
+  return gradient_.allFinite() && jacobian_.allFinite();
+}
+
+void BarrierProgram::evaluate_hessian(const Point& point) {
+  timed([&] { program_.hessian(point.x, 1.0, point.multipliers, hessian_); });
+}
+
+void BarrierProgram::add_transposed_product(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
+  const SparsityPattern& pattern = program_.jacobian_structure();
+  const double* values = jacobian_.data();
+  for (std::size_t e = 0; e < pattern.size(); ++e) {
+    result[pattern.columns[e]] += values[e] * multipliers[pattern.rows[e]];
+  }
+}
+
+double BarrierProgram::barrier(const Point& point) const {
+  return -sum_of_logarithms(point.x, x_lower_, 1.0) - sum_of_logarithms(point.x, x_upper_, -1.0) -
+         sum_of_logarithms(point.s, s_lower_, 1.0) - sum_of_logarithms(point.s, s_upper_, -1.0);
+}
+
+}  // namespace dmocbench::interior_point

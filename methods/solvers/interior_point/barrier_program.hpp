@@ -1,0 +1,90 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench::interior_point {
+
+/// A point of the barrier method. Every row has a slack, a(x) = s; that of an equality is its value and does not move.
+/// Unknowns ξ and slacks have one multiplier z >= 0 per bound, in the order of `Bounds`.
+struct Point {
+  Eigen::VectorXd x;
+  Eigen::VectorXd s;
+  Eigen::VectorXd multipliers;  ///< λ, one per row
+  Eigen::VectorXd x_lower;
+  Eigen::VectorXd x_upper;
+  Eigen::VectorXd s_lower;
+  Eigen::VectorXd s_upper;
+};
+
+/// Where a vector has bounds on one side, and their values. Entries whose two bounds are equal have none: they do not
+/// move.
+struct BoundList {
+  std::vector<Eigen::Index> entries;
+  Eigen::VectorXd values;
+};
+
+/// The program as the barrier method sees it,
+///
+///   minimise φ(x) - μ Σ ln(distances from bounds)  such that  a(x) = s,
+///
+/// with the derivatives at the last point that they were asked for.
+class BarrierProgram {
+ public:
+  explicit BarrierProgram(NonlinearProgram& program);
+
+  [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
+  [[nodiscard]] bool has_bounds() const noexcept { return bound_count_ > 0; }
+  [[nodiscard]] Eigen::Index bound_count() const noexcept { return bound_count_; }
+  [[nodiscard]] const BoundList& x_lower() const noexcept { return x_lower_; }
+  [[nodiscard]] const BoundList& x_upper() const noexcept { return x_upper_; }
+  [[nodiscard]] const BoundList& s_lower() const noexcept { return s_lower_; }
+  [[nodiscard]] const BoundList& s_upper() const noexcept { return s_upper_; }
+  /// True for rows that are equalities.
+  [[nodiscard]] const std::vector<bool>& is_equality() const noexcept { return is_equality_; }
+
+  /// `start` and slacks a(start) pushed into the interior, multipliers of bounds 1, λ = 0.
+  [[nodiscard]] Point interior(const Eigen::VectorXd& start);
+
+  /// φ and a at x; false if a number is not finite.
+  [[nodiscard]] bool evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows);
+  /// Gradient and Jacobian at x; false if a number is not finite.
+  [[nodiscard]] bool differentiate(const Eigen::VectorXd& x);
+  void evaluate_hessian(const Point& point);
+
+  [[nodiscard]] const Eigen::VectorXd& gradient() const noexcept { return gradient_; }
+  [[nodiscard]] const Eigen::VectorXd& jacobian() const noexcept { return jacobian_; }
+  [[nodiscard]] const Eigen::VectorXd& hessian() const noexcept { return hessian_; }
+
+  /// result += Jᵀ multipliers.
+  void add_transposed_product(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const;
+
+  /// -Σ ln(distances), to be multiplied by μ.
+  [[nodiscard]] double barrier(const Point& point) const;
+
+  [[nodiscard]] int evaluations() const noexcept { return evaluations_; }
+  [[nodiscard]] double evaluation_seconds() const noexcept { return evaluation_seconds_; }
+
+ private:
+  template <class Evaluation>
+  void timed(const Evaluation& evaluation);
+
+  NonlinearProgram& program_;
+  BoundList x_lower_;
+  BoundList x_upper_;
+  BoundList s_lower_;
+  BoundList s_upper_;
+  Eigen::Index bound_count_ = 0;
+  std::vector<bool> is_equality_;
+  Eigen::VectorXd gradient_;
+  Eigen::VectorXd jacobian_;
+  Eigen::VectorXd hessian_;
+  int evaluations_ = 0;
+  double evaluation_seconds_ = 0.0;
+};
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "methods/program/solution.hpp"
+#include "methods/solvers/interior_point/barrier_program.hpp"
+#include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/newton_step.hpp"
+#include "methods/solvers/solver.hpp"
+
+namespace dmocbench::interior_point {
+
+/// One solve by the primal-dual interior-point method with a filter line search of Wächter and Biegler (Mathematical
+/// Programming 106, 2006); equations are named after it.
+class InteriorPointRun {
+ public:
+  InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, const Eigen::VectorXd& start,
+                   const SolverOptions& options);
+
+  /// Judged by `confirm` afterwards, like every solver's.
+  [[nodiscard]] Solution run();
+
+ private:
+  /// What the conditions of optimality leave at a point.
+  struct Residuals {
+    double stationarity = 0.0;
+    double violation = 0.0;
+    double complementarity = 0.0;
+  };
+
+  [[nodiscard]] std::optional<Status> iterate();
+  [[nodiscard]] std::optional<Status> reason_to_stop() const;
+  [[nodiscard]] bool begin(const Eigen::VectorXd& start);
+
+  // Convergence.
+  [[nodiscard]] Residuals residuals(double mu) const;
+  [[nodiscard]] double barrier_error(const Residuals& at) const;
+  [[nodiscard]] bool has_converged() const;
+  void lower_barrier();
+
+  // Line search.
+  [[nodiscard]] double largest_step(const Direction& direction, double share) const;
+  [[nodiscard]] double largest_bound_step(const Direction& direction, double share) const;
+  [[nodiscard]] bool search(const Direction& direction);
+  [[nodiscard]] bool try_point(const Direction& direction, double length, double slope, double step_length);
+  [[nodiscard]] bool correct_second_order(const Direction& direction, double slope, double length);
+  void move_bounds(const Direction& direction, double length);
+  void keep_bounds_near_barrier();
+  [[nodiscard]] std::optional<Status> restore();
+
+  void measure();  // violation and function at point_
+
+  NonlinearProgram& plain_program_;
+  const SolverOptions& options_;
+  BarrierProgram program_;
+  NewtonStep newton_;
+  Filter filter_;
+  Point point_;
+  Point trial_;
+  Eigen::VectorXd rows_;  // a(x) - s at the point
+  Eigen::VectorXd trial_rows_;
+  double objective_ = 0.0;
+  double trial_objective_ = 0.0;
+  double violation_ = 0.0;  // |a(x) - s|_1
+  double function_ = 0.0;   // φ + μ barrier
+  double mu_ = 0.0;
+  double tolerance_;
+  double first_violation_ = 0.0;
+  int iterations_ = 0;
+  std::string message_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace dmocbench::interior_point

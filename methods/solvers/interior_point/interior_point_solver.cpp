@@ -1,0 +1,68 @@
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "methods/error.hpp"
+#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/interior_point/interior_point_run.hpp"
+#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/sparse_kkt.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+enum class Factorisation : unsigned char { intervals, sparse };
+
+Factorisation factorisation_of(const std::map<std::string, std::string>& passed_on) {
+  Factorisation choice = Factorisation::intervals;
+  for (const auto& [option, value] : passed_on) {
+    if (option != "factorisation") {
+      throw Error("the solver interior_point has no option " + option + "; it has factorisation");
+    }
+    if (value != "intervals" && value != "sparse") {
+      throw Error("the solver interior_point: factorisation must be intervals or sparse, not " + value);
+    }
+    choice = value == "sparse" ? Factorisation::sparse : Factorisation::intervals;
+  }
+  return choice;
+}
+
+/// Null, with the reason in `why`, where the program has no structure that intervals need.
+std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program, Factorisation choice,
+                                                       std::string& why) {
+  if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
+  return interior_point::IntervalKkt::make(program, why);
+}
+
+}  // namespace
+
+InteriorPointSolver::InteriorPointSolver(SolverOptions options) : options_(std::move(options)) {
+  options_.validate();
+  static_cast<void>(factorisation_of(options_.passed_on));
+}
+
+std::string InteriorPointSolver::description() const {
+  return "interior-point method whose linear systems are eliminated interval by interval; exact Hessian";
+}
+
+Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
+  require_start(program, start);
+  std::string why;
+  const auto kkt = make_system(program, factorisation_of(options_.passed_on), why);
+  if (!kkt) {
+    Solution refused;
+    refused.status = Status::invalid_program;
+    refused.message = "interior_point cannot eliminate this program interval by interval: " + why +
+                      "; choose ipopt, or the option factorisation=sparse.";
+    return refused;
+  }
+  Solution solution = interior_point::InteriorPointRun(program, *kkt, start, options_).run();
+  const std::string message = solution.message;
+  confirm(program, options_.tolerance, solution);
+  if (solution.status == Status::step_failed) solution.message = message;
+  return solution;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,241 @@
+// Included by segment_kernel.cpp alone, see lanes.hpp.
+
+/// Work of one step backward. All blocks are column by column.
+template <class S>
+struct StepWork {
+  explicit StepWork(const S& s, Lanes* memory) : shape(s) {
+    const auto take = [&](int count) {
+      Lanes* begin = memory;
+      memory += count;
+      return begin;
+    };
+    const int X = state_size(s);
+    const int N = column_count(s);
+    equalities = take(s.rows * (next_size(s) + X + 1));
+    reciprocals = take(s.rows);
+    next = take(next_size(s) * N);
+    slope = take(next_size(s) * N);
+    transition = take(X * N);
+    weighted = take(X * N);
+    condensed = take(N * N);
+    line = take(N);
+    reached = take(N * X);
+    value = take(X * (2 * X + 1));
+    reach = take(X * (X + 1));
+    smallest_pivot = take(1);
+    smallest_ratio = take(1);
+  }
+
+  static int size(const S& s) {
+    const int X = state_size(s);
+    const int N = column_count(s);
+    const int Z = next_size(s);
+    return s.rows * (Z + X + 2) + 2 * Z * N + 2 * X * N + N * N + N + N * X + X * (2 * X + 1) + X * (X + 1) + 2;
+  }
+
+  S shape;
+  Lanes* equalities;   // rows x (Z, X, 1): factorised; then dependent entries of Z, negative
+  Lanes* reciprocals;  // rows: of the pivots
+  Lanes* next;         // Z x (w, X, 1): Z as a function of the free unknowns and the state
+  Lanes* slope;        // Z x (w, X, 1): derivative of the interval's own cost with respect to Z
+  Lanes* transition;   // X x (w, X, 1): the next state
+  Lanes* weighted;     // X x (w, X, 1): derivative of the value of the rest with respect to the next state
+  Lanes* condensed;    // (w, X, 1) x (w, X, 1): the quadratic form of interval and rest; lower triangle
+  Lanes* line;         // (w, X, 1): an inequality, weighted
+  Lanes* reached;      // (w, X, 1) x ν
+  Lanes* value;        // X x (X, 1, ν): P, p, Φ
+  Lanes* reach;        // ν x (1, ν): γ, Γ
+  Lanes* smallest_pivot;
+  Lanes* smallest_ratio;
+};
+
+/// Solves the equalities for the dependent entries of Z. Rows and columns come in an order in which no exchange is
+/// needed, see elimination_plan.hpp.
+template <class S>
+inline void eliminate_equalities(const S& shape, const Lanes* local, const double* usual_pivots, StepWork<S>& work) {
+  const int n = shape.rows;
+  const int columns = next_size(shape) + state_size(shape) + 1;
+  Lanes* const a = work.equalities;
+  for (int i = 0; i < n * columns; ++i) a[i] = local[i];
+  for (int p = 0; p < n; ++p) {
+    const Lanes pivot = a[p + p * n];
+    *work.smallest_ratio = smaller(*work.smallest_ratio, magnitude(pivot) / Lanes::all(usual_pivots[p]));
+    work.reciprocals[p] = Lanes::all(1.0) / pivot;
+    for (int i = p + 1; i < n; ++i) {
+      const Lanes factor = a[i + p * n] * work.reciprocals[p];
+      a[i + p * n] = factor;
+      for (int j = p + 1; j < columns; ++j) a[i + j * n] -= factor * a[p + j * n];
+    }
+  }
+  for (int j = n; j < columns; ++j) {
+    for (int p = n - 1; p >= 0; --p) {
+      Lanes sum = a[p + j * n];
+      for (int q = p + 1; q < n; ++q) sum -= a[p + q * n] * a[q + j * n];
+      a[p + j * n] = sum * work.reciprocals[p];
+    }
+  }
+}
+
+/// Z and the next state as linear functions of (w, X, 1).
+template <class S>
+inline void make_transition(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, const int* node_in_next,
+                            StepWork<S>& work) {
+  const int n = shape.rows;
+  const int Z = next_size(shape);
+  const int X = state_size(shape);
+  const int w = free_size(shape);
+  const int N = column_count(shape);
+  const Lanes zero{};
+  const Lanes one = Lanes::all(1.0);
+  for (int j = 0; j < N; ++j) {
+    for (int i = 0; i < n; ++i) work.next[i + j * Z] = -work.equalities[i + (n + j) * n];
+    for (int i = 0; i < w; ++i) work.next[n + i + j * Z] = i == j ? one : zero;
+  }
+  for (int j = 0; j < N; ++j) {
+    Lanes* const column = work.transition + j * X;
+    for (int i = 0; i < shape.node; ++i) column[i] = work.next[node_in_next[i] + j * Z];
+    for (int i = 0; i < shape.carried; ++i) {
+      Lanes sum = j >= w && j < w + shape.node ? local[blocks.carry(i, j - w)] : zero;
+      for (int z = 0; z < Z; ++z) sum += local[blocks.carry(i, shape.node + z)] * work.next[z + j * Z];
+      column[shape.node + i] = sum;
+    }
+    for (int i = 0; i < shape.shared; ++i) {
+      column[shape.node + shape.carried + i] = j == w + shape.node + shape.carried + i ? one : zero;
+    }
+  }
+}
+
+/// An inequality whose slack is eliminated adds its square, weighted by 1/e, to the quadratic form: to its derivative
+/// with respect to Z, and to the part of the condensed form that reads X directly.
+template <class S>
+inline void add_inequality(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, int row,
+                           StepWork<S>& work) {
+  const int Z = next_size(shape);
+  const int w = free_size(shape);
+  const int N = column_count(shape);
+  Lanes* const line = work.line;
+  const Lanes weight = Lanes::all(1.0) / local[blocks.softness() + row];
+  for (int j = 0; j < N; ++j) {
+    Lanes sum = j < w ? local[blocks.soft(row, shape.rows + j)] : local[blocks.soft(row, Z + j - w)];
+    for (int z = 0; z < shape.rows; ++z) sum += local[blocks.soft(row, z)] * work.next[z + j * Z];
+    line[j] = weight * sum;
+    for (int z = 0; z < Z; ++z) work.slope[z + j * Z] += local[blocks.soft(row, z)] * line[j];
+  }
+  for (int x = 0; x < state_size(shape); ++x) {
+    for (int i = w + x; i < N; ++i) work.condensed[i + (w + x) * N] += local[blocks.soft(row, Z + x)] * line[i];
+  }
+}
+
+/// The quadratic form of the interval and of all that follows, in (w, X, 1).
+template <class S>
+inline void condense(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, StepWork<S>& work) {
+  const int n = shape.rows;
+  const int Z = next_size(shape);
+  const int X = state_size(shape);
+  const int w = free_size(shape);
+  const int N = column_count(shape);
+  const Lanes* const hessian = local + blocks.hessian();
+  for (int j = 0; j < N; ++j) {
+    for (int i = 0; i < Z; ++i) {
+      Lanes sum = j < w ? hessian[i + (n + j) * Z] : hessian[i + (Z + j - w) * Z];
+      for (int z = 0; z < n; ++z) sum += hessian[i + z * Z] * work.next[z + j * Z];
+      work.slope[i + j * Z] = sum;
+    }
+    for (int i = 0; i < X; ++i) {
+      Lanes sum = j == N - 1 ? work.value[i + X * X] : Lanes{};
+      for (int x = 0; x < X; ++x) sum += work.value[i + x * X] * work.transition[x + j * X];
+      work.weighted[i + j * X] = sum;
+    }
+  }
+  for (int i = 0; i < N * N; ++i) work.condensed[i] = Lanes{};
+  for (int row = 0; row < shape.soft; ++row) add_inequality(shape, blocks, local, row, work);
+  for (int j = 0; j < w + X; ++j) {
+    for (int i = j; i < N; ++i) {
+      Lanes sum = work.condensed[i + j * N];
+      for (int x = 0; x < X; ++x) sum += work.transition[x + j * X] * work.weighted[x + i * X];
+      for (int z = 0; z < n; ++z) sum += work.next[z + j * Z] * work.slope[z + i * Z];
+      if (j < w) {
+        sum += work.slope[n + j + i * Z];
+      } else {
+        for (int z = 0; z < n; ++z) sum += hessian[z + (Z + j - w) * Z] * work.next[z + i * Z];
+      }
+      work.condensed[i + j * N] = sum;
+    }
+  }
+  for (int j = 0; j < X; ++j) {
+    for (int i = 0; i < N; ++i) {
+      Lanes sum{};
+      for (int x = 0; x < X; ++x) sum += work.transition[x + i * X] * work.value[x + (X + 1 + j) * X];
+      work.reached[i + j * N] = sum;
+    }
+  }
+}
+
+/// Cholesky factor of the free unknowns' Hessian, in place; L⁻¹ times all that stands beside it. A pivot that is not
+/// positive is replaced, so that no other lane is disturbed, and remembered.
+template <class S>
+inline void factorise_free(const S& shape, StepWork<S>& work) {
+  const int w = free_size(shape);
+  const int X = state_size(shape);
+  const int N = column_count(shape);
+  Lanes* const c = work.condensed;
+  for (int p = 0; p < w; ++p) {
+    const Lanes diagonal = c[p + p * N];
+    Lanes pivot = diagonal;
+    for (int q = 0; q < p; ++q) pivot -= c[p + q * N] * c[p + q * N];
+    // A pivot that is rounding of its diagonal entry is no pivot.
+    const Lanes relative = pivot / larger(magnitude(diagonal), Lanes::all(1e-300));
+    *work.smallest_pivot = smaller(*work.smallest_pivot, relative);
+    pivot = chosen(pivot.v > 0.0, pivot, Lanes::all(1.0));
+    const Lanes reciprocal = Lanes::all(1.0) / square_root(pivot);
+    c[p + p * N] = reciprocal;
+    for (int i = p + 1; i < N; ++i) {
+      Lanes sum = c[i + p * N];
+      for (int q = 0; q < p; ++q) sum -= c[i + q * N] * c[p + q * N];
+      c[i + p * N] = sum * reciprocal;
+    }
+    for (int j = 0; j < X; ++j) {
+      Lanes sum = work.reached[p + j * N];
+      for (int q = 0; q < p; ++q) sum -= c[p + q * N] * work.reached[q + j * N];
+      work.reached[p + j * N] = sum * reciprocal;
+    }
+  }
+}
+
+/// Value and reach of the segment with this interval in front; lanes that `active` leaves out keep theirs.
+template <class S>
+inline void advance(const S& shape, bool all_active, const Lanes::Mask& active, StepWork<S>& work) {
+  const int w = free_size(shape);
+  const int X = state_size(shape);
+  const int N = column_count(shape);
+  const Lanes* const c = work.condensed;
+  const auto put = [&](Lanes& target, const Lanes& value) {
+    target = all_active ? value : chosen(active, value, target);
+  };
+  for (int j = 0; j < X; ++j) {
+    for (int i = j; i < X + 1; ++i) {
+      Lanes sum = c[w + i + (w + j) * N];
+      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * c[w + j + q * N];
+      if (i == X) {
+        put(work.value[j + X * X], sum);
+      } else {
+        put(work.value[i + j * X], sum);
+        put(work.value[j + i * X], sum);
+      }
+    }
+    for (int i = 0; i < X + 1; ++i) {
+      Lanes sum = work.reached[w + i + j * N];
+      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * work.reached[q + j * N];
+      if (i < X) {
+        put(work.value[i + (X + 1 + j) * X], sum);
+      } else {
+        put(work.reach[j], work.reach[j] + sum);
+      }
+    }
+    for (int i = 0; i < X; ++i) {
+      Lanes sum = work.reach[i + (1 + j) * X];
+      for (int q = 0; q < w; ++q) sum += work.reached[q + i * N] * work.reached[q + j * N];
+      put(work.reach[i + (1 + j) * X], sum);
+    }
+  }
+}

@@ -1,0 +1,180 @@
+#include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// Rows and columns in the order of elimination: position -> natural number.
+struct Order {
+  std::vector<int> rows;
+  std::vector<int> columns;  // of Z
+  std::vector<double> pivots;
+};
+
+/// Derivatives of the equalities of an interval with respect to Z.
+Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays& arrays, std::size_t interval) {
+  const Shape& shape = entries.shape;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(shape.rows, next_size(shape));
+  for (const LocalEntry& entry : entries.local) {
+    if (entry.block != LocalEntry::Block::equality || entry.column >= matrix.cols()) continue;
+    matrix(entry.row, entry.column) = arrays.at(entry.source, entry.first + interval);
+  }
+  return matrix;
+}
+
+/// Largest entry of what is left, with every row measured by its own largest entry.
+std::pair<Eigen::Index, Eigen::Index> best_pivot(const Eigen::MatrixXd& left, const Eigen::VectorXd& row_scale,
+                                                 Eigen::Index from) {
+  std::pair<Eigen::Index, Eigen::Index> best{from, from};
+  double largest = 0.0;
+  for (Eigen::Index j = from; j < left.cols(); ++j) {
+    for (Eigen::Index i = from; i < left.rows(); ++i) {
+      const double size = std::abs(left(i, j)) / row_scale[i];
+      if (!(size > largest)) continue;
+      largest = size;
+      best = {i, j};
+    }
+  }
+  return best;
+}
+
+std::optional<Order> find_order(Eigen::MatrixXd left) {
+  const auto numbers = [](Eigen::Index count) {
+    std::vector<int> list(static_cast<std::size_t>(count));
+    std::iota(list.begin(), list.end(), 0);
+    return list;
+  };
+  Order order{numbers(left.rows()), numbers(left.cols()), {}};
+  if (!left.allFinite()) return std::nullopt;
+  Eigen::VectorXd row_scale = left.cwiseAbs().rowwise().maxCoeff();
+  if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
+  constexpr double smallest = 1e-12;  // of a row's largest entry: beyond it a pivot is rounding
+  for (Eigen::Index p = 0; p < left.rows(); ++p) {
+    const auto [row, column] = best_pivot(left, row_scale, p);
+    const double pivot = left(row, column);
+    if (!(std::abs(pivot) > smallest * row_scale[row])) return std::nullopt;
+    left.row(p).swap(left.row(row));
+    left.col(p).swap(left.col(column));
+    std::swap(row_scale[p], row_scale[row]);
+    std::swap(order.rows[static_cast<std::size_t>(p)], order.rows[static_cast<std::size_t>(row)]);
+    std::swap(order.columns[static_cast<std::size_t>(p)], order.columns[static_cast<std::size_t>(column)]);
+    order.pivots.push_back(std::abs(pivot));
+    for (Eigen::Index i = p + 1; i < left.rows(); ++i) left.row(i) -= left(i, p) / pivot * left.row(p);
+  }
+  return order;
+}
+
+std::vector<int> inverse(const std::vector<int>& order) {
+  std::vector<int> places(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) places[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  return places;
+}
+
+/// Natural numbers of rows and columns to entries of `LocalBlocks`.
+class Slots {
+ public:
+  Slots(const Shape& shape, const Order& order)
+      : blocks_{shape}, row_at_(inverse(order.rows)), next_at_(inverse(order.columns)) {}
+
+  [[nodiscard]] int column(int natural) const {
+    return natural < next_size(blocks_.shape) ? next_at_[static_cast<std::size_t>(natural)] : natural;
+  }
+  [[nodiscard]] int row(int natural) const { return row_at_[static_cast<std::size_t>(natural)]; }
+  [[nodiscard]] const LocalBlocks<Shape>& blocks() const { return blocks_; }
+
+  /// The slot of an entry, and that of its mirror image.
+  [[nodiscard]] std::pair<int, int> of(const LocalEntry& entry) const {
+    const int node = blocks_.shape.node;
+    switch (entry.block) {
+      case LocalEntry::Block::equality:
+        return twice(blocks_.equality(row(entry.row), column(entry.column)));
+      case LocalEntry::Block::carry:
+        return twice(blocks_.carry(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
+      case LocalEntry::Block::soft:
+        return twice(entry.column < 0 ? blocks_.softness() + entry.row : blocks_.soft(entry.row, column(entry.column)));
+      case LocalEntry::Block::hessian:
+        break;
+    }
+    const int slot = blocks_.hessian(column(entry.row), column(entry.column));
+    if (entry.column >= next_size(blocks_.shape)) return twice(slot);
+    return {slot, blocks_.hessian(column(entry.column), column(entry.row))};
+  }
+
+ private:
+  static std::pair<int, int> twice(int slot) { return {slot, slot}; }
+
+  LocalBlocks<Shape> blocks_;
+  std::vector<int> row_at_;
+  std::vector<int> next_at_;
+};
+
+void append_collected(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+  std::vector<bool> is_set(static_cast<std::size_t>(slots.blocks().size()), false);
+  for (const LocalEntry& entry : entries.local) {
+    const auto [slot, mirror] = slots.of(entry);
+    const auto at = static_cast<std::size_t>(slot);
+    plan.collected.push_back({entry.source, is_set[at], entry.first, slot, mirror});
+    is_set[at] = true;
+  }
+}
+
+/// The constants: s_k stands in the rows of its node as it is; a fixed unknown has a Hessian of its own.
+void append_ones(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+  const Shape& shape = entries.shape;
+  for (int i = 0; i < shape.carried; ++i) {
+    plan.ones.push_back(slots.blocks().equality(slots.row(i), next_size(shape) + shape.node + i));
+  }
+  for (int j = 0; j < shape.inner; ++j) {
+    if (!entries.inner_is_fixed[static_cast<std::size_t>(j)]) continue;
+    const int place = slots.column(shape.node + j);
+    plan.ones.push_back(slots.blocks().hessian(place, place));
+  }
+}
+
+void append_emitted(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+  const Shape& shape = entries.shape;
+  using What = Emitted::What;
+  for (int i = 0; i < shape.node; ++i) {
+    plan.emitted.push_back({What::state, i, false, entries.node_unknowns[static_cast<std::size_t>(i)] + 1});
+  }
+  for (int j = 0; j < shape.inner; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    if (entries.inner_is_fixed[column]) continue;
+    const int place = slots.column(shape.node + j);
+    const bool is_free = place >= shape.rows;
+    plan.emitted.push_back({is_free ? What::free : What::dependent, is_free ? place - shape.rows : place, false,
+                            entries.inner_unknowns[column]});
+  }
+  for (int i = 0; i < shape.rows; ++i) {
+    const bool of_node = i < shape.carried;
+    const std::size_t first = of_node ? entries.node_rows[static_cast<std::size_t>(i)]
+                                      : entries.interval_rows[static_cast<std::size_t>(i - shape.carried)];
+    // Without rows of its own an interval's multipliers come as the derivative with respect to s, in natural order.
+    plan.emitted.push_back({What::multiplier, has_own_rows(shape) ? slots.row(i) : i, true, first});
+  }
+}
+
+}  // namespace
+
+std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, const NewtonArrays& arrays,
+                                                std::size_t interval) {
+  const auto order = find_order(equalities_of(entries, arrays, interval));
+  if (!order) return std::nullopt;
+  const Slots slots(entries.shape, *order);
+  EliminationPlan plan;
+  plan.shape = entries.shape;
+  plan.usual_pivots = order->pivots;
+  for (int i = 0; i < entries.shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
+  append_ones(entries, slots, plan);
+  append_collected(entries, slots, plan);
+  append_emitted(entries, slots, plan);
+  return plan;
+}
+
+}  // namespace dmocbench::interior_point

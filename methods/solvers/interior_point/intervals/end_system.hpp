@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/intervals/interval_entries.hpp"
+#include "methods/solvers/interior_point/intervals/segment_chain.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+
+namespace dmocbench::interior_point {
+
+/// The dense system that is left once all intervals are eliminated: the states of both ends, their further unknowns,
+/// unknowns of the whole horizon, boundary conditions, and the multiplier ν of what the horizon does between.
+class EndSystem {
+ public:
+  /// Throws `Error` if the ends have an entry that belongs to neither of them.
+  EndSystem(const NonlinearProgram& program, const IntervalEntries& entries);
+
+  /// Solves it for a horizon with the value `horizon`.
+  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                              const SegmentValue& horizon, double terminal_weight);
+
+  /// X at the first node, and ν.
+  [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
+  [[nodiscard]] const Eigen::VectorXd& multiplier() const noexcept { return multiplier_; }
+  /// Writes the entries of the steps that no interval writes.
+  void write(Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
+
+ private:
+  /// An unknown or a row of the program that is one of this system: the program's number, and ours.
+  struct Bound {
+    std::size_t number;
+    Eigen::Index at;
+  };
+  /// An entry of the program's matrix, and where it goes; `sign` is -1 where it defines s_0.
+  struct Placed {
+    Source source;
+    std::size_t entry;
+    Eigen::Index row;
+    Eigen::Index column;
+    double sign;
+  };
+
+  void number_unknowns(const NonlinearProgram& program, const IntervalEntries& entries);
+  void number_rows(const IntervalEntries& entries);
+  void place(const IntervalEntries& entries);
+  void keep_what_moves(const NonlinearProgram& program);
+  void assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                const SegmentValue& horizon, double terminal_weight);
+  [[nodiscard]] Verdict factorise_and_solve();
+
+  Eigen::Index state_size_ = 0;
+  Eigen::Index size_ = 0;       // of all, before some are left out
+  Eigen::Index first_row_ = 0;  // unknowns come before, multipliers from here on
+  // Heads of blocks.
+  Eigen::Index last_state_ = 0;
+  Eigen::Index multiplier_at_ = 0;
+  Eigen::Index carry_at_ = 0;   // rows that define s_0
+  Eigen::Index last_rows_ = 0;  // rows of the last node
+  int node_ = 0;
+  int carried_ = 0;
+
+  std::vector<Bound> unknowns_;       // whose slopes, diagonals and steps belong here
+  std::vector<Bound> last_unknowns_;  // x_N: those belong to the last interval
+  std::vector<Bound> first_rows_;     // rows of node 0, which the first interval eliminates
+  std::vector<Bound> rows_;
+  std::vector<Placed> placed_;
+  std::vector<Eigen::Index> kept_;
+
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_hand_side_;
+  Eigen::MatrixXd reduced_;
+  Eigen::VectorXd solution_;
+  Eigen::VectorXd state_;
+  Eigen::VectorXd multiplier_;
+};
+
+}  // namespace dmocbench::interior_point

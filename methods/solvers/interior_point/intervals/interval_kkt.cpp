@@ -1,0 +1,199 @@
+#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/error.hpp"
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// ρ at first, and for good once a pivot has failed: a conjugate point of the problem with a free end is no reason to
+/// change the Hessian.
+constexpr double light_weight = 1.0;
+constexpr double heavy_weight = 1e4;
+/// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
+constexpr double smallest_pivot = 1e-13;
+/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
+constexpr double smallest_ratio = 1e-7;
+
+}  // namespace
+
+std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, std::string& why) {
+  auto entries = interval_entries(program, why);
+  if (!entries) return nullptr;
+  try {
+    return std::make_unique<IntervalKkt>(program, std::move(*entries));
+  } catch (const Error& error) {
+    why = error.what();
+    return nullptr;
+  }
+}
+
+IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries)
+    : entries_(std::move(entries)), ends_(program, entries_), kernel_(segment_kernel_for(entries_.shape)) {
+  cut_into_segments();
+  padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
+  const auto X = static_cast<std::size_t>(state_size(entries_.shape));
+  value_.resize(X * (2 * X + 1) * lane_count);
+  reach_.resize(X * (X + 1) * lane_count);
+  state_.resize(X * lane_count);
+  multiplier_.resize(X * lane_count);
+  group_.value = value_.data();
+  group_.reach = reach_.data();
+  group_.state = state_.data();
+  group_.multiplier = multiplier_.data();
+}
+
+void IntervalKkt::cut_into_segments() {
+  const auto intervals = static_cast<std::ptrdiff_t>(entries_.intervals);
+  const auto begin_of = [&](int lane) { return lane * intervals / lane_count; };
+  for (int lane = 0; lane < lane_count; ++lane) {
+    group_.first[lane] = begin_of(lane);
+    group_.length[lane] = static_cast<int>(begin_of(lane + 1) - begin_of(lane));
+  }
+  group_.steps = *std::max_element(group_.length, group_.length + lane_count);
+  group_.shortest = *std::min_element(group_.length, group_.length + lane_count);
+  const auto record = static_cast<std::size_t>(RecordBlocks<Shape>{entries_.shape}.size());
+  records_.resize(static_cast<std::size_t>(group_.steps) * record * lane_count);
+  group_.records = records_.data();
+}
+
+NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                    const Eigen::VectorXd& rows) {
+  NewtonArrays arrays;
+  const auto give = [&](Source source, const Eigen::VectorXd& values) {
+    arrays.arrays[static_cast<int>(source)] = values.data();
+  };
+  give(Source::jacobian, matrix.jacobian);
+  give(Source::hessian, matrix.hessian);
+  give(Source::diagonal, matrix.diagonal);
+  give(Source::softness, matrix.softness);
+  give(Source::slope, slope);
+  give(Source::rows, rows);
+  give(Source::padded, padded_);
+  for (const PaddedColumn& column : entries_.padded) {
+    const double* from = arrays.arrays[static_cast<int>(column.source)] + column.entry;
+    std::copy_n(from, column.length, padded_.data() + column.padded_first + column.begin);
+  }
+  return arrays;
+}
+
+bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
+  plan_ = elimination_plan(entries_, arrays, entries_.intervals / 2);
+  if (!plan_) return false;
+  workspace_.resize(kernel_.workspace_size(*plan_));
+  group_.workspace = workspace_.data();
+  return true;
+}
+
+void IntervalKkt::choose_terminal_weight(const NewtonArrays& arrays) {
+  double sum = 0.0;
+  for (const LocalEntry& entry : entries_.local) {
+    const bool is_diagonal = entry.block == LocalEntry::Block::hessian && entry.row == entry.column;
+    if (!is_diagonal || entry.row < entries_.shape.node) continue;
+    for (std::size_t k = 0; k < entries_.intervals; ++k) sum += std::abs(arrays.at(entry.source, entry.first + k));
+  }
+  weight_scale_ = sum > 0.0 ? sum / std::max(1, entries_.shape.inner) : 1.0;
+  terminal_weight_ = light_weight * weight_scale_;
+}
+
+Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  NewtonArrays arrays = arrays_of(matrix, slope, rows);
+  if (weight_scale_ == 0.0) choose_terminal_weight(arrays);
+  if (!plan_ && !choose_plan(arrays)) return Verdict::singular;
+  Verdict verdict = eliminate(arrays, matrix, slope, rows);
+  if (verdict == Verdict::untrusted) {
+    if (!choose_plan(arrays)) return Verdict::singular;
+    verdict = eliminate(arrays, matrix, slope, rows);
+  }
+  if (verdict == Verdict::wrong_inertia && terminal_weight_ < heavy_weight * weight_scale_) {
+    terminal_weight_ = heavy_weight * weight_scale_;
+    verdict = eliminate(arrays, matrix, slope, rows);
+  }
+  if (verdict != Verdict::solved) return verdict;
+  substitute(arrays, rows, primal_step, multiplier_step);
+  return primal_step.allFinite() && multiplier_step.allFinite() ? Verdict::solved : Verdict::singular;
+}
+
+Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                               const Eigen::VectorXd& rows) {
+  arrays.terminal_weight = terminal_weight_;
+  kernel_.backward(*plan_, arrays, group_);
+  if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
+  if (!(group_.smallest_pivot > smallest_pivot)) return Verdict::wrong_inertia;
+  chain_.start(value_of(lane_count - 1), terminal_weight_);
+  for (int segment = lane_count - 2; segment >= 0; --segment) {
+    if (!chain_.join(value_of(segment))) return Verdict::wrong_inertia;
+  }
+  return ends_.solve(matrix, slope, rows, chain_.total(), terminal_weight_);
+}
+
+SegmentValue IntervalKkt::value_of(int segment) const {
+  const Eigen::Index X = state_size(entries_.shape);
+  const auto value = [&](Eigen::Index i, Eigen::Index j) { return group_.value[(i + j * X) * lane_count + segment]; };
+  const auto reach = [&](Eigen::Index i, Eigen::Index j) { return group_.reach[(i + j * X) * lane_count + segment]; };
+  return {.P = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return value(i, j); }),
+          .p = Eigen::VectorXd::NullaryExpr(X, [&](auto i) { return value(i, X); }),
+          .Phi = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return value(i, X + 1 + j); }),
+          .Gamma = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return reach(i, 1 + j); }),
+          .gamma = Eigen::VectorXd::NullaryExpr(X, [&](auto i) { return reach(i, 0); })};
+}
+
+void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                             Eigen::VectorXd& multiplier_step) {
+  Eigen::MatrixXd states;
+  Eigen::MatrixXd multipliers;
+  chain_.spread(ends_.state(), ends_.multiplier(), states, multipliers);
+  for (Eigen::Index i = 0; i < states.rows(); ++i) {
+    for (int segment = 0; segment < lane_count; ++segment) {
+      group_.state[i * lane_count + segment] = states(i, segment);
+      group_.multiplier[i * lane_count + segment] = multipliers(i, segment);
+    }
+  }
+  primal_step.setZero();
+  multiplier_step.setZero();
+  kernel_.forward(*plan_, group_, primal_step.data(), multiplier_step.data());
+  ends_.write(primal_step, multiplier_step);
+  write_soft_multipliers(arrays, rows, primal_step, multiplier_step);
+}
+
+std::size_t IntervalKkt::first_of(int column) const {
+  const Shape& shape = entries_.shape;
+  if (column < shape.node) return entries_.node_unknowns[static_cast<std::size_t>(column)] + 1;
+  if (column < next_size(shape)) return entries_.inner_unknowns[static_cast<std::size_t>(column - shape.node)];
+  const int state = column - next_size(shape);
+  if (state < shape.node) return entries_.node_unknowns[static_cast<std::size_t>(state)];
+  return entries_.shared_unknowns[static_cast<std::size_t>(state - shape.node - shape.carried)];
+}
+
+void IntervalKkt::write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
+                                         const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const {
+  const auto count = static_cast<Eigen::Index>(entries_.intervals);
+  const auto at = [](std::size_t first) { return static_cast<Eigen::Index>(first); };
+  for (const std::size_t row : entries_.soft_rows) {
+    multiplier_step.segment(at(row), count) = rows.segment(at(row), count);
+  }
+  const int first_shared = next_size(entries_.shape) + entries_.shape.node + entries_.shape.carried;
+  const int one = next_size(entries_.shape) + state_size(entries_.shape);
+  for (const LocalEntry& entry : entries_.local) {
+    if (entry.block != LocalEntry::Block::soft || entry.column < 0 || entry.column == one) continue;
+    auto sum = multiplier_step.segment(at(entries_.soft_rows[static_cast<std::size_t>(entry.row)]), count);
+    const Eigen::Map<const Eigen::VectorXd> derivative(arrays.arrays[static_cast<int>(entry.source)] + entry.first,
+                                                       count);
+    if (entry.column >= first_shared) {
+      sum += derivative * primal_step[at(first_of(entry.column))];
+    } else {
+      sum += derivative.cwiseProduct(primal_step.segment(at(first_of(entry.column)), count));
+    }
+  }
+  for (const std::size_t row : entries_.soft_rows) {
+    const Eigen::Map<const Eigen::ArrayXd> softness(arrays.arrays[static_cast<int>(Source::softness)] + row, count);
+    multiplier_step.segment(at(row), count).array() /= softness;
+  }
+}
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
+#include "methods/solvers/interior_point/intervals/end_system.hpp"
+#include "methods/solvers/interior_point/intervals/interval_entries.hpp"
+#include "methods/solvers/interior_point/intervals/lane_array.hpp"
+#include "methods/solvers/interior_point/intervals/segment_chain.hpp"
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+
+namespace dmocbench::interior_point {
+
+/// The KKT system of a program with an interval structure, eliminated interval by interval in time and memory that grow
+/// linearly with their number; README.md tells how.
+class IntervalKkt : public KktSystem {
+ public:
+  /// Null, with the reason in `why`, for a program whose structure does not allow it (interval_entries.hpp).
+  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why);
+
+  IntervalKkt(const NonlinearProgram& program, IntervalEntries entries);
+
+  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+
+  [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
+
+ private:
+  void cut_into_segments();
+  [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                       const Eigen::VectorXd& rows);
+  [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
+  void choose_terminal_weight(const NewtonArrays& arrays);
+  [[nodiscard]] Verdict eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                  const Eigen::VectorXd& rows);
+  [[nodiscard]] SegmentValue value_of(int segment) const;
+  void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                  Eigen::VectorXd& multiplier_step);
+  void write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
+                              const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
+  [[nodiscard]] std::size_t first_of(int column) const;
+
+  IntervalEntries entries_;
+  EndSystem ends_;
+  SegmentKernel kernel_;
+  std::optional<EliminationPlan> plan_;
+  double weight_scale_ = 0.0;     // of the terminal weight, found at the first solve
+  double terminal_weight_ = 0.0;  // ρ
+
+  Eigen::VectorXd padded_;
+  SegmentGroup group_;
+  LaneArray records_;
+  LaneArray workspace_;
+  LaneArray value_;
+  LaneArray reach_;
+  LaneArray state_;
+  LaneArray multiplier_;
+  SegmentChain chain_;
+};
+
+}  // namespace dmocbench::interior_point

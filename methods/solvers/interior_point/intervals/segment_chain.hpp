@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dmocbench::interior_point {
+
+/// A stretch of the horizon as seen from its ends: the value of what lies inside, as a function of the state X at its
+/// first node and of the multiplier ν of the condition that its last node has a given state d,
+///
+///   ½ XᵀPX + pᵀX + νᵀ(ΦᵀX + γ - d) - ½ νᵀΓν - ½ ρ|d|².
+///
+/// P, Φ, Γ: X x X.
+struct SegmentValue {
+  Eigen::MatrixXd P;
+  Eigen::VectorXd p;
+  Eigen::MatrixXd Phi;
+  Eigen::MatrixXd Gamma;
+  Eigen::VectorXd gamma;
+};
+
+/// Joins neighbouring segments, from the last to the first, to the value of the whole horizon.
+class SegmentChain {
+ public:
+  /// `terminal_weight` is ρ.
+  void start(const SegmentValue& last, double terminal_weight);
+  /// Puts a segment in front. False if eliminating the state between is no minimum.
+  [[nodiscard]] bool join(const SegmentValue& segment);
+
+  [[nodiscard]] const SegmentValue& total() const noexcept { return total_; }
+
+  /// States and multipliers of all segments, first to last, from X at the first node and ν of the last: column s for
+  /// segment s.
+  void spread(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier, Eigen::MatrixXd& states,
+              Eigen::MatrixXd& multipliers) const;
+
+ private:
+  /// What `spread` needs of a join: y = state_state X + state_multiplier ν + state_constant, and the multiplier of the
+  /// segment in front, ν' = slope y + mixed ν + constant.
+  struct Join {
+    Eigen::MatrixXd state_state;
+    Eigen::MatrixXd state_multiplier;
+    Eigen::VectorXd state_constant;
+    Eigen::MatrixXd slope;
+    Eigen::MatrixXd mixed;
+    Eigen::VectorXd constant;
+  };
+
+  double terminal_weight_ = 0.0;
+  SegmentValue total_;
+  std::vector<Join> joins_;  // last to first
+};
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,25 @@
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+
+#include <cstddef>
+#include <type_traits>
+
+// Compiled once per instruction set. A namespace of its own keeps what is not inlined apart: a linker may take either
+// of two functions of the same name.
+namespace dmocbench::interior_point {
+namespace DMOCBENCH_SEGMENT_NAMESPACE {
+
+#include "methods/solvers/interior_point/intervals/lanes.hpp"
+//
+#include "methods/solvers/interior_point/intervals/collect.hpp"
+//
+#include "methods/solvers/interior_point/intervals/backward_step.hpp"
+//
+#include "methods/solvers/interior_point/intervals/records.hpp"
+//
+#include "methods/solvers/interior_point/intervals/sweeps.hpp"
+
+}  // namespace DMOCBENCH_SEGMENT_NAMESPACE
+
+SegmentKernel DMOCBENCH_SEGMENT_KERNEL(const Shape& shape) { return DMOCBENCH_SEGMENT_NAMESPACE::choose_kernel(shape); }
+
+}  // namespace dmocbench::interior_point

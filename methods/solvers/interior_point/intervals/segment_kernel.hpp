@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "methods/solvers/interior_point/intervals/shape.hpp"
+
+namespace dmocbench::interior_point {
+
+/// Segments of the horizon that are worked on together, one per lane of a vector register.
+inline constexpr int lane_count = 8;
+
+/// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
+enum class Source : unsigned char { jacobian, hessian, diagonal, slope, rows, softness, padded };
+inline constexpr int source_count = 7;
+
+/// One number of every interval: interval k reads entry `first` + k of an array and puts it into (or adds it to) the
+/// entry `slot` of its blocks (`LocalBlocks`), and by symmetry also into `mirror` if that is another one.
+struct Collected {
+  Source source;
+  bool adds;
+  std::size_t first;
+  int slot;
+  int mirror;
+};
+
+/// One number of every interval that a step is made of: interval k writes it to entry `first` + k.
+struct Emitted {
+  enum class What : unsigned char { state, free, dependent, multiplier };
+  What what;
+  int index;           ///< entry of X, of w, of the dependent ones, of the multipliers of its rows
+  bool is_multiplier;  ///< goes to the multipliers' step, else to the variables'
+  std::size_t first;
+};
+
+/// How the intervals of a program are eliminated; the same for all of them.
+struct EliminationPlan {
+  Shape shape{};
+  std::vector<Collected> collected;
+  std::vector<Emitted> emitted;
+  std::vector<int> node_in_next;     ///< which entry of Z, in the order of elimination, is x_i
+  std::vector<double> usual_pivots;  ///< of the equalities, as large as they are on the whole
+  std::vector<int> ones;             ///< entries of the blocks that are 1 in every interval
+};
+
+/// Eight segments side by side, and where their results stand. All arrays of numbers are lane by lane: entry i of lane
+/// l at i * lane_count + l.
+struct SegmentGroup {
+  std::ptrdiff_t first[lane_count] = {};  ///< their first intervals
+  int length[lane_count] = {};            ///< numbers of their intervals, which differ by at most one
+  int steps = 0;                          ///< the largest length
+  int shortest = 0;                       ///< the smallest length
+  double* records = nullptr;              ///< steps * RecordBlocks::size(), written backward, read forward
+  double* workspace = nullptr;            ///< SegmentKernel::workspace_size numbers
+
+  // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
+  // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.
+  double* value = nullptr;
+  double* reach = nullptr;
+
+  double* state = nullptr;       ///< forward: X at the first node
+  double* multiplier = nullptr;  ///< forward: ν
+  double smallest_pivot = 0.0;   ///< smallest pivot of the Hessian of the free unknowns, relative to its diagonal
+  double smallest_ratio = 0.0;   ///< smallest pivot of the equalities, relative to the usual one
+};
+
+/// What a backward sweep reads: the arrays by `Source`, and the weight ρ at the end of every segment (README.md).
+struct NewtonArrays {
+  const double* arrays[source_count] = {};
+  [[nodiscard]] double at(Source source, std::size_t entry) const { return arrays[static_cast<int>(source)][entry]; }
+  double terminal_weight = 0.0;
+};
+
+/// Both sweeps over a group of segments for one shape and one instruction set.
+struct SegmentKernel {
+  /// How many numbers of workspace a group needs.
+  std::size_t (*workspace_size)(const EliminationPlan& plan);
+  void (*backward)(const EliminationPlan& plan, const NewtonArrays& arrays, SegmentGroup& group);
+  void (*forward)(const EliminationPlan& plan, const SegmentGroup& group, double* primal_step, double* multiplier_step);
+};
+
+/// The fastest kernel for a shape on this processor.
+[[nodiscard]] SegmentKernel segment_kernel_for(const Shape& shape);
+
+// The same source, segment_kernel.cpp, compiled once per instruction set.
+[[nodiscard]] SegmentKernel segment_kernel_baseline(const Shape& shape);
+[[nodiscard]] SegmentKernel segment_kernel_avx2(const Shape& shape);
+[[nodiscard]] SegmentKernel segment_kernel_avx512(const Shape& shape);
+
+}  // namespace dmocbench::interior_point

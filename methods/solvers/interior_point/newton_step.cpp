@@ -1,0 +1,181 @@
+#include "methods/solvers/interior_point/newton_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// Adds what a list of bounds contributes: z/d to the diagonal, ∓μ/d to the slope. `side` is 1 for lower bounds.
+void add_bounds(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z, double side,
+                double mu, Eigen::VectorXd& diagonal, Eigen::VectorXd& slope) {
+  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+    const auto b = static_cast<Eigen::Index>(i);
+    const Eigen::Index entry = bounds.entries[i];
+    const double distance = side * (vector[entry] - bounds.values[b]);
+    diagonal[entry] += z[b] / distance;
+    slope[entry] -= side * mu / distance;
+  }
+}
+
+/// δz = μ/d - z - (z/d) δd.
+Eigen::VectorXd bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds,
+                           const Eigen::VectorXd& z, double side, double mu) {
+  Eigen::VectorXd result(z.size());
+  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+    const auto b = static_cast<Eigen::Index>(i);
+    const Eigen::Index entry = bounds.entries[i];
+    const double distance = side * (vector[entry] - bounds.values[b]);
+    result[b] = mu / distance - z[b] - z[b] / distance * side * step[entry];
+  }
+  return result;
+}
+
+/// Of -ln(x - l), and of -ln(u - x) alike.
+double barrier_slope(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+    const Eigen::Index entry = bounds.entries[i];
+    sum -= step[entry] / (vector[entry] - bounds.values[static_cast<Eigen::Index>(i)]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool InertiaShift::raise() noexcept {
+  constexpr double first = 1e-4;
+  constexpr double smallest = 1e-20;
+  constexpr double largest = 1e20;
+  if (shift_ == 0.0) {
+    shift_ = last_ == 0.0 ? first : std::max(smallest, last_ / 3.0);
+  } else {
+    shift_ *= last_ == 0.0 ? 100.0 : 8.0;
+  }
+  return shift_ <= largest;
+}
+
+NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_(program), kkt_(kkt) {
+  const auto n = static_cast<Eigen::Index>(program.program().variable_count());
+  const auto m = static_cast<Eigen::Index>(program.program().constraint_count());
+  diagonal_.setZero(n);
+  shifted_.setZero(n);
+  slope_.setZero(n);
+  slack_.setZero(m);
+  softness_.setZero(m);
+  slack_slope_.setZero(m);
+  right_rows_.setZero(m);
+  no_hessian_.setZero(program.hessian().size());
+}
+
+void NewtonStep::fill_barrier(const Point& point, double mu) {
+  slope_ = program_.gradient();
+  program_.add_transposed_product(point.multipliers, slope_);
+  if (!program_.has_bounds()) return;
+  diagonal_.setZero();
+  slack_.setZero();
+  slack_slope_ = -point.multipliers;
+  add_bounds(point.x, program_.x_lower(), point.x_lower, 1.0, mu, diagonal_, slope_);
+  add_bounds(point.x, program_.x_upper(), point.x_upper, -1.0, mu, diagonal_, slope_);
+  add_bounds(point.s, program_.s_lower(), point.s_lower, 1.0, mu, slack_, slack_slope_);
+  add_bounds(point.s, program_.s_upper(), point.s_upper, -1.0, mu, slack_, slack_slope_);
+}
+
+Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction) {
+  shifted_ = diagonal_.array() + shift_.value();
+  right_rows_ = rows;
+  const std::vector<bool>& is_equality = program_.is_equality();
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    if (is_equality[static_cast<std::size_t>(i)]) continue;
+    softness_[i] = 1.0 / (slack_[i] + shift_.value());
+    right_rows_[i] += softness_[i] * slack_slope_[i];
+  }
+  direction.x.resize(slope_.size());
+  direction.multipliers.resize(rows.size());
+  ++factorisations_;
+  return kkt_.solve({hessian, program_.jacobian(), shifted_, softness_}, slope_, right_rows_, direction.x,
+                    direction.multipliers);
+}
+
+void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {
+  direction.s.setZero(point.s.size());
+  for (Eigen::Index i = 0; i < point.s.size(); ++i) {
+    if (softness_[i] > 0.0) direction.s[i] = softness_[i] * (direction.multipliers[i] - slack_slope_[i]);
+  }
+  direction.x_lower = bound_step(point.x, direction.x, program_.x_lower(), point.x_lower, 1.0, mu);
+  direction.x_upper = bound_step(point.x, direction.x, program_.x_upper(), point.x_upper, -1.0, mu);
+  direction.s_lower = bound_step(point.s, direction.s, program_.s_lower(), point.s_lower, 1.0, mu);
+  direction.s_upper = bound_step(point.s, direction.s, program_.s_upper(), point.s_upper, -1.0, mu);
+}
+
+bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
+  fill_barrier(point, mu);
+  shift_.begin();
+  while (solve(program_.hessian(), rows, direction) != Verdict::solved) {
+    if (!shift_.raise()) return false;
+  }
+  shift_.keep();
+  complete(point, mu, direction);
+  return true;
+}
+
+bool NewtonStep::correct(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
+  if (solve(program_.hessian(), rows, direction) != Verdict::solved) return false;
+  complete(point, mu, direction);
+  return true;
+}
+
+bool NewtonStep::towards_rows(const Point& point, const Eigen::VectorXd& rows, Direction& direction) {
+  constexpr double unit = 1.0;
+  fill_barrier(point, 0.0);
+  slope_.setZero();
+  slack_slope_.setZero();
+  diagonal_.array() += unit;
+  slack_.array() += unit;
+  shift_.begin();
+  const Verdict verdict = solve(no_hessian_, rows, direction);
+  diagonal_.setZero();
+  if (verdict != Verdict::solved) return false;
+  direction.s.setZero(point.s.size());
+  for (Eigen::Index i = 0; i < point.s.size(); ++i) direction.s[i] = softness_[i] * direction.multipliers[i];
+  return true;
+}
+
+bool NewtonStep::estimate_multipliers(Point& point) {
+  constexpr double largest = 1e3;
+  constexpr double no_mu = 0.0;
+  Direction direction;
+  point.multipliers.setZero();
+  fill_barrier(point, no_mu);
+  // The slope with the multipliers of the bounds as they are, where fill_barrier has those of the barrier.
+  const auto add = [](const BoundList& bounds, const Eigen::VectorXd& z, double side, Eigen::VectorXd& slope) {
+    for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+      slope[bounds.entries[i]] -= side * z[static_cast<Eigen::Index>(i)];
+    }
+  };
+  add(program_.x_lower(), point.x_lower, 1.0, slope_);
+  add(program_.x_upper(), point.x_upper, -1.0, slope_);
+  add(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
+  add(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
+  diagonal_.setOnes();
+  slack_.setOnes();
+  shift_.begin();
+  const Verdict verdict = solve(no_hessian_, Eigen::VectorXd::Zero(point.s.size()), direction);
+  diagonal_.setZero();
+  if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return false;
+  point.multipliers = direction.multipliers;
+  return true;
+}
+
+double NewtonStep::slope_along(const Point& point, double mu, const Direction& direction) const {
+  double sum = program_.gradient().dot(direction.x);
+  if (!program_.has_bounds()) return sum;
+  sum += mu * (barrier_slope(point.x, direction.x, program_.x_lower()) +
+               barrier_slope(point.x, direction.x, program_.x_upper()) +
+               barrier_slope(point.s, direction.s, program_.s_lower()) +
+               barrier_slope(point.s, direction.s, program_.s_upper()));
+  return sum;
+}
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/solvers/interior_point/barrier_program.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+
+namespace dmocbench::interior_point {
+
+/// A step of all that moves.
+struct Direction {
+  Eigen::VectorXd x;
+  Eigen::VectorXd s;
+  Eigen::VectorXd multipliers;
+  Eigen::VectorXd x_lower;
+  Eigen::VectorXd x_upper;
+  Eigen::VectorXd s_lower;
+  Eigen::VectorXd s_upper;
+};
+
+/// How the Hessian is made positive definite where the equalities hold: by a multiple of the unit matrix that is raised
+/// until the inertia is right, starting from a third of what was last needed (Wächter and Biegler 2006, Algorithm IC).
+class InertiaShift {
+ public:
+  /// Before a new system.
+  void begin() noexcept { shift_ = 0.0; }
+  [[nodiscard]] double value() const noexcept { return shift_; }
+  /// The next larger one; false beyond the largest.
+  [[nodiscard]] bool raise() noexcept;
+  /// This one was enough.
+  void keep() noexcept {
+    if (shift_ > 0.0) last_ = shift_;
+  }
+
+ private:
+  double shift_ = 0.0;
+  double last_ = 0.0;
+};
+
+/// Newton's step for the conditions of the barrier problem, with slacks and multipliers of bounds eliminated.
+class NewtonStep {
+ public:
+  NewtonStep(const BarrierProgram& program, KktSystem& kkt);
+
+  /// The step at a point for the rows' residual `rows` = a(x) - s, from the program's derivatives there. False if no
+  /// shift of the Hessian gives a step.
+  [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
+  /// The same matrix for another residual of the rows; false if it fails.
+  [[nodiscard]] bool correct(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
+  /// The shortest step to where the linearised rows hold, in a norm that respects the bounds.
+  [[nodiscard]] bool towards_rows(const Point& point, const Eigen::VectorXd& rows, Direction& direction);
+  /// λ that balances the slope best in the sense of least squares; false if there is none of reasonable size.
+  [[nodiscard]] bool estimate_multipliers(Point& point);
+
+  /// Derivative of the barrier function along a direction.
+  [[nodiscard]] double slope_along(const Point& point, double mu, const Direction& direction) const;
+  /// Systems solved so far.
+  [[nodiscard]] int factorisations() const noexcept { return factorisations_; }
+
+ private:
+  void fill_barrier(const Point& point, double mu);
+  [[nodiscard]] Verdict solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction);
+  void complete(const Point& point, double mu, Direction& direction) const;
+
+  const BarrierProgram& program_;
+  KktSystem& kkt_;
+  InertiaShift shift_;
+  Eigen::VectorXd diagonal_;  // Σ of the unknowns
+  Eigen::VectorXd shifted_;   // and the shift
+  Eigen::VectorXd slack_;     // Σ of the slacks
+  Eigen::VectorXd softness_;
+  Eigen::VectorXd slope_;        // of the barrier function and the rows, with respect to the unknowns
+  Eigen::VectorXd slack_slope_;  // with respect to the slacks
+  Eigen::VectorXd right_rows_;
+  Eigen::VectorXd no_hessian_;
+  int factorisations_ = 0;
+};
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,52 @@
+#include "methods/solvers/interior_point/sparse_kkt.hpp"
+
+#include "methods/solvers/linearisation.hpp"
+
+namespace dmocbench::interior_point {
+
+SparseKkt::SparseKkt(const NonlinearProgram& program) : program_(program), is_free_(free_variables(program)) {}
+
+Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) const {
+  const auto n = static_cast<Eigen::Index>(program_.variable_count());
+  const auto m = static_cast<Eigen::Index>(program_.constraint_count());
+  const SparsityPattern& hessian = program_.hessian_structure();
+  const SparsityPattern& jacobian = program_.jacobian_structure();
+  const auto is_free = [&](int i) { return is_free_[static_cast<std::size_t>(i)]; };
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(hessian.size() + jacobian.size() + static_cast<std::size_t>(n + m));
+  for (std::size_t e = 0; e < hessian.size(); ++e) {
+    const double value = matrix.hessian[static_cast<Eigen::Index>(e)];
+    const bool stays = is_free(hessian.rows[e]) && is_free(hessian.columns[e]);
+    entries.emplace_back(hessian.rows[e], hessian.columns[e], stays ? value : 0.0);
+  }
+  for (std::size_t e = 0; e < jacobian.size(); ++e) {
+    const double value = matrix.jacobian[static_cast<Eigen::Index>(e)];
+    entries.emplace_back(static_cast<int>(n) + jacobian.rows[e], jacobian.columns[e],
+                         is_free(jacobian.columns[e]) ? value : 0.0);
+  }
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, is_free(i) ? matrix.diagonal[i] : 1.0);
+  for (int i = 0; i < m; ++i) {
+    entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.softness[i]);
+  }
+  Eigen::SparseMatrix<double> lower(n + m, n + m);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+Verdict SparseKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                         Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  if (!factorisation_.factorise(lower_triangle(matrix))) return Verdict::singular;
+  if (factorisation_.negative_eigenvalues() != rows.size()) return Verdict::wrong_inertia;
+  Eigen::VectorXd right_hand_side(slope.size() + rows.size());
+  right_hand_side << -slope, -rows;
+  for (Eigen::Index i = 0; i < slope.size(); ++i) {
+    if (!is_free_[static_cast<std::size_t>(i)]) right_hand_side[i] = 0.0;
+  }
+  const Eigen::VectorXd solution = factorisation_.solve(std::move(right_hand_side));
+  if (!solution.allFinite()) return Verdict::singular;
+  primal_step = solution.head(slope.size());
+  multiplier_step = solution.tail(rows.size());
+  return Verdict::solved;
+}
+
+}  // namespace dmocbench::interior_point

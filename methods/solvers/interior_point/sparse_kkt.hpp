@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
+
+namespace dmocbench::interior_point {
+
+/// The KKT system of any program, by the sparse factorisation of MUMPS: what elimination by intervals is measured by.
+class SparseKkt final : public KktSystem {
+ public:
+  explicit SparseKkt(const NonlinearProgram& program);
+
+  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+
+ private:
+  [[nodiscard]] Eigen::SparseMatrix<double> lower_triangle(const KktMatrix& matrix) const;
+
+  const NonlinearProgram& program_;
+  std::vector<bool> is_free_;
+  SymmetricFactorisation factorisation_;
+};
+
+}  // namespace dmocbench::interior_point
