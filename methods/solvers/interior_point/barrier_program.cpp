@@ -34,6 +34,9 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
   }
 }
 
+/// Eigen's allFinite() looks at one number at a time.
+bool is_finite(const Eigen::VectorXd& vector) { return (vector.array() * 0.0).sum() == 0.0; }
+
 double sum_of_logarithms(const Eigen::VectorXd& vector, const BoundList& bounds, double side) {
   double sum = 0.0;
   for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
@@ -50,12 +53,15 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program)
       x_upper_(bounds_of(program.variable_upper(), program.variable_lower())),
       s_lower_(bounds_of(program.constraint_lower(), program.constraint_upper())),
       s_upper_(bounds_of(program.constraint_upper(), program.constraint_lower())),
+      jacobian_runs_(pattern_runs(program.jacobian_structure())),
       gradient_(static_cast<Eigen::Index>(program.variable_count())),
       jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
       hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())) {
   for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
   const Eigen::VectorXd& lower = program.constraint_lower();
-  for (Eigen::Index i = 0; i < lower.size(); ++i) is_equality_.push_back(lower[i] == program.constraint_upper()[i]);
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (lower[i] != program.constraint_upper()[i]) inequalities_.push_back(i);
+  }
 }
 
 template <class Evaluation>
@@ -86,7 +92,7 @@ bool BarrierProgram::evaluate(const Eigen::VectorXd& x, double& objective, Eigen
     program_.constraints(x, rows);
   });
   ++evaluations_;
-  return std::isfinite(objective) && rows.allFinite();
+  return std::isfinite(objective) && is_finite(rows);
 }
 
 bool BarrierProgram::differentiate(const Eigen::VectorXd& x) {
@@ -94,19 +100,17 @@ bool BarrierProgram::differentiate(const Eigen::VectorXd& x) {
     program_.gradient(x, gradient_);
     program_.jacobian(x, jacobian_);
   });
-  return gradient_.allFinite() && jacobian_.allFinite();
+  return is_finite(gradient_) && is_finite(jacobian_);
 }
 
-void BarrierProgram::evaluate_hessian(const Point& point) {
+bool BarrierProgram::evaluate_hessian(const Point& point) {
   timed([&] { program_.hessian(point.x, 1.0, point.multipliers, hessian_); });
+  return is_finite(hessian_);
 }
 
-void BarrierProgram::add_transposed_product(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
-  const SparsityPattern& pattern = program_.jacobian_structure();
-  const double* values = jacobian_.data();
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    result[pattern.columns[e]] += values[e] * multipliers[pattern.rows[e]];
-  }
+void BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
+  result = gradient_;
+  add_transposed_product(jacobian_runs_, jacobian_, multipliers, result);
 }
 
 double BarrierProgram::barrier(const Point& point) const {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -44,8 +45,8 @@ class BarrierProgram {
   [[nodiscard]] const BoundList& x_upper() const noexcept { return x_upper_; }
   [[nodiscard]] const BoundList& s_lower() const noexcept { return s_lower_; }
   [[nodiscard]] const BoundList& s_upper() const noexcept { return s_upper_; }
-  /// True for rows that are equalities.
-  [[nodiscard]] const std::vector<bool>& is_equality() const noexcept { return is_equality_; }
+  /// The rows that are no equalities.
+  [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
 
   /// `start` and slacks a(start) pushed into the interior, multipliers of bounds 1, λ = 0.
   [[nodiscard]] Point interior(const Eigen::VectorXd& start);
@@ -54,14 +55,15 @@ class BarrierProgram {
   [[nodiscard]] bool evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows);
   /// Gradient and Jacobian at x; false if a number is not finite.
   [[nodiscard]] bool differentiate(const Eigen::VectorXd& x);
-  void evaluate_hessian(const Point& point);
+  /// Hessian of φ + λᵀa; false if a number is not finite.
+  [[nodiscard]] bool evaluate_hessian(const Point& point);
 
   [[nodiscard]] const Eigen::VectorXd& gradient() const noexcept { return gradient_; }
   [[nodiscard]] const Eigen::VectorXd& jacobian() const noexcept { return jacobian_; }
   [[nodiscard]] const Eigen::VectorXd& hessian() const noexcept { return hessian_; }
 
-  /// result += Jᵀ multipliers.
-  void add_transposed_product(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const;
+  /// result = ∇φ + Jᵀ multipliers.
+  void slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const;
 
   /// -Σ ln(distances), to be multiplied by μ.
   [[nodiscard]] double barrier(const Point& point) const;
@@ -79,7 +81,8 @@ class BarrierProgram {
   BoundList s_lower_;
   BoundList s_upper_;
   Eigen::Index bound_count_ = 0;
-  std::vector<bool> is_equality_;
+  std::vector<Eigen::Index> inequalities_;
+  std::vector<PatternRun> jacobian_runs_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd hessian_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "methods/solvers/confirm.hpp"
@@ -26,7 +27,8 @@ constexpr double s_phi = 2.3;
 constexpr double gamma_alpha = 0.05;
 constexpr double kappa_soc = 0.99;
 constexpr int most_corrections = 4;
-constexpr int most_restorations = 200;
+constexpr double small_violation = 1e-4;   // θ_min over θ of the start
+constexpr double largest_violation = 1e4;  // θ_max over it
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -90,6 +92,9 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, co
       tolerance_(options.tolerance),
       begin_(std::chrono::steady_clock::now()) {
   point_ = program_.interior(start);
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (program.variable_lower()[i] == program.variable_upper()[i]) fixed_.push_back(i);
+  }
   rows_.resize(point_.s.size());
   trial_rows_.resize(point_.s.size());
 }
@@ -116,9 +121,12 @@ bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
   rows_ -= point_.s;
   if (!program_.differentiate(start)) return false;
   if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
+  program_.slope_of_lagrangian(point_.multipliers, slope_);
+  for (const Eigen::Index i : fixed_) slope_[i] = 0.0;
   measure();
   first_violation_ = std::max(1.0, violation_);
-  filter_.reset(1e4 * first_violation_);
+  noise_of_violation_ = plain_program_.rounding_floor() * std::sqrt(static_cast<double>(rows_.size()));
+  filter_.reset(largest_violation * first_violation_);
   return true;
 }
 
@@ -134,32 +142,34 @@ std::optional<Status> InteriorPointRun::reason_to_stop() const {
   return std::nullopt;
 }
 
+bool InteriorPointRun::differentiate() {
+  if (!program_.differentiate(point_.x)) return false;
+  program_.slope_of_lagrangian(point_.multipliers, slope_);
+  for (const Eigen::Index i : fixed_) slope_[i] = 0.0;
+  return true;
+}
+
 InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
-  Eigen::VectorXd slope = program_.gradient();
-  program_.add_transposed_product(point_.multipliers, slope);
+  Residuals at;
+  at.violation = rows_.lpNorm<Eigen::Infinity>();
+  if (!program_.has_bounds()) {
+    at.stationarity = slope_.lpNorm<Eigen::Infinity>();
+    return at;
+  }
+  Eigen::VectorXd slope = slope_;
   subtract(program_.x_lower(), point_.x_lower, 1.0, slope);
   subtract(program_.x_upper(), point_.x_upper, -1.0, slope);
-  Residuals at;
-  const Eigen::VectorXd& lower = plain_program_.variable_lower();
-  const Eigen::VectorXd& upper = plain_program_.variable_upper();
-  for (Eigen::Index i = 0; i < slope.size(); ++i) {
-    if (lower[i] != upper[i]) at.stationarity = std::max(at.stationarity, std::abs(slope[i]));
+  Eigen::VectorXd slack_slope = -point_.multipliers;
+  subtract(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
+  subtract(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
+  at.stationarity = slope.lpNorm<Eigen::Infinity>();
+  for (const Eigen::Index i : program_.inequalities()) {
+    at.stationarity = std::max(at.stationarity, std::abs(slack_slope[i]));
   }
-  if (program_.has_bounds()) {
-    Eigen::VectorXd slack_slope = -point_.multipliers;
-    subtract(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
-    subtract(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
-    for (Eigen::Index i = 0; i < slack_slope.size(); ++i) {
-      if (!program_.is_equality()[static_cast<std::size_t>(i)]) {
-        at.stationarity = std::max(at.stationarity, std::abs(slack_slope[i]));
-      }
-    }
-    at.complementarity = std::max({largest_product(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
-                                   largest_product(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
-                                   largest_product(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
-                                   largest_product(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
-  }
-  at.violation = rows_.lpNorm<Eigen::Infinity>();
+  at.complementarity = std::max({largest_product(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
+                                 largest_product(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
+                                 largest_product(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
+                                 largest_product(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
   return at;
 }
 
@@ -190,7 +200,7 @@ void InteriorPointRun::lower_barrier() {
   while (mu_ > smallest && barrier_error(residuals(mu_)) <= kappa_epsilon * mu_) {
     mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));
     measure();
-    filter_.reset(1e4 * first_violation_);
+    filter_.reset(largest_violation * first_violation_);
   }
 }
 
@@ -198,14 +208,14 @@ std::optional<Status> InteriorPointRun::iterate() {
   if (has_converged()) return Status::solved;
   if (const auto reason = reason_to_stop()) return reason;
   lower_barrier();
-  program_.evaluate_hessian(point_);
   ++iterations_;
-  Direction direction;
-  const bool has_direction = program_.hessian().allFinite() && newton_.compute(point_, mu_, rows_, direction);
-  if (!has_direction || !search(direction)) {
+  const bool has_direction =
+      program_.evaluate_hessian(point_) && newton_.compute(point_, mu_, slope_, rows_, direction_);
+  if (!has_direction || !search(direction_)) {
     if (const auto end = restore()) return end;
   }
-  if (!program_.differentiate(point_.x)) return Status::evaluation_failed;
+  if (!differentiate()) return Status::evaluation_failed;
+  report("newton", step_length_);
   return std::nullopt;
 }
 
@@ -222,7 +232,8 @@ double InteriorPointRun::largest_bound_step(const Direction& direction, double s
                    longest(point_.s_upper, direction.s_upper, share)});
 }
 
-/// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper.
+/// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper; with
+/// differences that are rounding counted as none.
 bool InteriorPointRun::try_point(const Direction& direction, double length, double slope, double step_length) {
   trial_.x = point_.x + length * direction.x;
   trial_.s = point_.s + length * direction.s;
@@ -230,24 +241,35 @@ bool InteriorPointRun::try_point(const Direction& direction, double length, doub
   trial_rows_ -= trial_.s;
   const double violation = trial_rows_.lpNorm<1>();
   const double function = trial_objective_ + (program_.has_bounds() ? mu_ * program_.barrier(trial_) : 0.0);
-  if (!std::isfinite(function) || !filter_.accepts(violation, function)) return false;
-  // Differences of the function below this are its rounding.
-  const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * std::abs(function_);
-  const double smallest_violation = 1e-4 * first_violation_;
+  if (!std::isfinite(function)) return false;
+  const double noise = noise_of_function();
+  if (!filter_.accepts(violation - noise_of_violation_, function - noise)) return false;
+  const bool is_noise = violation <= noise_of_violation_ && violation_ <= noise_of_violation_;
   const bool is_descent = slope < 0.0 && step_length * std::pow(-slope, s_phi) > delta * std::pow(violation_, s_theta);
-  if (violation_ <= smallest_violation && is_descent) {
-    if (!(function - function_ <= eta * step_length * slope + rounding)) return false;
+  if (violation_ <= small_violation * first_violation_ && (is_descent || is_noise)) {
+    if (!(function - function_ <= eta * step_length * slope + noise)) return false;
   } else {
     const bool is_better = violation <= (1.0 - Filter::margin) * violation_ ||
-                           function - function_ <= -Filter::margin * violation_ + rounding;
+                           function - function_ <= -Filter::margin * violation_ + noise;
     if (!is_better) return false;
     filter_.add(violation_, function_);
   }
+  accept_trial();
+  return true;
+}
+
+/// Rounding of a sum of as many terms as there are unknowns.
+double InteriorPointRun::noise_of_function() const {
+  constexpr double safety = 10.0;
+  return safety * std::sqrt(static_cast<double>(point_.x.size())) * std::numeric_limits<double>::epsilon() *
+         (std::abs(objective_) + std::abs(function_ - objective_));
+}
+
+void InteriorPointRun::accept_trial() {
   point_.x.swap(trial_.x);
   point_.s.swap(trial_.s);
   rows_.swap(trial_rows_);
   objective_ = trial_objective_;
-  return true;
 }
 
 void InteriorPointRun::move_bounds(const Direction& direction, double length) {
@@ -265,6 +287,15 @@ void InteriorPointRun::keep_bounds_near_barrier() {
   keep_near(point_.s, program_.s_upper(), -1.0, mu_, point_.s_upper);
 }
 
+void InteriorPointRun::report(const char* kind, double length) const {
+  if (!options_.verbose) return;
+  const Residuals at = residuals(0.0);
+  std::printf(
+      "%4d %c  cost %.10e  violation %.2e  stationarity %.2e  complementarity %.2e  mu %.1e  shift %.1e  step %.1e\n",
+      iterations_, kind[0], objective_, at.violation, at.stationarity, at.complementarity, mu_, newton_.shift(),
+      length);
+}
+
 bool InteriorPointRun::search(const Direction& direction) {
   const double share = std::max(tau_min, 1.0 - mu_);
   const double slope = newton_.slope_along(point_, mu_, direction);
@@ -274,7 +305,7 @@ bool InteriorPointRun::search(const Direction& direction) {
     double length = Filter::margin;
     if (slope < 0.0) {
       length = std::min(length, -Filter::margin * violation_ / slope);
-      if (violation_ <= 1e-4 * first_violation_) {
+      if (violation_ <= small_violation * first_violation_) {
         length = std::min(length, delta * std::pow(violation_, s_theta) / std::pow(-slope, s_phi));
       }
     }
@@ -292,6 +323,7 @@ bool InteriorPointRun::search(const Direction& direction) {
     point_.multipliers += length * direction.multipliers;
     move_bounds(direction, bound_step);
     measure();
+    step_length_ = length;
     return true;
   }
   return false;
@@ -316,46 +348,58 @@ bool InteriorPointRun::correct_second_order(const Direction& direction, double s
   return false;
 }
 
-/// Steps towards the rows alone until the filter takes the point back.
+/// The shortest step towards the rows that makes them better; false if there is none.
+bool InteriorPointRun::step_towards_rows() {
+  const double mu = std::max(mu_, rows_.lpNorm<Eigen::Infinity>());
+  if (!program_.differentiate(point_.x) || !newton_.towards_rows(point_, mu, rows_, direction_)) return false;
+  constexpr double shortest = 1e-10;
+  constexpr double sufficient = 1e-4;
+  for (double length = largest_step(direction_, tau_min); length > shortest; length *= 0.5) {
+    trial_.x = point_.x + length * direction_.x;
+    trial_.s = point_.s + length * direction_.s;
+    if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) continue;
+    trial_rows_ -= trial_.s;
+    if (!(trial_rows_.lpNorm<1>() <= (1.0 - sufficient * length) * violation_)) continue;
+    accept_trial();
+    measure();
+    step_length_ = length;
+    return true;
+  }
+  return false;
+}
+
+/// Steps towards the rows alone, until the filter takes the point back.
 std::optional<Status> InteriorPointRun::restore() {
-  const double violation_before = violation_;
-  if (violation_before <= tolerance_) {
+  if (violation_ <= tolerance_) {
     message_ = "No step along the Newton direction is an improvement, though all rows hold.";
     return Status::step_failed;
   }
+  constexpr double enough = 0.9;
+  const double violation_before = violation_;
   filter_.add(violation_, function_);
-  for (int i = 0; i < most_restorations; ++i) {
+  bool is_restored = false;
+  while (!is_restored) {
     if (const auto reason = reason_to_stop()) return reason;
-    Direction direction;
-    if (!program_.differentiate(point_.x)) return Status::evaluation_failed;
-    if (!newton_.towards_rows(point_, rows_, direction)) break;
-    double length = largest_step(direction, tau_min);
-    bool moved = false;
-    for (; length > 1e-10 && !moved; length *= 0.5) {
-      trial_.x = point_.x + length * direction.x;
-      trial_.s = point_.s + length * direction.s;
-      if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) continue;
-      trial_rows_ -= trial_.s;
-      moved = trial_rows_.lpNorm<1>() <= (1.0 - 1e-4 * length) * violation_;
-    }
-    if (!moved) break;
+    if (!step_towards_rows()) break;
     ++iterations_;
-    point_.x.swap(trial_.x);
-    point_.s.swap(trial_.s);
-    rows_.swap(trial_rows_);
-    objective_ = trial_objective_;
-    measure();
-    if (violation_ <= 0.9 * violation_before && filter_.accepts(violation_, function_)) {
-      keep_bounds_near_barrier();
-      if (!program_.differentiate(point_.x)) return Status::evaluation_failed;
-      if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
-      return std::nullopt;
-    }
+    report("rows", step_length_);
+    is_restored = violation_ <= enough * violation_before && filter_.accepts(violation_, function_);
   }
-  if (violation_ <= 0.9 * violation_before) return std::nullopt;
+  if (violation_ <= enough * violation_before) return begin_anew();
   if (is_point_of_least_violation(plain_program_, point_.x)) return Status::infeasible;
   message_ = "Neither the Newton step nor a step towards the rows is an improvement.";
   return Status::step_failed;
+}
+
+/// Multipliers for a point that was reached without them.
+std::optional<Status> InteriorPointRun::begin_anew() {
+  constexpr double largest = 1e3;
+  for (Eigen::VectorXd* z : {&point_.x_lower, &point_.x_upper, &point_.s_lower, &point_.s_upper}) {
+    if (z->size() > 0 && z->maxCoeff() > largest) z->setOnes();
+  }
+  if (!program_.differentiate(point_.x)) return Status::evaluation_failed;
+  if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
+  return std::nullopt;
 }
 
 }  // namespace dmocbench::interior_point

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -35,6 +36,7 @@ class InteriorPointRun {
   [[nodiscard]] std::optional<Status> iterate();
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool begin(const Eigen::VectorXd& start);
+  [[nodiscard]] bool differentiate();
 
   // Convergence.
   [[nodiscard]] Residuals residuals(double mu) const;
@@ -50,8 +52,15 @@ class InteriorPointRun {
   [[nodiscard]] bool correct_second_order(const Direction& direction, double slope, double length);
   void move_bounds(const Direction& direction, double length);
   void keep_bounds_near_barrier();
-  [[nodiscard]] std::optional<Status> restore();
+  void accept_trial();
+  [[nodiscard]] double noise_of_function() const;
 
+  // Where no step is acceptable.
+  [[nodiscard]] std::optional<Status> restore();
+  [[nodiscard]] bool step_towards_rows();
+  [[nodiscard]] std::optional<Status> begin_anew();
+
+  void report(const char* kind, double length) const;
   void measure();  // violation and function at point_
 
   NonlinearProgram& plain_program_;
@@ -61,7 +70,10 @@ class InteriorPointRun {
   Filter filter_;
   Point point_;
   Point trial_;
-  Eigen::VectorXd rows_;  // a(x) - s at the point
+  Direction direction_;
+  std::vector<Eigen::Index> fixed_;
+  Eigen::VectorXd slope_;  // ∇φ + Jᵀλ at the point, zero for what is fixed
+  Eigen::VectorXd rows_;   // a(x) - s at the point
   Eigen::VectorXd trial_rows_;
   double objective_ = 0.0;
   double trial_objective_ = 0.0;
@@ -70,7 +82,9 @@ class InteriorPointRun {
   double mu_ = 0.0;
   double tolerance_;
   double first_violation_ = 0.0;
+  double noise_of_violation_ = 0.0;
   int iterations_ = 0;
+  double step_length_ = 0.0;
   std::string message_;
   std::chrono::steady_clock::time_point begin_;
 };

@@ -32,6 +32,14 @@ Eigen::VectorXd bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd&
   return result;
 }
 
+/// Makes steps near bounds cost more: adds μ/d² to the diagonal.
+void add_nearness(const Eigen::VectorXd& vector, const BoundList& bounds, double mu, Eigen::VectorXd& diagonal) {
+  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
+    const double distance = vector[bounds.entries[i]] - bounds.values[static_cast<Eigen::Index>(i)];
+    diagonal[bounds.entries[i]] += mu / (distance * distance);
+  }
+}
+
 /// Of -ln(x - l), and of -ln(u - x) alike.
 double barrier_slope(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds) {
   double sum = 0.0;
@@ -69,9 +77,8 @@ NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_
   no_hessian_.setZero(program.hessian().size());
 }
 
-void NewtonStep::fill_barrier(const Point& point, double mu) {
-  slope_ = program_.gradient();
-  program_.add_transposed_product(point.multipliers, slope_);
+void NewtonStep::fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope) {
+  slope_ = slope;
   if (!program_.has_bounds()) return;
   diagonal_.setZero();
   slack_.setZero();
@@ -85,9 +92,7 @@ void NewtonStep::fill_barrier(const Point& point, double mu) {
 Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction) {
   shifted_ = diagonal_.array() + shift_.value();
   right_rows_ = rows;
-  const std::vector<bool>& is_equality = program_.is_equality();
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    if (is_equality[static_cast<std::size_t>(i)]) continue;
+  for (const Eigen::Index i : program_.inequalities()) {
     softness_[i] = 1.0 / (slack_[i] + shift_.value());
     right_rows_[i] += softness_[i] * slack_slope_[i];
   }
@@ -100,8 +105,9 @@ Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd&
 
 void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {
   direction.s.setZero(point.s.size());
-  for (Eigen::Index i = 0; i < point.s.size(); ++i) {
-    if (softness_[i] > 0.0) direction.s[i] = softness_[i] * (direction.multipliers[i] - slack_slope_[i]);
+  if (!program_.has_bounds()) return;
+  for (const Eigen::Index i : program_.inequalities()) {
+    direction.s[i] = softness_[i] * (direction.multipliers[i] - slack_slope_[i]);
   }
   direction.x_lower = bound_step(point.x, direction.x, program_.x_lower(), point.x_lower, 1.0, mu);
   direction.x_upper = bound_step(point.x, direction.x, program_.x_upper(), point.x_upper, -1.0, mu);
@@ -109,8 +115,9 @@ void NewtonStep::complete(const Point& point, double mu, Direction& direction) c
   direction.s_upper = bound_step(point.s, direction.s, program_.s_upper(), point.s_upper, -1.0, mu);
 }
 
-bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
-  fill_barrier(point, mu);
+bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                         Direction& direction) {
+  fill_barrier(point, mu, slope);
   shift_.begin();
   while (solve(program_.hessian(), rows, direction) != Verdict::solved) {
     if (!shift_.raise()) return false;
@@ -126,19 +133,21 @@ bool NewtonStep::correct(const Point& point, double mu, const Eigen::VectorXd& r
   return true;
 }
 
-bool NewtonStep::towards_rows(const Point& point, const Eigen::VectorXd& rows, Direction& direction) {
-  constexpr double unit = 1.0;
-  fill_barrier(point, 0.0);
+bool NewtonStep::towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
   slope_.setZero();
   slack_slope_.setZero();
-  diagonal_.array() += unit;
-  slack_.array() += unit;
+  diagonal_.setOnes();
+  slack_.setOnes();
+  add_nearness(point.x, program_.x_lower(), mu, diagonal_);
+  add_nearness(point.x, program_.x_upper(), mu, diagonal_);
+  add_nearness(point.s, program_.s_lower(), mu, slack_);
+  add_nearness(point.s, program_.s_upper(), mu, slack_);
   shift_.begin();
   const Verdict verdict = solve(no_hessian_, rows, direction);
   diagonal_.setZero();
   if (verdict != Verdict::solved) return false;
   direction.s.setZero(point.s.size());
-  for (Eigen::Index i = 0; i < point.s.size(); ++i) direction.s[i] = softness_[i] * direction.multipliers[i];
+  for (const Eigen::Index i : program_.inequalities()) direction.s[i] = softness_[i] * direction.multipliers[i];
   return true;
 }
 
@@ -147,7 +156,7 @@ bool NewtonStep::estimate_multipliers(Point& point) {
   constexpr double no_mu = 0.0;
   Direction direction;
   point.multipliers.setZero();
-  fill_barrier(point, no_mu);
+  fill_barrier(point, no_mu, program_.gradient());
   // The slope with the multipliers of the bounds as they are, where fill_barrier has those of the barrier.
   const auto add = [](const BoundList& bounds, const Eigen::VectorXd& z, double side, Eigen::VectorXd& slope) {
     for (std::size_t i = 0; i < bounds.entries.size(); ++i) {

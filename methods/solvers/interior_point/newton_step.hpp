@@ -42,23 +42,27 @@ class NewtonStep {
  public:
   NewtonStep(const BarrierProgram& program, KktSystem& kkt);
 
-  /// The step at a point for the rows' residual `rows` = a(x) - s, from the program's derivatives there. False if no
-  /// shift of the Hessian gives a step.
-  [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
+  /// The step at a point, from the program's derivatives there, for the slope ∇φ + Jᵀλ and the residual of the rows,
+  /// a(x) - s. False if no shift of the Hessian gives a step.
+  [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                             Direction& direction);
   /// The same matrix for another residual of the rows; false if it fails.
   [[nodiscard]] bool correct(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
-  /// The shortest step to where the linearised rows hold, in a norm that respects the bounds.
-  [[nodiscard]] bool towards_rows(const Point& point, const Eigen::VectorXd& rows, Direction& direction);
+  /// The shortest step to where the linearised rows hold, in a norm in which a unit of length costs 1 + μ/d² at the
+  /// distance d from a bound.
+  [[nodiscard]] bool towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
   /// λ that balances the slope best in the sense of least squares; false if there is none of reasonable size.
   [[nodiscard]] bool estimate_multipliers(Point& point);
 
   /// Derivative of the barrier function along a direction.
   [[nodiscard]] double slope_along(const Point& point, double mu, const Direction& direction) const;
+  /// What the last step added to the Hessian's diagonal.
+  [[nodiscard]] double shift() const noexcept { return shift_.value(); }
   /// Systems solved so far.
   [[nodiscard]] int factorisations() const noexcept { return factorisations_; }
 
  private:
-  void fill_barrier(const Point& point, double mu);
+  void fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope);
   [[nodiscard]] Verdict solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction);
   void complete(const Point& point, double mu, Direction& direction) const;
 

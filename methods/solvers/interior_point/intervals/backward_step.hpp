@@ -1,36 +1,45 @@
 // Included by segment_kernel.cpp alone, see lanes.hpp.
 
-/// Work of one step backward. All blocks are column by column.
+/// Numbers of lanes that the work of one step backward takes.
+template <class S>
+struct StepSizes {
+  S shape;
+  [[nodiscard]] constexpr int equalities() const { return shape.rows * (next_size(shape) + state_size(shape) + 1); }
+  [[nodiscard]] constexpr int next() const { return next_size(shape) * column_count(shape); }
+  [[nodiscard]] constexpr int transition() const { return state_size(shape) * column_count(shape); }
+  [[nodiscard]] constexpr int condensed() const { return column_count(shape) * column_count(shape); }
+  [[nodiscard]] constexpr int value() const { return state_size(shape) * (2 * state_size(shape) + 1); }
+  [[nodiscard]] constexpr int reach() const { return state_size(shape) * (state_size(shape) + 1); }
+  [[nodiscard]] constexpr int all() const {
+    return equalities() + shape.rows + 2 * next() + 3 * transition() + condensed() + column_count(shape) + value() +
+           reach() + 2;
+  }
+};
+
+/// Work of one step backward. All blocks are column by column. Where the shape is known to the compiler the blocks are
+/// arrays in place, of which it knows that no two overlap, so that it can keep much of them in registers.
 template <class S>
 struct StepWork {
-  explicit StepWork(const S& s, Lanes* memory) : shape(s) {
+  StepWork(const S& s, Lanes* memory) : shape(s) {
+    const StepSizes<S> sizes{s};
     const auto take = [&](int count) {
       Lanes* begin = memory;
       memory += count;
       return begin;
     };
-    const int X = state_size(s);
-    const int N = column_count(s);
-    equalities = take(s.rows * (next_size(s) + X + 1));
+    equalities = take(sizes.equalities());
     reciprocals = take(s.rows);
-    next = take(next_size(s) * N);
-    slope = take(next_size(s) * N);
-    transition = take(X * N);
-    weighted = take(X * N);
-    condensed = take(N * N);
-    line = take(N);
-    reached = take(N * X);
-    value = take(X * (2 * X + 1));
-    reach = take(X * (X + 1));
+    next = take(sizes.next());
+    slope = take(sizes.next());
+    transition = take(sizes.transition());
+    weighted = take(sizes.transition());
+    condensed = take(sizes.condensed());
+    line = take(column_count(s));
+    reached = take(sizes.transition());
+    value = take(sizes.value());
+    reach = take(sizes.reach());
     smallest_pivot = take(1);
     smallest_ratio = take(1);
-  }
-
-  static int size(const S& s) {
-    const int X = state_size(s);
-    const int N = column_count(s);
-    const int Z = next_size(s);
-    return s.rows * (Z + X + 2) + 2 * Z * N + 2 * X * N + N * N + N + N * X + X * (2 * X + 1) + X * (X + 1) + 2;
   }
 
   S shape;
@@ -49,17 +58,42 @@ struct StepWork {
   Lanes* smallest_ratio;
 };
 
+template <int... numbers>
+struct StepWork<FixedShape<numbers...>> {
+  using S = FixedShape<numbers...>;
+  static constexpr StepSizes<S> sizes{S{0}};
+  static constexpr int at_least_one(int count) { return count > 0 ? count : 1; }
+
+  StepWork(const S& s, Lanes* /*memory*/) : shape(s) {}
+
+  S shape;
+  Lanes equalities[at_least_one(sizes.equalities())];
+  Lanes reciprocals[at_least_one(S::rows)];
+  Lanes next[sizes.next()];
+  Lanes slope[sizes.next()];
+  Lanes transition[sizes.transition()];
+  Lanes weighted[sizes.transition()];
+  Lanes condensed[sizes.condensed()];
+  Lanes line[column_count(S{0})];
+  Lanes reached[sizes.transition()];
+  Lanes value[sizes.value()];
+  Lanes reach[sizes.reach()];
+  Lanes smallest_pivot[1];
+  Lanes smallest_ratio[1];
+};
+
 /// Solves the equalities for the dependent entries of Z. Rows and columns come in an order in which no exchange is
 /// needed, see elimination_plan.hpp.
 template <class S>
-inline void eliminate_equalities(const S& shape, const Lanes* local, const double* usual_pivots, StepWork<S>& work) {
+DMOCBENCH_INLINE void eliminate_equalities(const S& shape, const Lanes* local, const double* usual_pivots,
+                                           StepWork<S>& work) {
   const int n = shape.rows;
   const int columns = next_size(shape) + state_size(shape) + 1;
   Lanes* const a = work.equalities;
   for (int i = 0; i < n * columns; ++i) a[i] = local[i];
   for (int p = 0; p < n; ++p) {
     const Lanes pivot = a[p + p * n];
-    *work.smallest_ratio = smaller(*work.smallest_ratio, magnitude(pivot) / Lanes::all(usual_pivots[p]));
+    *work.smallest_ratio = least_so_far(*work.smallest_ratio, magnitude(pivot) / Lanes::all(usual_pivots[p]));
     work.reciprocals[p] = Lanes::all(1.0) / pivot;
     for (int i = p + 1; i < n; ++i) {
       const Lanes factor = a[i + p * n] * work.reciprocals[p];
@@ -78,8 +112,8 @@ inline void eliminate_equalities(const S& shape, const Lanes* local, const doubl
 
 /// Z and the next state as linear functions of (w, X, 1).
 template <class S>
-inline void make_transition(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, const int* node_in_next,
-                            StepWork<S>& work) {
+DMOCBENCH_INLINE void make_transition(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local,
+                                      const int* node_in_next, StepWork<S>& work) {
   const int n = shape.rows;
   const int Z = next_size(shape);
   const int X = state_size(shape);
@@ -108,8 +142,8 @@ inline void make_transition(const S& shape, const LocalBlocks<S>& blocks, const 
 /// An inequality whose slack is eliminated adds its square, weighted by 1/e, to the quadratic form: to its derivative
 /// with respect to Z, and to the part of the condensed form that reads X directly.
 template <class S>
-inline void add_inequality(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, int row,
-                           StepWork<S>& work) {
+DMOCBENCH_INLINE void add_inequality(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, int row,
+                                     StepWork<S>& work) {
   const int Z = next_size(shape);
   const int w = free_size(shape);
   const int N = column_count(shape);
@@ -128,7 +162,7 @@ inline void add_inequality(const S& shape, const LocalBlocks<S>& blocks, const L
 
 /// The quadratic form of the interval and of all that follows, in (w, X, 1).
 template <class S>
-inline void condense(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, StepWork<S>& work) {
+DMOCBENCH_INLINE void condense(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, StepWork<S>& work) {
   const int n = shape.rows;
   const int Z = next_size(shape);
   const int X = state_size(shape);
@@ -174,7 +208,7 @@ inline void condense(const S& shape, const LocalBlocks<S>& blocks, const Lanes* 
 /// Cholesky factor of the free unknowns' Hessian, in place; L⁻¹ times all that stands beside it. A pivot that is not
 /// positive is replaced, so that no other lane is disturbed, and remembered.
 template <class S>
-inline void factorise_free(const S& shape, StepWork<S>& work) {
+DMOCBENCH_INLINE void factorise_free(const S& shape, StepWork<S>& work) {
   const int w = free_size(shape);
   const int X = state_size(shape);
   const int N = column_count(shape);
@@ -185,7 +219,7 @@ inline void factorise_free(const S& shape, StepWork<S>& work) {
     for (int q = 0; q < p; ++q) pivot -= c[p + q * N] * c[p + q * N];
     // A pivot that is rounding of its diagonal entry is no pivot.
     const Lanes relative = pivot / larger(magnitude(diagonal), Lanes::all(1e-300));
-    *work.smallest_pivot = smaller(*work.smallest_pivot, relative);
+    *work.smallest_pivot = least_so_far(*work.smallest_pivot, relative);
     pivot = chosen(pivot.v > 0.0, pivot, Lanes::all(1.0));
     const Lanes reciprocal = Lanes::all(1.0) / square_root(pivot);
     c[p + p * N] = reciprocal;
@@ -204,7 +238,7 @@ inline void factorise_free(const S& shape, StepWork<S>& work) {
 
 /// Value and reach of the segment with this interval in front; lanes that `active` leaves out keep theirs.
 template <class S>
-inline void advance(const S& shape, bool all_active, const Lanes::Mask& active, StepWork<S>& work) {
+DMOCBENCH_INLINE void advance(const S& shape, bool all_active, const Lanes::Mask& active, StepWork<S>& work) {
   const int w = free_size(shape);
   const int X = state_size(shape);
   const int N = column_count(shape);

@@ -107,7 +107,7 @@ void EndSystem::keep_what_moves(const NonlinearProgram& program) {
 }
 
 void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         const SegmentValue& horizon, double terminal_weight) {
+                         const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights) {
   const Eigen::Index n = state_size_;
   matrix_.setZero();
   right_hand_side_.setZero();
@@ -115,7 +115,7 @@ void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, 
   matrix_.block(multiplier_at_, 0, n, n) = horizon.Phi.transpose();
   matrix_.block(multiplier_at_, multiplier_at_, n, n) = -horizon.Gamma;
   matrix_.block(multiplier_at_, last_state_, n, n) = -Eigen::MatrixXd::Identity(n, n);
-  matrix_.block(last_state_, last_state_, n, n) = -terminal_weight * Eigen::MatrixXd::Identity(n, n);
+  matrix_.block(last_state_, last_state_, n, n).diagonal() = -terminal_weights;
   matrix_.block(carry_at_, node_, carried_, carried_).setIdentity();
   matrix_.block(last_rows_, last_state_ + node_, carried_, carried_).setIdentity();
   right_hand_side_.head(n) = -horizon.p;
@@ -147,8 +147,8 @@ Verdict EndSystem::factorise_and_solve() {
 }
 
 Verdict EndSystem::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         const SegmentValue& horizon, double terminal_weight) {
-  assemble(matrix, slope, rows, horizon, terminal_weight);
+                         const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights) {
+  assemble(matrix, slope, rows, horizon, terminal_weights);
   const Verdict verdict = factorise_and_solve();
   if (verdict != Verdict::solved) return verdict;
   state_ = solution_.head(state_size_);

@@ -21,7 +21,7 @@ class EndSystem {
 
   /// Solves it for a horizon with the value `horizon`.
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              const SegmentValue& horizon, double terminal_weight);
+                              const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights);
 
   /// X at the first node, and ν.
   [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
@@ -49,7 +49,7 @@ class EndSystem {
   void place(const IntervalEntries& entries);
   void keep_what_moves(const NonlinearProgram& program);
   void assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                const SegmentValue& horizon, double terminal_weight);
+                const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights);
   [[nodiscard]] Verdict factorise_and_solve();
 
   Eigen::Index state_size_ = 0;

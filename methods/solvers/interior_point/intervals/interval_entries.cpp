@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "methods/error.hpp"
+#include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -23,34 +23,42 @@ struct Member {
   bool is_soft = false;  // rows only
 };
 
-/// Finds the columns of one kind, and who belongs to them.
-class Columns {
- public:
-  Columns(const std::vector<Place>& places, Place::Kind kind, std::size_t count, std::vector<Member>& members) {
-    std::vector<std::vector<std::size_t>> lists(count);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i].kind == kind) lists.at(places[i].index).push_back(i);
-    }
-    std::size_t size = lists.empty() ? 0 : lists.front().size();
-    for (const auto& list : lists) size = std::min(size, list.size());
-    for (std::size_t column = 0; column < size; ++column) {
-      firsts.push_back(lists.front()[column]);
-      for (std::size_t k = 0; k < count; ++k) {
-        if (lists[k][column] != firsts.back() + k)
-          throw Irregular{"its unknowns or rows are not stored column by column"};
-        members[lists[k][column]] = {kind, k, static_cast<int>(column), false};
+/// Finds the columns: stretches of places of one kind that count all nodes, or all intervals, from the first to the
+/// last. What belongs to no column is single.
+struct Columns {
+  Columns(const std::vector<Place>& places, std::size_t intervals, std::vector<Member>& members) : members_(members) {
+    members.resize(places.size());
+    for (std::size_t i = 0; i < places.size();) {
+      const Place::Kind kind = places[i].kind;
+      const std::size_t length = kind == Place::Kind::border ? 1 : intervals + (kind == Place::Kind::node ? 1 : 0);
+      std::size_t count = 0;
+      while (i + count < places.size() && count < length && places[i + count].kind == kind &&
+             places[i + count].index == count) {
+        ++count;
       }
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      for (std::size_t i = size; i < lists[k].size(); ++i) {
-        members[lists[k][i]] = {kind, k, -1, false};
-        singles.push_back(lists[k][i]);
+      const bool is_column = kind != Place::Kind::border && count == length;
+      if (is_column) {
+        append(kind == Place::Kind::node ? nodes : inner, kind, i, length);
+        i += length;
+      } else {
+        members[i] = {kind, places[i].index, -1, false};
+        singles.push_back(i);
+        ++i;
       }
     }
   }
 
-  std::vector<std::size_t> firsts;
+  std::vector<std::size_t> nodes;
+  std::vector<std::size_t> inner;
   std::vector<std::size_t> singles;
+
+ private:
+  void append(std::vector<std::size_t>& firsts, Place::Kind kind, std::size_t first, std::size_t length) {
+    for (std::size_t k = 0; k < length; ++k) members_[first + k] = {kind, k, static_cast<int>(firsts.size()), false};
+    firsts.push_back(first);
+  }
+
+  std::vector<Member>& members_;
 };
 
 class Sorter {
@@ -72,8 +80,10 @@ class Sorter {
                      .soft = count(result_.soft_rows)};
     if (free_size(result_.shape) < 0) throw Irregular{"an interval has more equalities than unknowns"};
     require_free_between_ends();
-    sort_hessian();
-    sort_jacobian();
+    sort(Source::hessian, program_.hessian_structure(),
+         [this](std::size_t i, std::size_t j) { return hessian_destination(i, j); });
+    sort(Source::jacobian, program_.jacobian_structure(),
+         [this](std::size_t i, std::size_t j) { return jacobian_destination(i, j); });
     append_columns();
     append_vectors();
     return std::move(result_);
@@ -93,37 +103,36 @@ class Sorter {
 
   void find_unknowns() {
     const auto& places = structure().unknowns;
-    unknowns_.resize(places.size());
-    Columns nodes(places, Place::Kind::node, result_.intervals + 1, unknowns_);
-    Columns inner(places, Place::Kind::interval, result_.intervals, unknowns_);
-    if (!inner.singles.empty()) throw Irregular{"its intervals have different numbers of unknowns"};
-    result_.node_unknowns = nodes.firsts;
-    result_.inner_unknowns = inner.firsts;
-    for (const std::size_t i : nodes.singles) {
-      const std::size_t node = places[i].index;
-      if (node != 0 && node != result_.intervals) throw Irregular{"a node between the ends has unknowns of its own"};
-      result_.single_unknowns[node == 0 ? 0 : 1].push_back(i);
+    const Columns columns(places, result_.intervals, unknowns_);
+    result_.node_unknowns = columns.nodes;
+    result_.inner_unknowns = columns.inner;
+    for (const std::size_t i : columns.singles) {
+      if (places[i].kind == Place::Kind::border) {
+        unknowns_[i] = {Place::Kind::border, 0, static_cast<int>(result_.shared_unknowns.size()), false};
+        result_.shared_unknowns.push_back(i);
+      } else {
+        result_.single_unknowns[end_of(places[i], "an unknown")].push_back(i);
+      }
     }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i].kind != Place::Kind::border) continue;
-      unknowns_[i] = {Place::Kind::border, 0, static_cast<int>(result_.shared_unknowns.size()), false};
-      result_.shared_unknowns.push_back(i);
-    }
+  }
+
+  /// 0 for the first node, 1 for the last.
+  [[nodiscard]] std::size_t end_of(const Place& place, const std::string& what) const {
+    const bool is_end = place.kind == Place::Kind::node && (place.index == 0 || place.index == result_.intervals);
+    if (!is_end) throw Irregular{what + " between the ends belongs to no column of its kind"};
+    return place.index == 0 ? 0 : 1;
   }
 
   void find_rows() {
     const auto& places = structure().rows;
-    rows_.resize(places.size());
-    Columns nodes(places, Place::Kind::node, result_.intervals + 1, rows_);
-    Columns intervals(places, Place::Kind::interval, result_.intervals, rows_);
-    if (!intervals.singles.empty()) throw Irregular{"its intervals have different numbers of rows"};
-    result_.node_rows = nodes.firsts;
-    for (const std::size_t first : nodes.firsts) {
+    const Columns columns(places, result_.intervals, rows_);
+    result_.node_rows = columns.nodes;
+    for (const std::size_t first : columns.nodes) {
       for (std::size_t k = 0; k <= result_.intervals; ++k) {
         if (is_soft(first + k)) throw Irregular{"a row of a node is an inequality"};
       }
     }
-    for (const std::size_t first : intervals.firsts) {
+    for (const std::size_t first : columns.inner) {
       const bool soft = is_soft(first);
       auto& list = soft ? result_.soft_rows : result_.interval_rows;
       for (std::size_t k = 0; k < result_.intervals; ++k) {
@@ -132,8 +141,9 @@ class Sorter {
       }
       list.push_back(first);
     }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (rows_[i].column < 0) result_.single_rows.push_back(i);
+    for (const std::size_t i : columns.singles) {
+      if (places[i].kind != Place::Kind::border) static_cast<void>(end_of(places[i], "a row"));
+      result_.single_rows.push_back(i);
     }
   }
 
@@ -179,32 +189,68 @@ class Sorter {
     return m.at == interval ? this_node(m) : -1;
   }
 
-  void put(const Key& key, std::size_t interval, const EndEntry& entry) {
-    Run& run = runs_[key];
-    if (run.length == 0) run = {entry.entry, interval, 0, entry.source};
-    if (entry.entry != run.first + run.length || interval != run.begin + run.length) {
+  /// Where an entry of a matrix goes: to a block of an interval, to the ends, or nowhere (fixed unknowns).
+  struct Destination {
+    enum class Where : unsigned char { interval, ends, nowhere };
+    Where where = Where::nowhere;
+    Key key{};
+    std::size_t interval = 0;
+  };
+
+  static Destination to_ends() { return {Destination::Where::ends, {}, 0}; }
+
+  void put(const Destination& to, Source source, std::size_t first_entry, std::size_t length) {
+    Run& run = runs_[to.key];
+    if (run.length == 0) run = {first_entry, to.interval, 0, source};
+    if (first_entry != run.first + run.length || to.interval != run.begin + run.length) {
       throw Irregular{"its derivatives are not stored column by column"};
     }
-    ++run.length;
+    run.length += length;
   }
 
-  void sort_hessian() {
-    const SparsityPattern& pattern = program_.hessian_structure();
-    for (std::size_t e = 0; e < pattern.size(); ++e) {
-      const auto i = static_cast<std::size_t>(pattern.rows[e]);
-      const auto j = static_cast<std::size_t>(pattern.columns[e]);
-      const EndEntry entry{Source::hessian, e, i, j};
-      if (is_fixed_inner(i) || is_fixed_inner(j)) continue;
-      const auto interval = interval_of(unknowns_[i], unknowns_[j]);
-      const int a = interval ? seen_from(unknowns_[i], *interval) : -1;
-      const int b = interval ? seen_from(unknowns_[j], *interval) : -1;
-      const int Z = next_size(result_.shape);
-      if (a < 0 || b < 0 || (a >= Z && b >= Z)) {
-        result_.ends.push_back(entry);
-      } else {
-        put({LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval, entry);
+  /// Sorts the entries of a pattern run by run; only their first and last two are looked at where these tell that all
+  /// between go to the same block.
+  template <class DestinationOf>
+  void sort(Source source, const SparsityPattern& pattern, const DestinationOf& destination_of) {
+    const auto at = [&](std::size_t e) {
+      return destination_of(static_cast<std::size_t>(pattern.rows[e]), static_cast<std::size_t>(pattern.columns[e]));
+    };
+    const auto sort_one = [&](std::size_t e) {
+      const Destination to = at(e);
+      if (to.where == Destination::Where::ends) {
+        result_.ends.push_back(
+            {source, e, static_cast<std::size_t>(pattern.rows[e]), static_cast<std::size_t>(pattern.columns[e])});
+      } else if (to.where == Destination::Where::interval) {
+        put(to, source, e, 1);
       }
+    };
+    for (const PatternRun& run : pattern_runs(pattern)) {
+      const auto first = static_cast<std::size_t>(run.entry);
+      const auto length = static_cast<std::size_t>(run.length);
+      constexpr std::size_t shortest = 4;
+      const Destination second = length > shortest ? at(first + 1) : Destination{};
+      const Destination last_but_one = length > shortest ? at(first + length - 2) : Destination{};
+      const bool is_column = length > shortest && second.where == Destination::Where::interval &&
+                             last_but_one.where == second.where && last_but_one.key == second.key &&
+                             last_but_one.interval == second.interval + length - 3;
+      sort_one(first);
+      if (is_column) {
+        put(second, source, first + 1, length - 2);
+      } else {
+        for (std::size_t e = 1; e + 1 < length; ++e) sort_one(first + e);
+      }
+      if (length > 1) sort_one(first + length - 1);
     }
+  }
+
+  [[nodiscard]] Destination hessian_destination(std::size_t i, std::size_t j) const {
+    if (is_fixed_inner(i) || is_fixed_inner(j)) return {};
+    const auto interval = interval_of(unknowns_[i], unknowns_[j]);
+    const int a = interval ? seen_from(unknowns_[i], *interval) : -1;
+    const int b = interval ? seen_from(unknowns_[j], *interval) : -1;
+    const int Z = next_size(result_.shape);
+    if (a < 0 || b < 0 || (a >= Z && b >= Z)) return to_ends();
+    return {Destination::Where::interval, {LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
   }
 
   /// The interval whose blocks hold the Hessian's entry of two unknowns: that before a node for the node's own ones.
@@ -212,7 +258,6 @@ class Sorter {
     for (const Member* m : {&a, &b}) {
       if (in_column(*m, Place::Kind::interval)) return m->at;
     }
-    if (!in_column(a, Place::Kind::node) && !in_column(b, Place::Kind::node)) return std::nullopt;
     std::size_t latest = 0;
     for (const Member* m : {&a, &b}) {
       if (in_column(*m, Place::Kind::node)) latest = std::max(latest, m->at);
@@ -226,39 +271,35 @@ class Sorter {
     return in_column(m, Place::Kind::interval) && result_.inner_is_fixed[static_cast<std::size_t>(m.column)];
   }
 
-  void sort_jacobian() {
-    const SparsityPattern& pattern = program_.jacobian_structure();
-    for (std::size_t e = 0; e < pattern.size(); ++e) {
-      const auto i = static_cast<std::size_t>(pattern.rows[e]);
-      const auto j = static_cast<std::size_t>(pattern.columns[e]);
-      if (is_fixed_inner(j)) continue;
-      const Member& row = rows_[i];
-      const EndEntry entry{Source::jacobian, e, i, j};
-      if (row.column < 0 || !put_row_entry(row, unknowns_[j], entry)) result_.ends.push_back(entry);
-    }
+  [[nodiscard]] Destination jacobian_destination(std::size_t i, std::size_t j) const {
+    const Member& row = rows_[i];
+    const Member& unknown = unknowns_[j];
+    if (is_fixed_inner(j)) return {};
+    if (row.column < 0) return to_ends();
+    return row.kind == Place::Kind::interval ? interval_row_destination(row, unknown)
+                                             : node_row_destination(row, unknown);
   }
 
-  bool put_row_entry(const Member& row, const Member& unknown, const EndEntry& entry) {
-    if (row.kind == Place::Kind::interval) {
-      const int column = seen_from(unknown, row.at);
-      if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
-      const int number = row.is_soft ? row.column : result_.shape.carried + row.column;
-      put({row.is_soft ? LocalEntry::Block::soft : LocalEntry::Block::equality, number, column}, row.at, entry);
-      return true;
-    }
+  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& unknown) const {
+    const int column = seen_from(unknown, row.at);
+    if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
+    if (row.is_soft) return {Destination::Where::interval, {LocalEntry::Block::soft, row.column, column}, row.at};
+    const int number = result_.shape.carried + row.column;
+    return {Destination::Where::interval, {LocalEntry::Block::equality, number, column}, row.at};
+  }
+
+  [[nodiscard]] Destination node_row_destination(const Member& row, const Member& unknown) const {
     const bool from_before = (in_column(unknown, Place::Kind::interval) || in_column(unknown, Place::Kind::node)) &&
                              unknown.at + 1 == row.at;
     if (from_before) {
       const int Z = next_size(result_.shape);
       const int seen = seen_from(unknown, unknown.at);  // of its own interval, or the left node of it
-      put({LocalEntry::Block::carry, row.column, seen >= Z ? seen - Z : result_.shape.node + seen}, unknown.at, entry);
-      return true;
+      const int column = seen >= Z ? seen - Z : result_.shape.node + seen;
+      return {Destination::Where::interval, {LocalEntry::Block::carry, row.column, column}, unknown.at};
     }
-    if (row.at == result_.intervals) return false;
-    const int column = seen_from(unknown, row.at);
-    if (column < 0) return false;
-    put({LocalEntry::Block::equality, row.column, column}, row.at, entry);
-    return true;
+    const int column = row.at == result_.intervals ? -1 : seen_from(unknown, row.at);
+    if (column < 0) return to_ends();
+    return {Destination::Where::interval, {LocalEntry::Block::equality, row.column, column}, row.at};
   }
 
   void append_columns() {

@@ -10,10 +10,6 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// ρ at first, and for good once a pivot has failed: a conjugate point of the problem with a free end is no reason to
-/// change the Hessian.
-constexpr double light_weight = 1.0;
-constexpr double heavy_weight = 1e4;
 /// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
 constexpr double smallest_pivot = 1e-13;
 /// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
@@ -33,7 +29,10 @@ std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, 
 }
 
 IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries)
-    : entries_(std::move(entries)), ends_(program, entries_), kernel_(segment_kernel_for(entries_.shape)) {
+    : entries_(std::move(entries)),
+      ends_(program, entries_),
+      kernel_(segment_kernel_for(entries_.shape)),
+      weights_(entries_) {
   cut_into_segments();
   padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
   const auto X = static_cast<std::size_t>(state_size(entries_.shape));
@@ -89,47 +88,41 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   return true;
 }
 
-void IntervalKkt::choose_terminal_weight(const NewtonArrays& arrays) {
-  double sum = 0.0;
-  for (const LocalEntry& entry : entries_.local) {
-    const bool is_diagonal = entry.block == LocalEntry::Block::hessian && entry.row == entry.column;
-    if (!is_diagonal || entry.row < entries_.shape.node) continue;
-    for (std::size_t k = 0; k < entries_.intervals; ++k) sum += std::abs(arrays.at(entry.source, entry.first + k));
-  }
-  weight_scale_ = sum > 0.0 ? sum / std::max(1, entries_.shape.inner) : 1.0;
-  terminal_weight_ = light_weight * weight_scale_;
-}
-
 Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                            Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   NewtonArrays arrays = arrays_of(matrix, slope, rows);
-  if (weight_scale_ == 0.0) choose_terminal_weight(arrays);
+  weights_.follow(arrays);
   if (!plan_ && !choose_plan(arrays)) return Verdict::singular;
   Verdict verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict == Verdict::untrusted) {
     if (!choose_plan(arrays)) return Verdict::singular;
     verdict = eliminate(arrays, matrix, slope, rows);
   }
-  if (verdict == Verdict::wrong_inertia && terminal_weight_ < heavy_weight * weight_scale_) {
-    terminal_weight_ = heavy_weight * weight_scale_;
-    verdict = eliminate(arrays, matrix, slope, rows);
-  }
+  // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
+  const auto may_be_weight = [&] { return verdict == Verdict::wrong_inertia || verdict == Verdict::singular; };
+  while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict != Verdict::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);
-  return primal_step.allFinite() && multiplier_step.allFinite() ? Verdict::solved : Verdict::singular;
+  const bool is_finite = ((primal_step.array() * 0.0).sum() + (multiplier_step.array() * 0.0).sum()) == 0.0;
+  return is_finite ? Verdict::solved : Verdict::singular;
 }
 
 Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                const Eigen::VectorXd& rows) {
-  arrays.terminal_weight = terminal_weight_;
+  arrays.terminal_weights = weights_.values().data();
   kernel_.backward(*plan_, arrays, group_);
   if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
   if (!(group_.smallest_pivot > smallest_pivot)) return Verdict::wrong_inertia;
-  chain_.start(value_of(lane_count - 1), terminal_weight_);
+  SegmentValue value = value_of(lane_count - 1);
+  const Eigen::VectorXd weights = weights_.values();
+  weights_.learn(value.Gamma);
+  chain_.start(value, weights);
   for (int segment = lane_count - 2; segment >= 0; --segment) {
-    if (!chain_.join(value_of(segment))) return Verdict::wrong_inertia;
+    value = value_of(segment);
+    weights_.learn(value.Gamma);
+    if (!chain_.join(value)) return Verdict::wrong_inertia;
   }
-  return ends_.solve(matrix, slope, rows, chain_.total(), terminal_weight_);
+  return ends_.solve(matrix, slope, rows, chain_.total(), weights);
 }
 
 SegmentValue IntervalKkt::value_of(int segment) const {

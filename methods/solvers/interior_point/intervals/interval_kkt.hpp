@@ -14,6 +14,7 @@
 #include "methods/solvers/interior_point/intervals/lane_array.hpp"
 #include "methods/solvers/interior_point/intervals/segment_chain.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/interior_point/intervals/terminal_weights.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
 
 namespace dmocbench::interior_point {
@@ -37,7 +38,6 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                        const Eigen::VectorXd& rows);
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
-  void choose_terminal_weight(const NewtonArrays& arrays);
   [[nodiscard]] Verdict eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                   const Eigen::VectorXd& rows);
   [[nodiscard]] SegmentValue value_of(int segment) const;
@@ -51,8 +51,7 @@ class IntervalKkt : public KktSystem {
   EndSystem ends_;
   SegmentKernel kernel_;
   std::optional<EliminationPlan> plan_;
-  double weight_scale_ = 0.0;     // of the terminal weight, found at the first solve
-  double terminal_weight_ = 0.0;  // ρ
+  TerminalWeights weights_;
 
   Eigen::VectorXd padded_;
   SegmentGroup group_;

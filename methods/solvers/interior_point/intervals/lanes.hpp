@@ -24,10 +24,14 @@ struct Lanes {
   }
 };
 
+inline Lanes chosen(const Lanes::Mask& mask, const Lanes& yes, const Lanes& no) { return {mask ? yes.v : no.v}; }
 inline Lanes smaller(const Lanes& a, const Lanes& b) { return {a.v < b.v ? a.v : b.v}; }
 inline Lanes larger(const Lanes& a, const Lanes& b) { return {a.v > b.v ? a.v : b.v}; }
+/// The smaller of both, or -1 where the second is not a number: a minimum so far that does not forget it.
+inline Lanes least_so_far(const Lanes& so_far, const Lanes& value) {
+  return smaller(so_far, chosen(value.v == value.v, value, Lanes::all(-1.0)));
+}
 inline Lanes magnitude(const Lanes& a) { return larger(a, -a); }
-inline Lanes chosen(const Lanes::Mask& mask, const Lanes& yes, const Lanes& no) { return {mask ? yes.v : no.v}; }
 
 inline Lanes square_root(const Lanes& a) {
   Lanes result;

@@ -2,7 +2,7 @@
 
 /// L⁻ᵀ applied to what `factorise_free` left: w = -(gain)(X, 1, ν).
 template <class S>
-inline void store_gain(const S& shape, const StepWork<S>& work, Lanes* gain) {
+DMOCBENCH_INLINE void store_gain(const S& shape, const StepWork<S>& work, Lanes* gain) {
   const int w = free_size(shape);
   const int X = state_size(shape);
   const int N = column_count(shape);
@@ -19,8 +19,8 @@ inline void store_gain(const S& shape, const StepWork<S>& work, Lanes* gain) {
 /// The slope that the multipliers of the interval's equalities balance, before `advance` replaces the value of the
 /// rest.
 template <class S>
-inline void store_slope(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local, const int* node_in_next,
-                        const StepWork<S>& work, Lanes* slope) {
+DMOCBENCH_INLINE void store_slope(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local,
+                                  const int* node_in_next, const StepWork<S>& work, Lanes* slope) {
   const int n = shape.rows;
   const int X = state_size(shape);
   const int N = column_count(shape);
@@ -46,7 +46,7 @@ inline void store_slope(const S& shape, const LocalBlocks<S>& blocks, const Lane
 }
 
 template <class S>
-inline void store_transition(const S& shape, const StepWork<S>& work, Lanes* transition, Lanes* dependent) {
+DMOCBENCH_INLINE void store_transition(const S& shape, const StepWork<S>& work, Lanes* transition, Lanes* dependent) {
   const int X = state_size(shape);
   const int kept = shape.node + shape.carried;
   for (int j = 0; j < column_count(shape); ++j) {
@@ -59,7 +59,7 @@ inline void store_transition(const S& shape, const StepWork<S>& work, Lanes* tra
 
 /// Multipliers of the rows of a node: the derivative of the value with respect to s.
 template <class S>
-inline void store_multipliers(const S& shape, const StepWork<S>& work, Lanes* multipliers) {
+DMOCBENCH_INLINE void store_multipliers(const S& shape, const StepWork<S>& work, Lanes* multipliers) {
   const int X = state_size(shape);
   for (int j = 0; j < 2 * X + 1; ++j) {
     for (int i = 0; i < shape.carried; ++i) multipliers[i + j * shape.carried] = work.value[shape.node + i + j * X];
@@ -67,7 +67,7 @@ inline void store_multipliers(const S& shape, const StepWork<S>& work, Lanes* mu
 }
 
 template <class S>
-inline void store_factors(const S& shape, const StepWork<S>& work, Lanes* factors) {
+DMOCBENCH_INLINE void store_factors(const S& shape, const StepWork<S>& work, Lanes* factors) {
   const int n = shape.rows;
   for (int i = 0; i < n * n; ++i) factors[i] = work.equalities[i];
   for (int i = 0; i < n; ++i) factors[n * n + i] = work.reciprocals[i];
@@ -75,7 +75,7 @@ inline void store_factors(const S& shape, const StepWork<S>& work, Lanes* factor
 
 /// Eᵀ x = b for the factors E = L U of the equalities, in place.
 template <class S>
-inline void solve_transposed(const S& shape, const Lanes* factors, Lanes* x) {
+DMOCBENCH_INLINE void solve_transposed(const S& shape, const Lanes* factors, Lanes* x) {
   const int n = shape.rows;
   for (int p = 0; p < n; ++p) {
     for (int q = 0; q < p; ++q) x[p] -= factors[q + p * n] * x[q];

@@ -30,8 +30,8 @@ void symmetrise(Eigen::MatrixXd& matrix) { matrix = (0.5 * (matrix + matrix.tran
 
 }  // namespace
 
-void SegmentChain::start(const SegmentValue& last, double terminal_weight) {
-  terminal_weight_ = terminal_weight;
+void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& terminal_weights) {
+  terminal_weights_ = terminal_weights;
   total_ = last;
   joins_.clear();
 }
@@ -40,7 +40,8 @@ bool SegmentChain::join(const SegmentValue& segment) {
   const Eigen::Index n = total_.P.rows();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
   Join join;
-  join.slope = total_.P - terminal_weight_ * identity;
+  join.slope = total_.P;
+  join.slope.diagonal() -= terminal_weights_;
   join.mixed = total_.Phi;
   join.constant = total_.p;
   // The state y between and the multiplier ν' of the segment in front make (slope, -I; -I, -Γ): two such blocks have

@@ -9,7 +9,7 @@ namespace dmocbench::interior_point {
 /// A stretch of the horizon as seen from its ends: the value of what lies inside, as a function of the state X at its
 /// first node and of the multiplier ν of the condition that its last node has a given state d,
 ///
-///   ½ XᵀPX + pᵀX + νᵀ(ΦᵀX + γ - d) - ½ νᵀΓν - ½ ρ|d|².
+///   ½ XᵀPX + pᵀX + νᵀ(ΦᵀX + γ - d) - ½ νᵀΓν - ½ Σ ρ_i d_i².
 ///
 /// P, Φ, Γ: X x X.
 struct SegmentValue {
@@ -23,8 +23,8 @@ struct SegmentValue {
 /// Joins neighbouring segments, from the last to the first, to the value of the whole horizon.
 class SegmentChain {
  public:
-  /// `terminal_weight` is ρ.
-  void start(const SegmentValue& last, double terminal_weight);
+  /// `terminal_weights` are the ρ_i (terminal_weights.hpp).
+  void start(const SegmentValue& last, const Eigen::VectorXd& terminal_weights);
   /// Puts a segment in front. False if eliminating the state between is no minimum.
   [[nodiscard]] bool join(const SegmentValue& segment);
 
@@ -47,7 +47,7 @@ class SegmentChain {
     Eigen::VectorXd constant;
   };
 
-  double terminal_weight_ = 0.0;
+  Eigen::VectorXd terminal_weights_;
   SegmentValue total_;
   std::vector<Join> joins_;  // last to first
 };

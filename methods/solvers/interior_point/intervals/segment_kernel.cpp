@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <type_traits>
 
+// A step has to be inlined into its sweep for its blocks to live in registers.
+#define DMOCBENCH_INLINE [[gnu::always_inline]] inline
+
 // Compiled once per instruction set. A namespace of its own keeps what is not inlined apart: a linker may take either
 // of two functions of the same name.
 namespace dmocbench::interior_point {

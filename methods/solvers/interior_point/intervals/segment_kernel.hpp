@@ -64,11 +64,11 @@ struct SegmentGroup {
   double smallest_ratio = 0.0;   ///< smallest pivot of the equalities, relative to the usual one
 };
 
-/// What a backward sweep reads: the arrays by `Source`, and the weight ρ at the end of every segment (README.md).
+/// What a backward sweep reads: the arrays by `Source`, and the weights at the end of a segment (terminal_weights.hpp).
 struct NewtonArrays {
   const double* arrays[source_count] = {};
   [[nodiscard]] double at(Source source, std::size_t entry) const { return arrays[static_cast<int>(source)][entry]; }
-  double terminal_weight = 0.0;
+  const double* terminal_weights = nullptr;  ///< one per entry of the state
 };
 
 /// Both sweeps over a group of segments for one shape and one instruction set.

@@ -9,14 +9,14 @@ S shape_of(const EliminationPlan& plan) {
   }
 }
 
-/// The value at the end of a segment: ½ρ|X|² + νᵀX.
+/// The value at the end of a segment: ½ Σ ρ_i X_i² + νᵀX.
 template <class S>
-inline void start_value(const S& shape, double terminal_weight, StepWork<S>& work) {
+inline void start_value(const S& shape, const double* terminal_weights, StepWork<S>& work) {
   const int X = state_size(shape);
   for (int i = 0; i < X * (2 * X + 1); ++i) work.value[i] = Lanes{};
   for (int i = 0; i < X * (X + 1); ++i) work.reach[i] = Lanes{};
   for (int i = 0; i < X; ++i) {
-    work.value[i + i * X] = Lanes::all(terminal_weight);
+    work.value[i + i * X] = Lanes::all(terminal_weights[i]);
     work.value[i + (X + 1 + i) * X] = Lanes::all(1.0);
   }
   *work.smallest_pivot = Lanes::all(1.0);
@@ -46,8 +46,8 @@ inline double smallest_of(const Lanes& lanes) {
 }
 
 template <class S>
-void step_backward(const S& shape, const EliminationPlan& plan, const Lanes* local, const Lanes::Mask* active,
-                   StepWork<S>& work, Lanes* record) {
+DMOCBENCH_INLINE void step_backward(const S& shape, const EliminationPlan& plan, const Lanes* local,
+                                    const Lanes::Mask* active, StepWork<S>& work, Lanes* record) {
   const LocalBlocks<S> blocks{shape};
   const RecordBlocks<S> places{shape};
   const Lanes pivot_before = *work.smallest_pivot;
@@ -78,10 +78,10 @@ void sweep_backward(const EliminationPlan& plan, const NewtonArrays& arrays, Seg
   const LocalBlocks<S> blocks{shape};
   const RecordBlocks<S> places{shape};
   auto* memory = reinterpret_cast<Lanes*>(group.workspace);
-  Lanes* const locals = memory + StepWork<S>::size(shape);
+  Lanes* const locals = memory + StepSizes<S>{shape}.all();
   StepWork<S> work(shape, memory);
   prepare_locals(plan, blocks.size(), locals);
-  start_value(shape, arrays.terminal_weight, work);
+  start_value(shape, arrays.terminal_weights, work);
   const int blocks_there = (group.steps + block_steps - 1) / block_steps;
   for (int block = blocks_there - 1; block >= 0; --block) {
     const int begin = block * block_steps;
@@ -219,7 +219,7 @@ void sweep_forward(const EliminationPlan& plan, const SegmentGroup& group, doubl
 template <class S>
 std::size_t numbers_of_workspace(const EliminationPlan& plan) {
   const S shape = shape_of<S>(plan);
-  const int backward = StepWork<S>::size(shape) + block_steps * LocalBlocks<S>{shape}.size();
+  const int backward = StepSizes<S>{shape}.all() + block_steps * LocalBlocks<S>{shape}.size();
   const int forward = ForwardWork<S>::size(shape) + block_steps * static_cast<int>(plan.emitted.size());
   return static_cast<std::size_t>(lane_count) * static_cast<std::size_t>(backward > forward ? backward : forward);
 }

@@ -1,0 +1,108 @@
+#include "methods/solvers/interior_point/intervals/terminal_weights.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// The multiples of the stiffness that are tried, one after the other.
+constexpr std::array<double, 3> multiples{1.0, 1e3, 1e6};
+/// Failures that are believed, after all multiples were tried in vain.
+constexpr int patience = 6;
+/// Of a weight that drowned the stiffness: what it may have been at most.
+constexpr double drowned_share = 1e-3;
+constexpr double smallest_curvature = 1e-12;
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// The row of Z that a diagonal entry of the Hessian belongs to, as a number of an unknown of the interval; -1 for
+/// others.
+int inner_of(const LocalEntry& entry, const Shape& shape) {
+  const bool is_diagonal = entry.block == LocalEntry::Block::hessian && entry.row == entry.column;
+  return is_diagonal ? entry.row - shape.node : -1;
+}
+
+}  // namespace
+
+TerminalWeights::TerminalWeights(const IntervalEntries& entries)
+    : intervals_(entries.intervals),
+      diagonals_(static_cast<std::size_t>(entries.shape.inner)),
+      stiffness_(Eigen::VectorXd::Ones(state_size(entries.shape))),
+      learned_(Eigen::VectorXd::Constant(state_size(entries.shape), unknown)),
+      values_(Eigen::VectorXd::Ones(state_size(entries.shape))) {
+  for (const LocalEntry& entry : entries.local) {
+    const int inner = inner_of(entry, entries.shape);
+    if (inner < 0) continue;
+    Diagonal& diagonal = diagonals_[static_cast<std::size_t>(inner)];
+    if (entry.source == Source::diagonal) {
+      diagonal.first = entry.first;
+    } else {
+      diagonal.has_hessian = true;
+      diagonal.source = entry.source;
+      diagonal.entry = entry.first;
+    }
+  }
+}
+
+/// The softest unknowns count most, so it is their harmonic mean; as the Hessian of an interval is proportional to its
+/// length, their number is a factor.
+double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
+  double compliance = 0.0;
+  const double* added = arrays.arrays[static_cast<int>(Source::diagonal)];
+  for (const Diagonal& diagonal : diagonals_) {
+    const double* hessian =
+        diagonal.has_hessian ? arrays.arrays[static_cast<int>(diagonal.source)] + diagonal.entry : nullptr;
+    for (std::size_t k = 0; k < intervals_; ++k) {
+      const double curvature = (hessian != nullptr ? hessian[k] : 0.0) + added[diagonal.first + k];
+      compliance += 1.0 / (std::abs(curvature) + smallest_curvature);
+    }
+  }
+  const auto count = static_cast<double>(intervals_);
+  return compliance > 0.0 ? count * count * static_cast<double>(diagonals_.size()) / compliance : 1.0;
+}
+
+void TerminalWeights::follow(const NewtonArrays& arrays) {
+  update();
+  scale_ = stiffness_of_free_unknowns(arrays);
+  values_ = multiples[level_] * scale_ * stiffness_;
+  tried_ = 0;
+}
+
+bool TerminalWeights::try_another() {
+  if (believed_ > 0) {
+    --believed_;
+    return false;
+  }
+  if (tried_ + 1 == multiples.size()) {
+    level_ = (level_ + 1) % multiples.size();  // where it began
+    tried_ = 0;
+    believed_ = patience;
+    return false;
+  }
+  ++tried_;
+  level_ = (level_ + 1) % multiples.size();
+  update();
+  values_ = multiples[level_] * scale_ * stiffness_;
+  return true;
+}
+
+void TerminalWeights::learn(const Eigen::MatrixXd& reach) {
+  for (Eigen::Index i = 0; i < values_.size(); ++i) {
+    if (!(reach(i, i) > 0.0)) continue;
+    const double stiffness = std::max(1.0 / reach(i, i) - values_[i], drowned_share * values_[i]);
+    if (std::isfinite(stiffness)) learned_[i] = std::min(learned_[i], stiffness);
+  }
+}
+
+void TerminalWeights::update() {
+  for (Eigen::Index i = 0; i < values_.size(); ++i) {
+    // A state that the free unknowns hardly reach needs no weight of its size.
+    if (learned_[i] < unknown) stiffness_[i] = std::min(1.0, learned_[i] / scale_);
+    learned_[i] = unknown;
+  }
+}
+
+}  // namespace dmocbench::interior_point
