@@ -52,12 +52,17 @@ std::string reference_in_words(const Row& row) {
   return fmt::format("{:.{}g} ({} digits)", *reference, static_cast<int>(*digits), *digits);
 }
 
-/// "0.554575 (+7.4e-06)", or the status.
+/// "0.554575 (+7.4e-06)", or the status; "elsewhere" beside what is no success.
 std::string answer_in_words(const Row& row) {
   if (row.text("status") != "solved") return row.text("status");
   std::string words = fmt::format("{:.7g}", row.number("objective").value_or(std::nan("")));
   if (const auto difference = row.number("relative_difference")) words += fmt::format(" ({:+.1e})", *difference);
-  return words;
+  return row.text("success") == "no" ? words + " elsewhere" : words;
+}
+
+bool all_say(const std::vector<const Row*>& rows, const std::string& column, const std::string& text) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const Row* row) { return row != nullptr && row->text(column) == text; });
 }
 
 }  // namespace
@@ -73,7 +78,8 @@ Table library_table(const Table& rows) {
     most = std::max(most, row.number("intervals").value_or(0.0));
   }
   Table library({"problem", "reference_objective", "reference_digits", "method", "tableau", "stages", "solver",
-                 "derivatives", "intervals", "status", "objective", "relative_difference", "success", "message"});
+                 "derivatives", "intervals", "status", "objective", "relative_difference", "success", "replay_error",
+                 "message"});
   for (const Row& row : rows.rows()) {
     if (row.number("intervals").value_or(0.0) != finest[curve_of(row)]) continue;
     Row line;
@@ -91,7 +97,8 @@ std::string library_table_in_markdown(const Table& library) {
   std::string text =
       "# The library\n\nEvery problem from its own guess: the cost that a method reaches and, in brackets, its "
       "relative "
-      "difference from the reference; where it was not solved, the status.\n";
+      "difference from the reference; where it was not solved, the status. \"Elsewhere\" is farther from the "
+      "reference than counts as a success: another minimum, or a grid that is too coarse.\n";
   for (const Scheme& scheme : distinct<Scheme>(library, scheme_of)) {
     text +=
         fmt::format("\n## {} {}, {}, {}\n\n| problem | N | reference |", scheme[0], scheme[1], scheme[2], scheme[3]);
@@ -99,17 +106,22 @@ std::string library_table_in_markdown(const Table& library) {
     text += "\n|---|---|---|";
     for (std::size_t i = 0; i < methods.size(); ++i) text += "---|";
     text += "\n";
+    int problems = 0;
+    int solved = 0;
+    int successes = 0;
     for (const std::string& problem : distinct_texts(library, "problem")) {
-      const Row* any = nullptr;
-      std::string answers;
-      for (const std::string& method : methods) {
-        const Row* row = find_row(library, problem, scheme, method);
-        if (row != nullptr) any = row;
-        answers += " " + (row == nullptr ? "" : answer_in_words(*row)) + " |";
-      }
-      if (any == nullptr) continue;  // not asked for with this scheme
-      text += fmt::format("| {} | {} | {} |{}\n", problem, any->text("intervals"), reference_in_words(*any), answers);
+      std::vector<const Row*> answers;  // by method; null where it was not asked for
+      for (const std::string& method : methods) answers.push_back(find_row(library, problem, scheme, method));
+      const auto any = std::find_if(answers.begin(), answers.end(), [](const Row* row) { return row != nullptr; });
+      if (any == answers.end()) continue;
+      text += fmt::format("| {} | {} | {} |", problem, (*any)->text("intervals"), reference_in_words(**any));
+      for (const Row* row : answers) text += " " + (row == nullptr ? "" : answer_in_words(*row)) + " |";
+      text += "\n";
+      ++problems;
+      if (all_say(answers, "status", "solved")) ++solved;
+      if (all_say(answers, "success", "yes")) ++successes;
     }
+    text += fmt::format("\nSolved by all: {} of {} problems; with success by all: {}.\n", solved, problems, successes);
   }
   return text;
 }

@@ -38,7 +38,9 @@ std::string missed(const std::string& what, double amount) {
   return text.str();
 }
 
-bool is_held(double value, double bound) { return std::abs(value - bound) <= 1e-6 * std::max(1.0, std::abs(bound)); }
+bool is_held(double value, double bound) {
+  return std::isfinite(bound) && std::abs(value - bound) <= 1e-6 * std::max(1.0, std::abs(bound));
+}
 
 /// The controls that their bounds hold in most intervals.
 std::string held_controls(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {

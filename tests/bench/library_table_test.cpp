@@ -17,6 +17,7 @@ Row row_of_library(const char* problem, const char* method, long long intervals,
   row.set("intervals", intervals);
   row.set("status", status);
   row.set("objective", objective);
+  row.set("success", objective < -4.0 ? "yes" : "no");
   row.set("message", "a sentence");
   if (std::string(problem) == "known") {
     row.set("reference_objective", -4.0);
@@ -32,12 +33,14 @@ Table library_rows() {
   rows.append(row_of_library("known", "tangent", 32, -3.0));
   rows.append(row_of_library("known", "tangent", 128, -3.0, "iteration limit"));
   rows.append(row_of_library("unknown", "dmoc", 64, 2.0));  // its finest grid is another
+  rows.append(row_of_library("easy", "dmoc", 64, -5.0));
+  rows.append(row_of_library("easy", "tangent", 64, -5.0));
   return rows;
 }
 
 TEST(LibraryTable, HoldsTheFinestGridOfEveryCurveFailedOnesToo) {
   const Table library = library_table(library_rows());
-  ASSERT_EQ(library.rows().size(), 3U);
+  ASSERT_EQ(library.rows().size(), 5U);
   const auto expect = [&](std::size_t i, const char* method, double intervals, const char* status) {
     EXPECT_EQ(library.rows()[i].text("method"), method);
     EXPECT_EQ(library.rows()[i].number("intervals"), intervals);
@@ -50,7 +53,7 @@ TEST(LibraryTable, HoldsTheFinestGridOfEveryCurveFailedOnesToo) {
   EXPECT_NEAR(*library.rows()[0].number("relative_difference"), -0.01, 1e-15);  // lower than the reference
   EXPECT_NEAR(*library.rows()[1].number("relative_difference"), 0.25, 1e-15);
   EXPECT_FALSE(library.rows()[2].number("relative_difference"));
-  EXPECT_EQ(Table::from_csv(library.csv()).rows().size(), 3U);
+  EXPECT_EQ(Table::from_csv(library.csv()).rows().size(), 5U);
 }
 
 TEST(LibraryTable, ReadsAsMarkdownWithALinePerProblemAndAColumnPerMethod) {
@@ -58,7 +61,8 @@ TEST(LibraryTable, ReadsAsMarkdownWithALinePerProblemAndAColumnPerMethod) {
   for (const char* line :
        {"\n## gauss 2, ipopt, tape\n", "\n| problem | N | reference | dmoc | tangent |\n|---|---|---|---|---|\n",
         "\n| known | 128 | -4 (13 digits) | -4.04 (-1.0e-02) | iteration limit |\n",
-        "\n| unknown | 64 | unknown | 2 |  |\n"}) {
+        "\nSolved by all: 1 of 3 problems; with success by all: 1.\n",
+        "\n| unknown | 64 | unknown | 2 elsewhere |  |\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "is not in\n" << text;
   }
 }

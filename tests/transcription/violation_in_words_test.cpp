@@ -51,6 +51,7 @@ TEST_P(ViolationInWords, NamesTheEquationAndTheIntervalWhereAControlWasSpoilt) {
   EXPECT_EQ(ended.words(), "");
   ended.control(1, 5) += 1.0;  // u_1 acts on q_1 alone
   const std::string words = ended.words();
+  EXPECT_FALSE(says(words, "hold")) << words;  // nothing is bounded
   EXPECT_PRED2(says, words, "lagrangian and force: the Euler-Lagrange equation of q[1] (q2) ");
   const bool is_here =
       says(words, "in interval 5 (t = 0.625 to 0.75)") || says(words, "between intervals 4 and 5 (t = 0.625)") ||
