@@ -59,7 +59,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set format y "%g"
     set xrange [0.5:drawn + 0.5]
     set yrange [0:1.1 * highest]
-    set xlabel axis_label("cost J of the minimum", problem, "cost_unit") offset 0, -0.3
+    set xlabel axis_label("cost J of the minimum", problem, "cost_unit") offset 0, -0.7
     set ylabel "starts that ended there"
     set key at graph 0.5, graph 1.02 center bottom vertical maxrows 2 width -2 font ",12"
     set style fill solid 1.0 noborder
