@@ -111,6 +111,7 @@ std::string library_table_in_markdown(const Table& library) {
     int successes = 0;
     for (const std::string& problem : distinct_texts(library, "problem")) {
       std::vector<const Row*> answers;  // by method; null where it was not asked for
+      answers.reserve(methods.size());
       for (const std::string& method : methods) answers.push_back(find_row(library, problem, scheme, method));
       const auto any = std::find_if(answers.begin(), answers.end(), [](const Row* row) { return row != nullptr; });
       if (any == answers.end()) continue;
