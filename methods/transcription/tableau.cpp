@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 #include <Eigen/LU>
@@ -26,8 +27,8 @@ constexpr int fewest_lobatto_stages = 2;
 std::vector<long double> gauss_nodes(int stages) {
   const auto positive = boost::math::legendre_p_zeros<long double>(stages);  // the zeros >= 0, ascending
   std::vector<long double> nodes;
-  for (auto zero = positive.rbegin(); zero != positive.rend(); ++zero) {
-    if (*zero > 0.0L) nodes.push_back((1.0L - *zero) / 2.0L);
+  for (const long double zero : positive | std::views::reverse) {
+    if (zero > 0.0L) nodes.push_back((1.0L - zero) / 2.0L);
   }
   for (const long double zero : positive) nodes.push_back((1.0L + zero) / 2.0L);
   return nodes;

@@ -56,8 +56,8 @@ TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   EXPECT_EQ(shares.rows()[0].number("solved"), 2.0);
   EXPECT_EQ(shares.rows()[0].number("best"), 1.0);
   EXPECT_EQ(shares.rows()[1].number("best"), 2.0);
-  EXPECT_LT(*shares.rows()[0].number("share_lower"), 1.0 / 3.0);
-  EXPECT_GT(*shares.rows()[0].number("share_upper"), 1.0 / 3.0);
+  EXPECT_LT(shares.rows()[0].number("share_lower").value_or(1.0), 1.0 / 3.0);
+  EXPECT_GT(shares.rows()[0].number("share_upper").value_or(0.0), 1.0 / 3.0);
 }
 
 TEST(WilsonInterval, SolvesItsQuadraticEquation) {
