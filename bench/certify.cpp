@@ -59,8 +59,10 @@ class Certify final : public Experiment {
         ->capture_default_str();
     app.add_flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
+  [[nodiscard]] bool problems_are_independent() const override { return true; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"replay_error", "replay_objective", "polish_steps"};
+    return {"replay_error",       "replay_objective", "polish_steps",
+            "indirect_objective", "indirect_digits",  "indirect_message"};
   }
   /// Digits are wanted that end where the solver's tolerance begins.
   [[nodiscard]] bool polishes() const override { return true; }
@@ -77,28 +79,32 @@ class Certify final : public Experiment {
     return cases;
   }
 
-  void complete(SolvedCase& solved) override {
-    Outcome& outcome = outcome_of(solved.what.problem);
-    if (!solved.trajectory || !is_solved(solved.solution.status)) return;
-    const auto intervals = static_cast<Eigen::Index>(solved.what.intervals());
-    auto& route = outcome.finest[solved.what.tableau + std::to_string(solved.what.stages)];
-    const bool is_finest = !route || route->intervals() <= intervals;
-    try {
-      const ReplayError replayed = replay_error(*solved.what.problem, *solved.trajectory);
-      solved.row.set("replay_error", replayed.norm());
-      solved.row.set("replay_objective", replayed.cost);
-      if (is_finest && (outcome.intervals < intervals || replayed.norm() < outcome.replay.norm())) {
-        outcome.replay = replayed;
-        outcome.intervals = intervals;
-      }
-    } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
+  void check(const std::vector<Case>& cases) override {
+    for (const Case& what : cases) {
+      if (problems_.empty() || problems_.back().problem != what.problem) problems_.push_back({what.problem, 0, {}});
+      ++problems_.back().cases_left;
     }
-    if (is_finest) route = *solved.trajectory;
   }
 
-  void finish(const Table& /*table*/, const std::filesystem::path& prefix,
-              nlohmann::ordered_json& /*metadata*/) override {
+  /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
+  void complete(SolvedCase& solved) override {
+    Subject& subject = subject_of(solved.what.problem);
+    if (solved.trajectory && is_solved(solved.solution.status)) {
+      replay(solved);
+      const bool is_finer = !subject.finest || subject.finest->intervals() < solved.trajectory->intervals();
+      if (is_finer) subject.finest = *solved.trajectory;
+    }
+    if (--subject.cases_left > 0 || !with_indirect_ || !subject.finest) return;
+    try {
+      const IndirectSolution indirect = solve_indirect(*subject.problem, *subject.finest);
+      solved.row.set("indirect_objective", indirect.cost());
+      solved.row.set("indirect_digits", indirect.certified_digits());
+    } catch (const Error& error) {  // says what of the problem it does not know
+      solved.row.set("indirect_message", error.what());
+    }
+  }
+
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
     std::vector<std::string> columns{"problem"};
     for (const std::string& route : route_names_) columns.push_back(route + "_objective");
     for (const char* column :
@@ -107,8 +113,8 @@ class Certify final : public Experiment {
       columns.emplace_back(column);
     }
     Table references(columns);
-    for (Outcome& outcome : outcomes_) {
-      references.append(reference_row(outcome));
+    for (const Subject& subject : problems_) {
+      references.append(reference_row(*subject.problem, table));
       const Row& row = references.rows().back();
       fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", row.text("problem"),
                  row.text("agreeing_digits"), row.text("confirmed"));
@@ -117,48 +123,63 @@ class Certify final : public Experiment {
   }
 
  private:
-  struct Outcome {
+  struct Subject {
     std::shared_ptr<const Problem> problem;
-    std::map<std::string, std::optional<Trajectory>> finest;  // by route
-    ReplayError replay;                                       // the smallest error among those of the finest grid
-    Eigen::Index intervals = 0;                               // of the replayed answer, 0 if there is none
+    std::size_t cases_left = 0;
+    std::optional<Trajectory> finest;  // the first answer on the finest grid so far
   };
 
-  Outcome& outcome_of(const std::shared_ptr<const Problem>& problem) {
-    for (Outcome& outcome : outcomes_) {
-      if (outcome.problem == problem) return outcome;
-    }
-    outcomes_.push_back({problem, {}, {}, 0});
-    return outcomes_.back();
+  Subject& subject_of(const std::shared_ptr<const Problem>& problem) {
+    return *std::find_if(problems_.begin(), problems_.end(),
+                         [&](const Subject& subject) { return subject.problem == problem; });
   }
 
-  [[nodiscard]] Row reference_row(const Outcome& outcome) const {
-    const Problem& problem = *outcome.problem;
+  static void replay(SolvedCase& solved) {
+    try {
+      const ReplayError replayed = replay_error(*solved.what.problem, *solved.trajectory);
+      solved.row.set("replay_error", replayed.norm());
+      solved.row.set("replay_objective", replayed.cost);
+    } catch (const Error& error) {
+      solved.row.set("message", solved.row.text("message") + " " + error.what());
+    }
+  }
+
+  /// From the rows of one problem: the finest answer of every route, the best replay on the finest grid, the indirect
+  /// method's.
+  [[nodiscard]] Row reference_row(const Problem& problem, const Table& table) const {
     Row row;
     row.set("problem", problem.name());
-    std::vector<double> objectives;
-    const Trajectory* start = nullptr;
-    for (const auto& [route, trajectory] : outcome.finest) {
-      if (!trajectory) continue;
-      objectives.push_back(trajectory->cost);
-      row.set(route + "_objective", trajectory->cost);
-      if (start == nullptr) start = &*trajectory;
-    }
-    if (outcome.intervals > 0) {
-      objectives.push_back(outcome.replay.cost);
-      row.set("replay_objective", outcome.replay.cost);
-      row.set("replay_error", outcome.replay.norm());
-    }
-    if (with_indirect_ && start != nullptr) {
-      try {
-        const IndirectSolution indirect = solve_indirect(problem, *start);
-        objectives.push_back(indirect.cost());
-        row.set("indirect_objective", indirect.cost());
-        row.set("indirect_digits", indirect.certified_digits());
-      } catch (const Error& error) {  // says what of the problem it does not know
-        row.set("message", error.what());
+    std::map<std::string, const Row*> finest;  // by route
+    const Row* replayed = nullptr;
+    const auto intervals = [](const Row& solve) { return solve.number("intervals").value_or(0.0); };
+    const auto replay_of = [](const Row& solve) { return solve.number("replay_error").value_or(0.0); };
+    for (const Row& solve : table.rows()) {
+      if (solve.text("problem") != problem.name()) continue;
+      for (const char* column : {"indirect_objective", "indirect_digits"}) {
+        if (const auto value = solve.number(column)) row.set(column, value);
       }
+      if (!solve.text("indirect_message").empty()) row.set("message", solve.text("indirect_message"));
+      if (solve.text("status") != "solved" || !solve.number("objective")) continue;
+      const Row*& best = finest[solve.text("tableau") + solve.text("stages")];
+      if (best == nullptr || intervals(*best) <= intervals(solve)) best = &solve;
+      if (!solve.number("replay_error")) continue;
+      const bool is_better = replayed == nullptr || intervals(*replayed) < intervals(solve) ||
+                             (intervals(*replayed) == intervals(solve) && replay_of(solve) < replay_of(*replayed));
+      if (is_better) replayed = &solve;
     }
+    std::vector<double> objectives;
+    for (const auto& [route, solve] : finest) {
+      const double objective = solve->number("objective").value_or(0.0);
+      objectives.push_back(objective);
+      row.set(route + "_objective", objective);
+    }
+    if (replayed != nullptr) {
+      const double objective = replayed->number("replay_objective").value_or(0.0);
+      objectives.push_back(objective);
+      row.set("replay_objective", objective);
+      row.set("replay_error", replay_of(*replayed));
+    }
+    if (const auto indirect = row.number("indirect_objective")) objectives.push_back(*indirect);
     judge(problem, objectives, row);
     return row;
   }
@@ -183,7 +204,7 @@ class Certify final : public Experiment {
 
   std::vector<std::string> route_names_{"gauss3", "lobatto4"};
   bool with_indirect_ = true;
-  std::vector<Outcome> outcomes_;
+  std::vector<Subject> problems_;  // in the order of the cases
 };
 
 }  // namespace

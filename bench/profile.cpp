@@ -7,6 +7,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/summary/library_table.hpp"
 #include "bench/summary/performance_profile.hpp"
 
 namespace dmocbench {
@@ -19,7 +20,8 @@ class Profile final : public Experiment {
   [[nodiscard]] std::string description() const override {
     return "Every problem by every method from the problem's own guess: performance profiles after Dolan and Moré "
            "(NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual below the "
-           "tolerance and a cost within --objective-tolerance of the reference; all else counts as never.";
+           "tolerance and a cost within --objective-tolerance of the reference; all else counts as never. "
+           "NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the reference.";
   }
   [[nodiscard]] std::string default_intervals() const override { return "32,64,128"; }
   void set_defaults(ExperimentOptions& options) const override {
@@ -31,7 +33,8 @@ class Profile final : public Experiment {
   [[nodiscard]] bool problems_are_independent() const override { return true; }
   [[nodiscard]] bool tells_branches() const override { return false; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {
-    std::vector<std::string> columns{"success", "reference_objective", "objective_error", "evaluations"};
+    std::vector<std::string> columns{"success", "reference_objective", "reference_digits", "objective_error",
+                                     "evaluations"};
     columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
     return columns;
   }
@@ -56,6 +59,7 @@ class Profile final : public Experiment {
     const auto reference = solved.what.problem->reference_optimum();
     if (!reference) return;
     row.set("reference_objective", reference->objective);
+    row.set("reference_digits", static_cast<long long>(reference->digits));
     if (!is_solved(solved.solution.status) || !solved.trajectory) return;
     const double error = std::abs(solved.trajectory->cost - reference->objective);
     row.set("objective_error", error);
@@ -67,6 +71,9 @@ class Profile final : public Experiment {
     write_file(prefix.string() + "_profiles.csv", performance_profiles(table).csv());
     const Table summary = profile_summary(table);
     write_file(prefix.string() + "_summary.csv", summary.csv());
+    const Table library = library_table(table);
+    write_file(prefix.string() + "_library.csv", library.csv());
+    write_file(prefix.string() + "_library.md", library_table_in_markdown(library));
     metadata["success"] = {{"objective_tolerance", objective_tolerance_}, {"most_seconds", most_seconds_}};
     for (const Row& row : summary.rows()) {
       fmt::print("{:<12} {} {} {:<6} {} of {} instances\n", row.text("method"), row.text("tableau"), row.text("stages"),

@@ -52,9 +52,9 @@ do for [problem_word in problems_of("consistency_order", "error")] {
       set xlabel (quantity eq "left_force" || quantity eq "left_legendre" ? "step {/:Italic h}, as solved" : "")
       set ylabel formula(quantity)
       set key at graph 1.03, graph 1 left top font ",11" samplen 2.5
-      plot for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**real(guide[strstrt(guide, ",") + 1:*])\
+      plot for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**number(guide[strstrt(guide, ",") + 1:*])\
            with lines linetype 8,\
-           for [guide in guides] real(up_to_comma(guide)) * (x / x_high)**(1 + real(guide[strstrt(guide, ",") + 1:*]))\
+           for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**(1 + number(guide[strstrt(guide, ",") + 1:*]))\
            with lines linetype 9,\
            for [curve in curves] rows("consistency_order", curve.",quantity=".quantity, "error")\
            using (column("h")):(column("error") > smallest ? column("error") : NaN)\

@@ -22,7 +22,7 @@ guide_start(name, where, y) = sprintf(\
          column('%s') : NaN) name 'G' nooutput;\
      y_guide = G_min / 3", name, where, y, name, where, y, y)
 # Step of the reference among the rows without an error; 0 if the table holds no reference of its own.
-reference_step(name, where) = real(system(rows_awk("-v without=state_error -v where=".where, name).\
+reference_step(name, where) = number(system(rows_awk("-v without=state_error -v where=".where, name).\
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"step\") c = i; next }\
                  { h = $c } END { print h + 0 }'"))
 
@@ -88,7 +88,7 @@ do for [problem_word in problems_of(name, "state_error")] {
     eval guide_start(name, where.",".stage, "state_error")
     guides = guides.sprintf(" %.6g,%.6g,%d", x_guide, y_guide, 2 * int(entry(stage, "stages")))
   }
-  number(list, i) = i == 1 ? real(up_to_comma(list)) : number(list[strstrt(list, ",") + 1:*], i - 1)
+  nth(list, i) = i == 1 ? number(up_to_comma(list)) : nth(list[strstrt(list, ",") + 1:*], i - 1)
   eval power_axis("xy")
   eval finer_tics("x")
   eval set_range("x", x_low, x_high, 1.3)
@@ -103,8 +103,8 @@ do for [problem_word in problems_of(name, "state_error")] {
     plot for [curve in curves] rows(name, curve, "state_error") using (column("step")):(column("state_error"))\
          with linespoints linetype method_style(entry(curve, "method"))\
          title with_slope(stage_label(curve), slope(name."_slopes", curve, "state")),\
-         for [guide in guides] number(guide, 2) * (x / number(guide, 1))**number(guide, 3)\
-         with lines linetype 8 dashtype (10 - number(guide, 3), 5) title sprintf("C h^%d", number(guide, 3))
+         for [guide in guides] nth(guide, 2) * (x / nth(guide, 1))**nth(guide, 3)\
+         with lines linetype 8 dashtype (10 - nth(guide, 3), 5) title sprintf("C h^%d", nth(guide, 3))
     eval end_figure(kind, figure)
   }
 }

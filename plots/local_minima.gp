@@ -6,7 +6,7 @@ plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 minima = "local_minima_minima"
 shares = "local_minima_shares"
-eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best")
+eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,replay_confirmed")
 eval require(shares,\
     "problem,method,tableau,stages,intervals,starts,solved,best,share,share_lower,share_upper")
 
@@ -18,9 +18,10 @@ two_lines(label) = strstrt(label, " ") > 0\
     ? label[1:strstrt(label, " ") - 1]."\n".label[strstrt(label, " ") + 1:*] : label."\n"
 method_tic(where, method) = sprintf("%s\n%s of %s", two_lines(method_label(method)),\
     share_field(where.",method=".method, "solved"), share_field(where.",method=".method, "starts"))
-# Minima below the best are no motions: no replay confirms them.
-minimum_tic(objective, number, best) = system("printf %.4g ".objective).(number == best ? "\n{/:Bold best}"\
-    : best == 0 || number < best ? "\nspurious" : "\n")
+# What no replay confirms is no motion, or one that the grid is too coarse for.
+minimum_tic(where, number, best) = system("printf %.4g ".entry(distinct(minima, "objective", where, ""), "objective"))\
+    .(number == best ? "\n{/:Bold best}"\
+      : entry(distinct(minima, "replay_confirmed", where, ""), "replay_confirmed") eq "no" ? "\nunconfirmed" : "\n")
 
 do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   problem = entry(group, "problem")
@@ -52,14 +53,13 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.79; set bmargin at screen 0.19
     set xtics nomirror scale 0 () font ",13"
     do for [i = 1:drawn] {
-      row = group.",minimum=".i
-      set xtics add (minimum_tic(entry(distinct(minima, "objective", row, ""), "objective"), i, best) i)
+      set xtics add (minimum_tic(group.",minimum=".i, i, best) i)
     }
     set ytics nomirror; set grid noxtics ytics
     set format y "%g"
     set xrange [0.5:drawn + 0.5]
     set yrange [0:1.1 * highest]
-    set xlabel axis_label("cost J of the minimum", problem, "cost_unit") offset 0, -0.3
+    set xlabel axis_label("cost J of the minimum", problem, "cost_unit") offset 0, -0.7
     set ylabel "starts that ended there"
     set key at graph 0.5, graph 1.02 center bottom vertical maxrows 2 width -2 font ",12"
     set style fill solid 1.0 noborder

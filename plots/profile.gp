@@ -122,8 +122,16 @@ do for [k = -3:7] {
   do for [d in "1 1.5 2 3 4 6"] { times_many = add_time(times_many, d * 10.0**k) }
 }
 
+# The competitors, by number, that have points on a problem.
+competitors_on(problem_word) = numbers_of(system(rows_awk(met.",".problem_word.\
+    " -v distinct=method,tableau,stages,solver", "profile")))
+numbers_of(present) = system("echo '".present."' | tr ' ' '\n' | awk -v all='".all_drawn."' '\
+    BEGIN { n = split(all, place, \" \"); for (i = 1; i <= n; ++i) number[place[i]] = i }\
+    $1 in number { printf \"%d \", number[$1] }'")
+all_drawn = ""
+do for [i = 1:count] { all_drawn = all_drawn.where_of(i)." " }
+
 height = 150 + 235 * lines
-no_rows = "< printf 'seconds,objective_error\nNaN,NaN\n'"
 do for [kind in kinds] {
   eval begin_figure(kind, "library_work_precision", 1400, height)
   set multiplot layout lines, columns title title_text(\
@@ -156,9 +164,15 @@ do for [kind in kinds] {
       set label 1 (place_in(without_reference, problem_word) > 0 ? "no reference cost\nto compare with"\
           : "no solve met\nthe reference's cost") at graph 0.5, 0.55 center font ",13" textcolor rgb grey
     }
-    plot for [i = 1:count] drawn ? solved_rows(problem_word.",".where_of(i)) : no_rows\
-           using (column("seconds")):(column("objective_error")) with linespoints linetype 20 + i,\
-         for [i = 1:p == 1 ? count : 0] keyentry with linespoints linetype 20 + i title label_of(i)
+    legend = p == 1 ? count : 0
+    if (drawn) {
+      here = competitors_on(problem_word)
+      plot for [i in here] solved_rows(problem_word.",".where_of(int(number(i))))\
+             using (column("seconds")):(column("objective_error")) with linespoints linetype 20 + int(number(i)),\
+           for [i = 1:legend] keyentry with linespoints linetype 20 + i title label_of(i)
+    } else {
+      plot NaN, for [i = 1:legend] keyentry with linespoints linetype 20 + i title label_of(i)
+    }
     unset label 1; unset label 100; unset label 101
     set xtics nomirror; set ytics nomirror
   }

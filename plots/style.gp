@@ -34,13 +34,17 @@ measure(name, where, x, y) = sprintf("unset logscale; set autoscale;\
     stats rows('%s', '%s', '%s') using (column('%s')):(column('%s')) name 'S' nooutput;\
     x_low = S_min_x; x_high = S_max_x; y_low = S_min_y; y_high = S_max_y", name, where, y, x, y)
 
+# A number from its text. gnuplot 5.4 stops at the "e" of "1e-05", which "1.e-05" spares it.
+number(text) = strstrt(text, "e") == 0 || strstrt(text, ".") > 0 ? real(text)\
+    : real(text[1:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):*])
+
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
 slope_fields(name, where, quantity) = exists_table(name) ? system(rows_awk(sprintf(\
     "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s'", entry(where, "problem"),\
     entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity), name).\
     " | awk -F, 'NR == 2 { print $6, $7 }'") : ""
 slope_text(fields) =\
-    words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", real(word(fields, 1)), real(word(fields, 2)))
+    words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", number(word(fields, 1)), number(word(fields, 2)))
 slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity))
 with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
 

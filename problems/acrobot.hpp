@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -42,12 +43,7 @@ class Acrobot final : public Problem {
              .lower = 0.0,
              .upper = 1.0,
              .whole = true},
-            {.name = "horizon",
-             .value = 4.0,
-             .unit = "s",
-             .meaning = "duration T of the swing-up",
-             .lower = 1e-3,
-             .upper = 1e3},
+            horizon_parameter(4.0, "swing-up"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "acrobot"; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -23,12 +24,7 @@ class Brachistochrone final : public Problem {
       : Problem({
             {.name = "width", .value = 10.0, .unit = "m", .meaning = "x of the end", .lower = 1e-3, .upper = 1e3},
             {.name = "drop", .value = 5.0, .unit = "m", .meaning = "y lost on the way", .lower = 1e-3, .upper = 1e3},
-            {.name = "gravity",
-             .value = 9.80665,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 1e-3,
-             .upper = 1e3},
+            gravity_parameter(1e-3, 9.80665),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "brachistochrone"; }

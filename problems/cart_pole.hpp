@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -35,24 +36,14 @@ class CartPole final : public Problem {
              .meaning = "length l of the pole",
              .lower = 1e-3,
              .upper = 1e3},
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 0.0,
-             .upper = 1e3},
+            gravity_parameter(0.0),
             {.name = "distance",
              .value = 1.0,
              .unit = "m",
              .meaning = "distance d that the cart travels",
              .lower = -2.0,
              .upper = 2.0},
-            {.name = "horizon",
-             .value = 2.0,
-             .unit = "s",
-             .meaning = "duration T of the swing-up",
-             .lower = 1e-3,
-             .upper = 1e3},
+            horizon_parameter(2.0, "swing-up"),
             {.name = "bounded",
              .value = 1.0,
              .unit = "",

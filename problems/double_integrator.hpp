@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -18,12 +19,7 @@ class DoubleIntegrator final : public Problem {
              .meaning = "distance d to travel",
              .lower = 1e-3,
              .upper = 1e3},
-            {.name = "horizon",
-             .value = 1.0,
-             .unit = "s",
-             .meaning = "duration T of the motion",
-             .lower = 1e-3,
-             .upper = 1e3},
+            horizon_parameter(1.0, "motion"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_integrator"; }

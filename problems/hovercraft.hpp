@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 #include "problems/default_parameters.hpp"
 
 namespace dmocbench {
@@ -29,7 +30,7 @@ class Hovercraft final : public Problem {
              .meaning = "distance r of the forces behind the centre",
              .lower = 1e-3,
              .upper = 1e2},
-            {.name = "horizon", .value = 5.0, .unit = "s", .meaning = "duration T", .lower = 1e-3, .upper = 1e3},
+            horizon_parameter(5.0),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "hovercraft"; }

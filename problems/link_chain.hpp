@@ -5,6 +5,7 @@
 #include <string>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 #include "problems/default_parameters.hpp"
 
 namespace dmocbench {
@@ -30,18 +31,8 @@ class LinkChain final : public Problem {
              .whole = true},
             {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of a rod", .lower = 1e-3, .upper = 1e3},
             {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of a rod", .lower = 1e-3, .upper = 1e3},
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 0.0,
-             .upper = 1e3},
-            {.name = "horizon",
-             .value = 1.0,
-             .unit = "s",
-             .meaning = "duration T of the swing-up",
-             .lower = 1e-3,
-             .upper = 1e3},
+            gravity_parameter(0.0),
+            horizon_parameter(1.0, "swing-up"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "link_chain"; }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -119,18 +120,8 @@ class PlanarQuadrotor : public Problem {
              .meaning = "distance r of the rotors from the centre",
              .lower = 1e-3,
              .upper = 1e2},
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 0.0,
-             .upper = 1e3},
-            {.name = "horizon",
-             .value = duration,
-             .unit = "s",
-             .meaning = "duration T of the flight",
-             .lower = 1e-3,
-             .upper = 1e3},
+            gravity_parameter(0.0),
+            horizon_parameter(duration, "flight"),
             {.name = "bounded",
              .value = 0.0,
              .unit = "",

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 #include "problems/default_parameters.hpp"
 
 namespace dmocbench {
@@ -20,12 +21,7 @@ class SphericalPendulum final : public Problem {
       : Problem({
             {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of the bob", .lower = 1e-3, .upper = 1e3},
             {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of the rod", .lower = 1e-3, .upper = 1e3},
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 1e-3,
-             .upper = 1e3},
+            gravity_parameter(1e-3),
             {.name = "initial_cone",
              .value = std::numbers::pi / 4.0,
              .unit = "rad",
@@ -45,7 +41,7 @@ class SphericalPendulum final : public Problem {
              .lower = 0.0,
              .upper = 100.0,
              .whole = true},
-            {.name = "horizon", .value = 1.5, .unit = "s", .meaning = "duration T", .lower = 1e-3, .upper = 1e3},
+            horizon_parameter(1.5),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "spherical_pendulum"; }

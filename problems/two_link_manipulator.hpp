@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 #include "problems/default_parameters.hpp"
 
 namespace dmocbench {
@@ -34,18 +35,8 @@ class TwoLinkManipulator final : public Problem {
              .meaning = "inertia of link 2 about its centre",
              .lower = 1e-6,
              .upper = 1e6},
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 0.0,
-             .upper = 1e3},
-            {.name = "horizon",
-             .value = 1.0,
-             .unit = "s",
-             .meaning = "duration T of the swing-up",
-             .lower = 1e-3,
-             .upper = 1e3},
+            gravity_parameter(0.0),
+            horizon_parameter(1.0, "swing-up"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "two_link_manipulator"; }

@@ -8,6 +8,7 @@
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
+#include "methods/transcription/violation_in_words.hpp"
 
 namespace dmocbench {
 
@@ -125,6 +126,8 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
     }
   }
 
+  const std::string missed = violation_in_words(*what.problem, transcription, solution, options.tolerance);
+  if (!missed.empty()) solution.message += " " + missed;
   describe(result);
   Row& row = result.row;
   row.set("step", transcription.steps(result.start).maxCoeff() * what.problem->time_unit().factor);

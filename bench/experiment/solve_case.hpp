@@ -33,9 +33,10 @@ struct Start {
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
-/// part of the result. The solver sees the case's derivatives; residuals and status are those of the exact ones
-/// whatever they are, so that wrong derivatives cannot confirm themselves. Throws `Error` on misuse only.
-/// With `polishes` the answer is tightened by Newton steps (column polish_steps; no time counts them).
+/// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
+/// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
+/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps (column polish_steps; no time
+/// counts them).
 [[nodiscard]] SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats,
                                     bool polishes = false);
 

@@ -114,7 +114,13 @@ const StartSource::CommonStart& StartSource::common_start(const Case& solved_cas
   const Key key{solved_case.problem->name(), solved_case.tableau, solved_case.stages};
   const auto found = common_.find(key);
   if (found != common_.end()) return found->second;
-  return common_.emplace(key, find_common_start(solved_case)).first->second;
+  if (const auto none = without_.find(key); none != without_.end()) throw NoStart(none->second);
+  try {
+    return common_.emplace(key, find_common_start(solved_case)).first->second;
+  } catch (const NoStart& reason) {
+    without_.emplace(key, reason.what());  // to look again would take as long and find as little
+    throw;
+  }
 }
 
 StartSource::CommonStart StartSource::find_common_start(const Case& solved_case) const {

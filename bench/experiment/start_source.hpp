@@ -61,6 +61,7 @@ class StartSource {
   std::string kind_;
   SolverOptions options_;
   std::map<Key, CommonStart> common_;
+  std::map<Key, std::string> without_;  // and why
 };
 
 }  // namespace dmocbench

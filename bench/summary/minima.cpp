@@ -84,8 +84,8 @@ std::vector<std::string> methods_in(const Table& rows) {
 }  // namespace
 
 Table distinct_minima(const Table& rows, double separation, double confirmed_replay) {
-  std::vector<std::string> columns{"problem",   "tableau", "stages",    "solver", "derivatives",
-                                   "intervals", "minimum", "objective", "is_best"};
+  std::vector<std::string> columns{"problem",   "tableau", "stages",    "solver",  "derivatives",
+                                   "intervals", "minimum", "objective", "is_best", "replay_confirmed"};
   const std::vector<std::string> methods = methods_in(rows);
   columns.insert(columns.end(), methods.begin(), methods.end());
   Table table(columns);
@@ -97,6 +97,7 @@ Table distinct_minima(const Table& rows, double separation, double confirmed_rep
       row.set("minimum", static_cast<long long>(i + 1));
       row.set("objective", minima[i].objective);
       row.set("is_best", i == best ? "yes" : "no");
+      row.set("replay_confirmed", minima[i].confirmed ? "yes" : "no");
       for (const std::string& method : methods) row.set(method, minima[i].ended_by(method));
       table.append(std::move(row));
     }

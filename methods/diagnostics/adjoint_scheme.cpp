@@ -13,15 +13,6 @@ namespace dmocbench {
 
 namespace {
 
-/// a_ij -> b_j - b_j a_ji / b_i.
-Eigen::MatrixXd conjugate(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  Eigen::MatrixXd result(a.rows(), a.cols());
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    for (Eigen::Index j = 0; j < a.cols(); ++j) result(i, j) = b[j] - b[j] * a(j, i) / b[i];
-  }
-  return result;
-}
-
 /// The adjoint equations at a stage, with F = L_q + f, G = C + ψ^q·v + ψ^p·F at fixed v, and v = v(q, p):
 /// ∂v/∂p = L_vv⁻¹ and ∂v/∂q = -L_vv⁻¹ L_vq give φ^p = -L_vv⁻¹ G_v, φ^q = -G_q - L_vqᵀ φ^p.
 class AdjointEquations {
@@ -95,7 +86,8 @@ double size_of(const Eigen::MatrixXd& values) {
 }  // namespace
 
 AdjointCoefficients adjoint_coefficients(const Tableau& tableau) {
-  return {.a_q = conjugate(tableau.a, tableau.b), .a_p = conjugate(tableau.a_conjugate, tableau.b)};
+  return {.a_q = conjugate_coefficients(tableau.a, tableau.b),
+          .a_p = conjugate_coefficients(tableau.a_conjugate, tableau.b)};
 }
 
 double AdjointResidual::largest() const { return std::max({step_q, step_p, stage_q, stage_p, control.value_or(0.0)}); }

@@ -18,7 +18,6 @@ namespace dmocbench {
 struct PartPlaces {
   std::vector<ColumnPlace> unknowns;
   std::vector<ColumnPlace> rows;
-  std::size_t variable_count = 0;
   std::size_t row_count = 0;
   DerivativePlaces derivatives;
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 #include <Eigen/LU>
@@ -16,8 +17,8 @@ namespace dmocbench {
 
 namespace {
 
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+using LongMatrix = Eigen::MatrixX<long double>;
+using LongVector = Eigen::VectorX<long double>;
 
 constexpr int most_stages = 4;
 constexpr int fewest_lobatto_stages = 2;
@@ -26,8 +27,8 @@ constexpr int fewest_lobatto_stages = 2;
 std::vector<long double> gauss_nodes(int stages) {
   const auto positive = boost::math::legendre_p_zeros<long double>(stages);  // the zeros >= 0, ascending
   std::vector<long double> nodes;
-  for (auto zero = positive.rbegin(); zero != positive.rend(); ++zero) {
-    if (*zero > 0.0L) nodes.push_back((1.0L - *zero) / 2.0L);
+  for (const long double zero : positive | std::views::reverse) {
+    if (zero > 0.0L) nodes.push_back((1.0L - zero) / 2.0L);
   }
   for (const long double zero : positive) nodes.push_back((1.0L + zero) / 2.0L);
   return nodes;
@@ -71,14 +72,10 @@ Tableau collocation_tableau(std::string family, const std::vector<long double>& 
   const LongMatrix a = solution.leftCols(s).transpose();
   const LongVector b = solution.col(s);
   if ((b.array() <= 0.0L).any()) throw Error("the weights of a tableau must be positive");
-  LongMatrix conjugate(s, s);
-  for (Eigen::Index i = 0; i < s; ++i) {
-    for (Eigen::Index j = 0; j < s; ++j) conjugate(i, j) = b[j] - b[j] * a(j, i) / b[i];
-  }
   Tableau tableau;
   tableau.family = std::move(family);
   tableau.a = a.cast<double>();
-  tableau.a_conjugate = conjugate.cast<double>();
+  tableau.a_conjugate = conjugate_coefficients(a, b).cast<double>();
   tableau.b = b.cast<double>();
   tableau.c = Eigen::Map<const LongVector>(nodes.data(), s).cast<double>();
   tableau.order = order;

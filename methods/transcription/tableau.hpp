@@ -24,6 +24,18 @@ struct Tableau {
   [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
 };
 
+/// The coefficients that make a symplectic pair with the given ones: ã_ij = b_j - b_j a_ji / b_i (eq:DMOC_RK_symp), s ×
+/// s of weights b with s entries, none of them 0. Twice gives the given ones back.
+template <class Scalar>
+[[nodiscard]] Eigen::MatrixX<Scalar> conjugate_coefficients(const Eigen::MatrixX<Scalar>& a,
+                                                            const Eigen::VectorX<Scalar>& b) {
+  Eigen::MatrixX<Scalar> conjugate(a.rows(), a.cols());
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j) conjugate(i, j) = b[j] - b[j] * a(j, i) / b[i];
+  }
+  return conjugate;
+}
+
 /// The collocation tableau whose stages are the given nodes (distinct, in [0, 1]):
 /// a_ij = ∫₀^{c_i} ℓ_j, b_j = ∫₀¹ ℓ_j with ℓ_j the Lagrange polynomials; Ã is computed from (eq:DMOC_RK_symp).
 /// Throws `Error` if nodes coincide or a weight is not positive.

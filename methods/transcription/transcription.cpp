@@ -140,7 +140,6 @@ long long Transcription::fixed_variables_of_an_interval() const {
 PartPlaces Transcription::interval_places() const {
   return {.unknowns = layout_.unknown_places(),
           .rows = layout_.row_places(),
-          .variable_count = layout_.variable_count(),
           .row_count = layout_.row_count(),
           .derivatives = {.intervals = layout_.intervals(),
                           .mode = AssemblyMode::whole,
@@ -159,7 +158,6 @@ PartPlaces Transcription::end_places(const EndFunctions& functions) {
   const auto hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(functions, unknowns, 1));
   return {.unknowns = unknowns,
           .rows = rows,
-          .variable_count = layout_.variable_count(),
           .row_count = layout_.row_count(),
           .derivatives = {.intervals = 1,
                           .mode = AssemblyMode::part,

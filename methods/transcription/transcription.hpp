@@ -72,6 +72,8 @@ class Transcription final : public NonlinearProgram {
   /// None where the ends add nothing to the program.
   [[nodiscard]] const std::optional<EndFunctions>& end_functions() const noexcept { return end_functions_; }
   [[nodiscard]] double cost_scale() const noexcept { return cost_scale_; }
+  /// What the problem bounds, as it was checked.
+  [[nodiscard]] const ProblemBounds& bounds() const noexcept { return problem_bounds_; }
 
   /// T of the problem, or of its guess where it is free.
   [[nodiscard]] double guessed_horizon() const noexcept { return guessed_horizon_; }

@@ -1,0 +1,165 @@
+// A solve that failed says which function, interval and quantity its point misses most.
+#include "methods/transcription/violation_in_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "methods/program/kkt_residual.hpp"
+#include "methods/transcription/row_in_words.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::all_between;
+using tests::Restated;
+using tests::Scheme;
+using Statement = Restated::Statement;
+
+constexpr Eigen::Index violation_intervals = 12;
+
+bool says(const std::string& sentence, const std::string& part) { return sentence.find(part) != std::string::npos; }
+
+/// A point that a solver is said to have ended at.
+struct Ended {
+  explicit Ended(const Problem& stated, const Scheme& scheme, Status status = Status::iteration_limit)
+      : problem(stated), transcription(tests::transcribe(stated, scheme, Grid::uniform(violation_intervals))) {
+    solution.status = status;
+    solution.primal = sample(*transcription, guessed_motion(stated));
+  }
+  std::string words() { return violation_in_words(problem, *transcription, solution, 1e-8); }
+  double& control(Eigen::Index i, Eigen::Index interval) {
+    return solution.primal[static_cast<Eigen::Index>(transcription->layout().control_column(0, i)) + interval];
+  }
+
+  const Problem& problem;
+  std::unique_ptr<Transcription> transcription;
+  Solution solution;
+};
+
+class ViolationInWords : public testing::TestWithParam<Scheme> {};
+
+TEST_P(ViolationInWords, NamesTheEquationAndTheIntervalWhereAControlWasSpoilt) {
+  const tests::MovingFrame problem;
+  Ended ended(problem, GetParam());
+  ended.solution.primal =
+      tests::solve(problem, GetParam(), Grid::uniform(violation_intervals), guessed_motion(problem)).solution.primal;
+  EXPECT_EQ(ended.words(), "");
+  ended.control(1, 5) += 1.0;  // u_1 acts on q_1 alone
+  const std::string words = ended.words();
+  EXPECT_FALSE(says(words, "hold")) << words;  // nothing is bounded
+  EXPECT_PRED2(says, words, "lagrangian and force: the Euler-Lagrange equation of q[1] (q2) ");
+  const bool is_here =
+      says(words, "in interval 5 (t = 0.625 to 0.75)") || says(words, "between intervals 4 and 5 (t = 0.625)") ||
+      says(words, "between intervals 5 and 6 (t = 0.75)");  // DMOC's equations of the nodes lie between intervals
+  EXPECT_TRUE(is_here) << words;
+}
+
+TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
+  const tests::Pendulum reachable;
+  const Restated problem(reachable, [](Statement& s) { s.u = all_between(1, -0.5, 0.5); });
+  Ended ended(problem, GetParam());
+  ended.solution = make_solver("ipopt")->solve(*ended.transcription, ended.solution.primal);
+  ASSERT_EQ(ended.solution.status, Status::infeasible) << ended.solution.message;
+  const std::string words = ended.words();
+  EXPECT_PRED2(says, words, "Missed most is ");
+  EXPECT_PRED2(says, words, " of q[0] (q1) ");
+  EXPECT_PRED2(says, words, "(t = ");
+  EXPECT_PRED2(says, words, "control_bounds hold u[0] (u1) at ");
+  EXPECT_PRED2(says, words, "No motion near this one meets final_state within the bounds and the horizon.");
+  const std::size_t by = words.find(", by ");
+  ASSERT_NE(by, std::string::npos);
+  const double amount = std::stod(words.substr(by + 5));
+  EXPECT_NEAR(amount, constraint_violation(*ended.transcription, ended.solution.primal), 0.01 * amount);
+}
+
+TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
+  const tests::MovingFrame base;
+  const Restated path(base, [](Statement& s) {
+    s.path = [](const ControlledState& x) {
+      ExpressionVector h(2);
+      h << Expression(1.0) + x.q[0] * x.q[0], x.q[0] - 100.0 * (1.0 + x.t);
+      return h;
+    };
+  });
+  EXPECT_PRED2(says, Ended(path, GetParam()).words(), "Missed most is path_constraints[1] in interval 11 (");
+
+  const Restated velocity(base, [](Statement& s) {
+    s.v = Bounds{Eigen::Vector2d(-tests::infinity, 100.0), Eigen::Vector2d(tests::infinity, 200.0)};
+  });
+  EXPECT_PRED2(says, Ended(velocity, GetParam()).words(), "velocity_bounds: the velocity of q[1] (q2) in interval ");
+
+  const Restated conditions(base, [](Statement& s) {
+    s.last = tests::free_end(2);
+    s.conditions = [](const State&, const State& last) {
+      ExpressionVector r(3);
+      r << last.q[0] - 0.7, last.q[1] - 1e4, last.v[0];
+      return r;
+    };
+  });
+  EXPECT_PRED2(says, Ended(conditions, GetParam()).words(), "Missed most is boundary_conditions[1], by ");
+
+  const Restated bounded(base, [](Statement& s) {
+    s.u = Bounds{Eigen::Vector2d(-tests::infinity, 1e6), Eigen::Vector2d(tests::infinity, 2e6)};
+  });
+  Ended pushed(bounded, GetParam());
+  pushed.control(1, 3) = -1e6;
+  EXPECT_PRED2(says, pushed.words(), "control_bounds: u[1] (u2) in interval 3 (");
+}
+
+TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
+  const tests::Everything everything;
+  const Problem& problem = everything.problem();
+  Ended ended(problem, GetParam());
+  const auto place_in_words = [](const Place& place) -> std::string {
+    const bool is_last = place.index == violation_intervals;
+    if (place.kind == Place::Kind::border) return "";
+    if (place.kind == Place::Kind::interval || place.index == 0 || is_last) {
+      return " in interval " + std::to_string(is_last ? place.index - 1 : place.index) + " (t = ";
+    }
+    return " between intervals " + std::to_string(place.index - 1) + " and " + std::to_string(place.index) + " (t = ";
+  };
+  const IntervalStructure& structure = *ended.transcription->interval_structure();
+  std::set<std::string> all;
+  for (std::size_t i = 0; i < structure.rows.size(); ++i) {
+    const std::string words = row_in_words(problem, *ended.transcription, ended.solution.primal, i);
+    EXPECT_PRED2(says, words, place_in_words(structure.rows[i]));
+    all.insert(words);
+  }
+  for (const char* kind : {"the Euler-Lagrange equation of q[1] (q2)", "velocity_bounds: the velocity of q[1] (q2)",
+                           "path_constraints[0]", "path_constraints[1]", "boundary_conditions[0]"}) {
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const std::string& words) { return says(words, kind); }))
+        << kind;
+  }
+  for (std::size_t i = 0; i < structure.unknowns.size(); ++i) {
+    const std::string words = unknown_in_words(problem, *ended.transcription, ended.solution.primal, i);
+    EXPECT_PRED2(says, words, place_in_words(structure.unknowns[i]));
+  }
+}
+
+TEST_P(ViolationInWords, NamesWhatIsNotANumber) {
+  const tests::MovingFrame problem;
+  Ended ended(problem, GetParam(), Status::evaluation_failed);
+  ended.control(1, 7) = std::nan("");
+  EXPECT_PRED2(says, ended.words(), "u[1] (u2) in interval 7 (t = 0.875 to 1) is not a number.");
+}
+
+TEST_P(ViolationInWords, HasNothingToSayOfASolvedProgramOrWithoutAPoint) {
+  const tests::MovingFrame problem;
+  Ended solved(problem, GetParam(), Status::solved);
+  EXPECT_EQ(solved.words(), "");
+  Ended without(problem, GetParam(), Status::too_large);
+  without.solution.primal.resize(0);
+  EXPECT_EQ(without.words(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, ViolationInWords, testing::ValuesIn(tests::all_schemes(2)), [](const auto& scheme) {
+  return scheme.param.method + "_" + scheme.param.family + std::to_string(scheme.param.stages);
+});
+
+}  // namespace
+}  // namespace dmocbench
