@@ -10,27 +10,12 @@
 
 #include "bench/speed/benchmarks.hpp"
 #include "bench/speed/measurements.hpp"
+#include "bench/speed/start_benchmarks.hpp"
 #include "bench/speed/summary.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
-
-/// Google Benchmark's flags, ours first so that the user's win. Interleaving spreads a disturbance over all benchmarks:
-/// ratios within a run suffer less from a shared machine than times do. False if there is a flag that nobody knows.
-bool initialize(const char* program, std::span<char* const> flags) {
-  static std::vector<std::string> arguments;  // the library keeps a pointer to the program's name
-  arguments = {program, "--benchmark_repetitions=5", "--benchmark_min_time=0.05",
-               "--benchmark_enable_random_interleaving=true"};
-  arguments.insert(arguments.end(), flags.begin(), flags.end());
-  std::vector<char*> pointers;
-  pointers.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  int count = static_cast<int>(pointers.size());
-  pointers.push_back(nullptr);
-  benchmark::Initialize(&count, pointers.data());
-  return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
-}
 
 void run() {
   const std::vector<std::string> problems{"orbital_transfer", "two_link_manipulator"};

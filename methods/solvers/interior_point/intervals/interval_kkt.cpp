@@ -113,38 +113,42 @@ Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, co
   kernel_.backward(*plan_, arrays, group_);
   if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
   if (!(group_.smallest_pivot > smallest_pivot)) return Verdict::wrong_inertia;
-  SegmentValue value = value_of(lane_count - 1);
-  const Eigen::VectorXd weights = weights_.values();
-  weights_.learn(value.Gamma);
-  chain_.start(value, weights);
-  for (int segment = lane_count - 2; segment >= 0; --segment) {
-    value = value_of(segment);
-    weights_.learn(value.Gamma);
-    if (!chain_.join(value)) return Verdict::wrong_inertia;
+  for (int segment = lane_count - 1; segment >= 0; --segment) {
+    read_value(segment);
+    weights_.learn(segment_value_.Gamma);
+    if (segment == lane_count - 1) {
+      chain_.start(segment_value_, weights_.values());
+    } else if (!chain_.join(segment_value_)) {
+      return Verdict::wrong_inertia;
+    }
   }
-  return ends_.solve(matrix, slope, rows, chain_.total(), weights);
+  return ends_.solve(matrix, slope, rows, chain_.total(), weights_.values());
 }
 
-SegmentValue IntervalKkt::value_of(int segment) const {
+void IntervalKkt::read_value(int segment) {
   const Eigen::Index X = state_size(entries_.shape);
-  const auto value = [&](Eigen::Index i, Eigen::Index j) { return group_.value[(i + j * X) * lane_count + segment]; };
-  const auto reach = [&](Eigen::Index i, Eigen::Index j) { return group_.reach[(i + j * X) * lane_count + segment]; };
-  return {.P = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return value(i, j); }),
-          .p = Eigen::VectorXd::NullaryExpr(X, [&](auto i) { return value(i, X); }),
-          .Phi = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return value(i, X + 1 + j); }),
-          .Gamma = Eigen::MatrixXd::NullaryExpr(X, X, [&](auto i, auto j) { return reach(i, 1 + j); }),
-          .gamma = Eigen::VectorXd::NullaryExpr(X, [&](auto i) { return reach(i, 0); })};
+  const auto read = [&](const double* from, auto& to) {
+    for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = from[i * lane_count + segment];
+  };
+  segment_value_.P.resize(X, X);
+  segment_value_.p.resize(X);
+  segment_value_.Phi.resize(X, X);
+  segment_value_.Gamma.resize(X, X);
+  segment_value_.gamma.resize(X);
+  read(group_.value, segment_value_.P);
+  read(group_.value + X * X * lane_count, segment_value_.p);
+  read(group_.value + X * (X + 1) * lane_count, segment_value_.Phi);
+  read(group_.reach, segment_value_.gamma);
+  read(group_.reach + X * lane_count, segment_value_.Gamma);
 }
 
 void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                              Eigen::VectorXd& multiplier_step) {
-  Eigen::MatrixXd states;
-  Eigen::MatrixXd multipliers;
-  chain_.spread(ends_.state(), ends_.multiplier(), states, multipliers);
-  for (Eigen::Index i = 0; i < states.rows(); ++i) {
+  chain_.spread(ends_.state(), ends_.multiplier(), states_, multipliers_);
+  for (Eigen::Index i = 0; i < states_.rows(); ++i) {
     for (int segment = 0; segment < lane_count; ++segment) {
-      group_.state[i * lane_count + segment] = states(i, segment);
-      group_.multiplier[i * lane_count + segment] = multipliers(i, segment);
+      group_.state[i * lane_count + segment] = states_(i, segment);
+      group_.multiplier[i * lane_count + segment] = multipliers_(i, segment);
     }
   }
   primal_step.setZero();

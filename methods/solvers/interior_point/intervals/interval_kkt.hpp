@@ -40,7 +40,7 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
   [[nodiscard]] Verdict eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                   const Eigen::VectorXd& rows);
-  [[nodiscard]] SegmentValue value_of(int segment) const;
+  void read_value(int segment);
   void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                   Eigen::VectorXd& multiplier_step);
   void write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
@@ -61,7 +61,10 @@ class IntervalKkt : public KktSystem {
   LaneArray reach_;
   LaneArray state_;
   LaneArray multiplier_;
+  SegmentValue segment_value_;
   SegmentChain chain_;
+  Eigen::MatrixXd states_;  // at the first nodes of the segments, one column each
+  Eigen::MatrixXd multipliers_;
 };
 
 }  // namespace dmocbench::interior_point

@@ -12,9 +12,10 @@ namespace {
 
 /// L with Γ = LLᵀ for a matrix that is positive semidefinite up to rounding: a pivot that has vanished leaves a column
 /// of zeros.
-Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& gamma) {
+template <int size>
+Eigen::Matrix<double, size, size> semidefinite_factor(const Eigen::Matrix<double, size, size>& gamma) {
   const Eigen::Index n = gamma.rows();
-  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
+  Eigen::Matrix<double, size, size> factor = Eigen::Matrix<double, size, size>::Zero(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const double pivot = gamma(j, j) - factor.row(j).head(j).squaredNorm();
     if (!(pivot > static_cast<double>(n) * std::numeric_limits<double>::epsilon() * gamma(j, j))) continue;
@@ -26,53 +27,71 @@ Eigen::MatrixXd semidefinite_factor(const Eigen::MatrixXd& gamma) {
   return factor;
 }
 
-void symmetrise(Eigen::MatrixXd& matrix) { matrix = (0.5 * (matrix + matrix.transpose())).eval(); }
+template <class Matrix>
+Matrix symmetric_part(const Matrix& matrix) {
+  return 0.5 * (matrix + matrix.transpose());
+}
 
 }  // namespace
 
 void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& terminal_weights) {
   terminal_weights_ = terminal_weights;
   total_ = last;
-  joins_.clear();
+  count_ = 0;
 }
 
 bool SegmentChain::join(const SegmentValue& segment) {
+  // Sizes that the compiler knows need no memory of the heap, which would take longer than the numbers.
+  switch (total_.P.rows()) {
+    case 2:
+      return join_sized<2>(segment);
+    case 4:
+      return join_sized<4>(segment);
+    case 6:
+      return join_sized<6>(segment);
+    default:
+      return join_sized<Eigen::Dynamic>(segment);
+  }
+}
+
+template <int size>
+bool SegmentChain::join_sized(const SegmentValue& segment) {
+  using Matrix = Eigen::Matrix<double, size, size>;
+  using Vector = Eigen::Matrix<double, size, 1>;
   const Eigen::Index n = total_.P.rows();
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
-  Join join;
-  join.slope = total_.P;
-  join.slope.diagonal() -= terminal_weights_;
-  join.mixed = total_.Phi;
-  join.constant = total_.p;
+  const Matrix identity = Matrix::Identity(n, n);
+  const Matrix reach = segment.Gamma;
+  const Matrix Phi = segment.Phi;
+  const Matrix mixed = total_.Phi;
+  const Vector constant = total_.p;
+  Matrix slope = total_.P;
+  slope.diagonal() -= terminal_weights_;
   // The state y between and the multiplier ν' of the segment in front make (slope, -I; -I, -Γ): two such blocks have
   // the inertia of a minimum exactly if I + Lᵀ slope L is positive definite.
-  const Eigen::MatrixXd factor = semidefinite_factor(segment.Gamma);
-  if (Eigen::LLT<Eigen::MatrixXd>(identity + factor.transpose() * join.slope * factor).info() != Eigen::Success) {
-    return false;
-  }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> system(identity + segment.Gamma * join.slope);
-  join.state_state = system.solve(segment.Phi.transpose());
-  join.state_multiplier = -system.solve(segment.Gamma * join.mixed);
-  join.state_constant = system.solve(segment.gamma - segment.Gamma * join.constant);
+  const Matrix factor = semidefinite_factor<size>(reach);
+  if (Eigen::LLT<Matrix>(identity + factor.transpose() * slope * factor).info() != Eigen::Success) return false;
+  const Eigen::PartialPivLU<Matrix> system(identity + reach * slope);
+  const Matrix state_state = system.solve(Phi.transpose());
+  const Matrix state_multiplier = -system.solve(reach * mixed);
+  const Vector state_constant = system.solve(segment.gamma - reach * constant);
 
-  total_.gamma += join.mixed.transpose() * join.state_constant;
-  total_.Gamma -= join.mixed.transpose() * join.state_multiplier;
-  symmetrise(total_.Gamma);
-  total_.p = segment.p + segment.Phi * (join.slope * join.state_constant + join.constant);
-  total_.Phi = segment.Phi * (join.mixed + join.slope * join.state_multiplier);
-  total_.P = segment.P + segment.Phi * join.slope * join.state_state;
-  symmetrise(total_.P);
-  joins_.push_back(std::move(join));
+  total_.gamma += mixed.transpose() * state_constant;
+  total_.Gamma = symmetric_part<Matrix>(total_.Gamma - mixed.transpose() * state_multiplier);
+  total_.p = segment.p + Phi * (slope * state_constant + constant);
+  total_.Phi = Phi * (mixed + slope * state_multiplier);
+  total_.P = symmetric_part<Matrix>(segment.P + Phi * slope * state_state);
+  if (joins_.size() <= count_) joins_.emplace_back();
+  joins_[count_++] = {state_state, state_multiplier, state_constant, slope, mixed, constant};
   return true;
 }
 
 void SegmentChain::spread(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier, Eigen::MatrixXd& states,
                           Eigen::MatrixXd& multipliers) const {
-  states.resize(state.size(), static_cast<Eigen::Index>(joins_.size()) + 1);
+  states.resize(state.size(), static_cast<Eigen::Index>(count_) + 1);
   multipliers.resizeLike(states);
   states.col(0) = state;
-  for (std::size_t s = 0; s < joins_.size(); ++s) {
-    const Join& join = joins_[joins_.size() - 1 - s];
+  for (std::size_t s = 0; s < count_; ++s) {
+    const Join& join = joins_[count_ - 1 - s];
     const auto column = static_cast<Eigen::Index>(s);
     states.col(column + 1) =
         join.state_state * states.col(column) + join.state_multiplier * multiplier + join.state_constant;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -49,7 +50,11 @@ class SegmentChain {
 
   Eigen::VectorXd terminal_weights_;
   SegmentValue total_;
-  std::vector<Join> joins_;  // last to first
+  template <int size>
+  [[nodiscard]] bool join_sized(const SegmentValue& segment);
+
+  std::vector<Join> joins_;  // last to first; the first `count_` of them are of this chain
+  std::size_t count_ = 0;
 };
 
 }  // namespace dmocbench::interior_point
