@@ -17,8 +17,6 @@ namespace dmocbench {
 
 namespace {
 
-/// A fitted slope may miss its order by this much.
-constexpr double near_order = 0.3;
 /// Residuals of the adjoint scheme, relative to the costates, that are rounding; and what only other coefficients
 /// leave.
 constexpr double rounding_of_costates = 1e-9;

@@ -26,8 +26,6 @@ constexpr double clearly_larger = 1e3;
 constexpr double equal_solutions_tolerance = 1e-9;
 constexpr double equal_costates_tolerance = 1e-8;
 constexpr double foreign_rows_tolerance = 1e-10;
-/// A fitted slope may miss its order by this much.
-constexpr double near_order = 0.3;
 
 }  // namespace
 

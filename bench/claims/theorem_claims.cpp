@@ -17,8 +17,6 @@ namespace {
 
 /// With four stages errors reach the rounding of double coefficients before they are asymptotic.
 constexpr double most_stages = 3;
-/// A fitted slope may miss its order by this much.
-constexpr double near_order = 0.3;
 /// Largest momentum defects of 400 steps that are rounding, in double and in long double.
 constexpr double rounding_in_double = 1e-11;
 constexpr double rounding_in_long_double = 1e-14;

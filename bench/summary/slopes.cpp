@@ -25,17 +25,17 @@ constexpr double rounding_level = 1e-11;
 constexpr double above_floor = 100.0;
 constexpr std::size_t fewest_grids = 4;
 
-constexpr std::array quantities{"state",
-                                "control",
-                                "momentum",
-                                "costate",
-                                "objective",
-                                "replay",
-                                "control_from_costate",
-                                "stage_configuration",
-                                "stage_momentum",
-                                "stage_costate_q",
-                                "stage_costate_p"};
+constexpr std::array fitted_quantities{"state",
+                                       "control",
+                                       "momentum",
+                                       "costate",
+                                       "objective",
+                                       "replay",
+                                       "control_from_costate",
+                                       "stage_configuration",
+                                       "stage_momentum",
+                                       "stage_costate_q",
+                                       "stage_costate_p"};
 
 const std::vector<std::string> slope_columns{"problem",        "method", "tableau",  "stages", "quantity", "slope",
                                              "standard_error", "finest", "coarsest", "points", "floor",    "verdict"};
@@ -124,7 +124,7 @@ using Floors = std::map<std::tuple<std::string, std::string, std::string>, doubl
 Floors measured_floors(const std::vector<Curve>& curves) {
   Floors floors;
   for (const Curve& curve : curves) {
-    for (const std::string quantity : quantities) {
+    for (const std::string quantity : fitted_quantities) {
       const auto floor = measured_floor(asymptotic_errors(curve, quantity + "_error").points);
       if (!floor) continue;
       const auto found = floors.try_emplace({curve.problem, curve.method, quantity}, *floor).first;
@@ -226,7 +226,7 @@ SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& r
   for (const Curve& curve : curves) {
     const FitRange fitted =
         is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, result.notes);
-    for (const std::string quantity : quantities) {
+    for (const std::string quantity : fitted_quantities) {
       const Fit fit = is_exact && !range
                           ? above_the_floor(curve, quantity + "_error", floor_of(floors, curve, quantity))
                           : in_range(curve, quantity, fitted);

@@ -6,14 +6,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
-  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
-}
-
-}  // namespace
-
 /// Inputs: q_0, q_1, the interior slopes, the stage controls, h, t.
 struct DiscreteLagrangian::Formulas {
   Eigen::Index n;

@@ -18,10 +18,6 @@ using PhaseVector = std::vector<long double>;
 
 constexpr long double tolerance = 1e-17L;
 
-void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
-  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
-}
-
 /// The parts of the integrated vector, one behind the other.
 template <class Long>
 struct Parts {

@@ -4,14 +4,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
-  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
-}
-
-}  // namespace
-
 /// Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior slopes), y = p or v where nodes carry them; the stage
 /// controls; h; t; p_0.
 template <class Scalar>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -44,6 +45,11 @@ using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynami
     inputs[i] = Expression::input(first + static_cast<std::size_t>(i));
   }
   return inputs;
+}
+
+/// Appends the entries, column by column.
+inline void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {
+  outputs.insert(outputs.end(), entries.data(), entries.data() + entries.size());
 }
 
 }  // namespace dmocbench

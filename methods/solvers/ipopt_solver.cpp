@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
+#include "methods/solvers/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 
 namespace dmocbench {
@@ -23,9 +24,6 @@ namespace {
 
 using Ipopt::Index;
 using Ipopt::Number;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Ipopt's view of a program; it collects the answer and the time spent in evaluations.
 class ProgramForIpopt final : public Ipopt::TNLP {

@@ -16,6 +16,7 @@
 #include <nlopt.h>
 
 #include "methods/error.hpp"
+#include "methods/solvers/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/one_sided_rows.hpp"
@@ -23,10 +24,6 @@
 namespace dmocbench {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Why we stopped NLopt, if we did.
 enum class OwnStop : std::uint8_t { none, converged, interrupted, not_finite, exception };

@@ -32,7 +32,7 @@ MadeBackEnd make_differences(const LocalFunctions& functions, const DerivativePl
 }
 
 // One line per back end, the default first.
-constexpr auto registry = std::to_array<Entry>({
+constexpr auto back_ends = std::to_array<Entry>({
     {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all",
      make<TapeDerivatives>},
 #ifdef DMOCBENCH_WITH_ADOLC
@@ -47,7 +47,7 @@ constexpr auto registry = std::to_array<Entry>({
 
 const Entry& entry_named(std::string_view name) {
   std::string known;
-  for (const Entry& entry : registry) {
+  for (const Entry& entry : back_ends) {
     if (entry.name == name) return entry;
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
@@ -62,8 +62,8 @@ const Entry& entry_named(std::string_view name) {
 
 std::vector<std::string> derivative_back_end_names() {
   std::vector<std::string> names;
-  names.reserve(registry.size());
-  for (const Entry& entry : registry) names.emplace_back(entry.name);
+  names.reserve(back_ends.size());
+  for (const Entry& entry : back_ends) names.emplace_back(entry.name);
   return names;
 }
 

@@ -9,6 +9,8 @@
 
 namespace dmocbench::tests {
 
+inline const std::vector<long long> sixteen_to_1024{16, 32, 64, 128, 256, 512, 1024};
+
 /// Errors and costs of a made-up method on N intervals.
 struct MadeUpMethod {
   std::string name = "dmoc";

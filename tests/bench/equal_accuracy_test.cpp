@@ -9,8 +9,7 @@ namespace {
 
 using tests::convergence_of;
 using tests::power_law;
-
-const std::vector<long long> sixteen_to_1024{16, 32, 64, 128, 256, 512, 1024};
+using tests::sixteen_to_1024;
 
 TEST(EqualAccuracy, PowerLawsGiveTheRatioOfTheirCosts) {
   // Four times the error at order 2: twice the intervals; and three times the time on the same grid.

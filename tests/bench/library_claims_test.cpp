@@ -12,7 +12,7 @@ namespace dmocbench {
 namespace {
 
 /// The verdict on a claim by its whole id.
-Verdict verdict_on(const ResultTables& results, const std::string& id) {
+Verdict verdict_of_claim(const ResultTables& results, const std::string& id) {
   for (const Claim& judged : judge_claims(results)) {
     if (judged.id == id) return judged.verdict;
   }
@@ -34,7 +34,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
     }
     ResultTables results;
     results.add("local_minima_minima", minima);
-    return verdict_on(results, "two_link_manipulator/local_minima");
+    return verdict_of_claim(results, "two_link_manipulator/local_minima");
   };
   EXPECT_EQ(verdict(1.0), Verdict::reproduced);
   EXPECT_EQ(verdict(0.0), Verdict::differs);
@@ -53,7 +53,7 @@ TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreAp
     }
     ResultTables results;
     results.add("local_minima_shares", shares);
-    return verdict_on(results, "two_link_manipulator/best_minimum_share");
+    return verdict_of_claim(results, "two_link_manipulator/best_minimum_share");
   };
   EXPECT_EQ(verdict(0.3, 0.6), Verdict::differs);
   EXPECT_EQ(verdict(0.5, 0.8), Verdict::reproduced);
@@ -71,7 +71,7 @@ TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOften) {
     }
     ResultTables results;
     results.add("profile_summary", summary);
-    return verdict_on(results, "library/dmoc_best_by_seconds");
+    return verdict_of_claim(results, "library/dmoc_best_by_seconds");
   };
   EXPECT_EQ(verdict(30.0, 20.0), Verdict::reproduced);
   EXPECT_EQ(verdict(20.0, 20.0), Verdict::differs);

@@ -9,8 +9,7 @@ namespace {
 
 using tests::convergence_of;
 using tests::power_law;
-
-const std::vector<long long> sixteen_to_1024{16, 32, 64, 128, 256, 512, 1024};
+using tests::sixteen_to_1024;
 
 /// The slope of one quantity; the test fails if there is not exactly one.
 Row slope_of(const SlopeTable& slopes, const std::string& quantity, const std::string& method = "dmoc") {

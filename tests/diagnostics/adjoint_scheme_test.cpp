@@ -6,7 +6,7 @@
 
 #include "methods/solvers/polish.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -15,12 +15,9 @@ namespace {
 
 using tests::Scheme;
 
-std::vector<std::unique_ptr<Problem>> problems() {
-  std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
+std::vector<std::unique_ptr<Problem>> problems_with_adjoints() {
+  std::vector<std::unique_ptr<Problem>> all = tests::problems();
   all.push_back(make_problem("forced_oscillator"));
-  all.push_back(std::make_unique<tests::MovingFrame>());
-  all.push_back(std::make_unique<tests::RelativisticSpring>());
   return all;
 }
 
@@ -33,7 +30,7 @@ std::vector<Scheme> schemes(const std::vector<std::string>& families) {
 }
 
 /// The polished solution; multipliers times `sign`.
-Trajectory solved(const Problem& problem, const Scheme& scheme, double sign = 1.0) {
+Trajectory polished(const Problem& problem, const Scheme& scheme, double sign = 1.0) {
   tests::Solved answer = tests::solve(problem, scheme, tests::graded_grid(24), tests::common_start(problem));
   polish(*answer.transcription, answer.solution);
   return read_trajectory(*answer.transcription, answer.solution.primal, sign * answer.solution.multipliers);
@@ -58,9 +55,9 @@ TEST(AdjointScheme, HasTheCoefficientsOfTheStateSchemeWithBothHalvesExchanged) {
 }
 
 TEST(AdjointScheme, ResidualIsAtRoundoffForEveryTableau) {
-  for (const auto& problem : problems()) {
+  for (const auto& problem : problems_with_adjoints()) {
     for (const Scheme& scheme : schemes({"gauss", "lobatto", "lobatto_shared"})) {
-      const AdjointResidual left = residual(*problem, solved(*problem, scheme));
+      const AdjointResidual left = residual(*problem, polished(*problem, scheme));
       EXPECT_LT(left.step_q, rounding) << problem->name() << ", " << scheme.label();
       EXPECT_LT(left.step_p, rounding) << problem->name() << ", " << scheme.label();
       EXPECT_LT(left.stage_q, rounding) << problem->name() << ", " << scheme.label();
@@ -75,7 +72,7 @@ TEST(AdjointScheme, PlainCoefficientsLeaveMuchMoreThanRounding) {
   // Gauss is its own conjugate and cannot tell; Lobatto IIIA and IIIB can.
   const auto problem = make_problem("two_link_manipulator");
   for (const Scheme& scheme : schemes({"lobatto"})) {
-    const Trajectory trajectory = solved(*problem, scheme);
+    const Trajectory trajectory = polished(*problem, scheme);
     const AdjointCoefficients plain{.a_q = trajectory.tableau.a, .a_p = trajectory.tableau.a_conjugate};
     const AdjointResidual left = adjoint_residual(*problem, trajectory, plain);
     EXPECT_GT(left.stage_q, far_above_rounding) << scheme.label();
@@ -84,9 +81,9 @@ TEST(AdjointScheme, PlainCoefficientsLeaveMuchMoreThanRounding) {
 }
 
 TEST(AdjointScheme, MultipliersWithTheWrongSignLeaveMuchMoreThanRounding) {
-  for (const auto& problem : problems()) {
+  for (const auto& problem : problems_with_adjoints()) {
     for (const Scheme& scheme : schemes({"gauss"})) {
-      const double left = residual(*problem, solved(*problem, scheme, -1.0)).largest();
+      const double left = residual(*problem, polished(*problem, scheme, -1.0)).largest();
       EXPECT_GT(left, far_above_rounding) << problem->name() << ", " << scheme.label();
     }
   }
@@ -94,7 +91,7 @@ TEST(AdjointScheme, MultipliersWithTheWrongSignLeaveMuchMoreThanRounding) {
 
 TEST(AdjointScheme, ADisturbedCostateIsSeen) {
   const auto problem = make_problem("two_link_manipulator");
-  const Trajectory good = solved(*problem, {"dmoc", 2});
+  const Trajectory good = polished(*problem, {"dmoc", 2});
   for (Eigen::MatrixXd Trajectory::*table :
        {&Trajectory::psi_q, &Trajectory::psi_p, &Trajectory::stage_psi_q, &Trajectory::stage_psi_p}) {
     Trajectory disturbed = good;
@@ -107,18 +104,18 @@ TEST(AdjointScheme, OfTangentSpaceCollocationIsAnotherOneWhereTheMassIsNotConsta
   const auto two_link = make_problem("two_link_manipulator");
   const auto oscillator = make_problem("forced_oscillator");
   for (const int s : {1, 2}) {
-    EXPECT_GT(residual(*two_link, solved(*two_link, {"tangent", s})).largest(), far_above_rounding);
-    EXPECT_LT(residual(*oscillator, solved(*oscillator, {"tangent", s})).largest(), rounding);
+    EXPECT_GT(residual(*two_link, polished(*two_link, {"tangent", s})).largest(), far_above_rounding);
+    EXPECT_LT(residual(*oscillator, polished(*oscillator, {"tangent", s})).largest(), rounding);
   }
 }
 
 TEST(AdjointScheme, StageCostatesOfBothFamiliesAgree) {
   // They are read from multipliers of different rows by different formulas.
-  for (const auto& problem : problems()) {
+  for (const auto& problem : problems_with_adjoints()) {
     for (const Scheme& scheme : schemes({"gauss", "lobatto"})) {
       if (scheme.method != "dmoc") continue;
-      const Trajectory a = solved(*problem, scheme);
-      const Trajectory b = solved(*problem, {"hamiltonian", scheme.stages, scheme.family});
+      const Trajectory a = polished(*problem, scheme);
+      const Trajectory b = polished(*problem, {"hamiltonian", scheme.stages, scheme.family});
       const double size = std::max(b.stage_psi_q.lpNorm<Eigen::Infinity>(), b.stage_psi_p.lpNorm<Eigen::Infinity>());
       EXPECT_LT((a.stage_psi_q - b.stage_psi_q).lpNorm<Eigen::Infinity>(), 1e-8 * size)
           << problem->name() << ", " << scheme.label();
@@ -130,7 +127,7 @@ TEST(AdjointScheme, StageCostatesOfBothFamiliesAgree) {
 
 TEST(AdjointScheme, NeedsCostates) {
   const auto problem = make_problem("orbital_transfer");
-  Trajectory trajectory = solved(*problem, {"dmoc", 1});
+  Trajectory trajectory = polished(*problem, {"dmoc", 1});
   trajectory.psi_q.resize(0, 0);
   tests::expect_error_naming({"costates"}, [&] { static_cast<void>(residual(*problem, trajectory)); });
 }

@@ -16,15 +16,15 @@ using tests::Restated;
 using tests::Scheme;
 using Statement = Restated::Statement;
 
-Trajectory solved(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
+Trajectory solved_on_uniform_grid(const Problem& problem, const Scheme& scheme, Eigen::Index intervals) {
   return tests::solve(problem, scheme, Grid::uniform(intervals), guessed_motion(problem)).trajectory;
 }
 
 TEST(ControlHamiltonian, OfTheDoubleIntegratorIsItsClosedForm) {
   // u = 6 - 12t, ψ_p = -u, ψ_q = -12: H = ½u² + ψ_q v + ψ_p u = -½u² - 12v = -18 at all times.
   for (const std::string& method : element_names()) {
-    const Eigen::VectorXd hamiltonian =
-        control_hamiltonian(tests::DoubleIntegrator(), solved(tests::DoubleIntegrator(), {method, 2}, 8));
+    const Eigen::VectorXd hamiltonian = control_hamiltonian(
+        tests::DoubleIntegrator(), solved_on_uniform_grid(tests::DoubleIntegrator(), {method, 2}, 8));
     EXPECT_LT((hamiltonian.array() + 18.0).abs().maxCoeff(), 1e-8) << method;
   }
 }
@@ -33,7 +33,8 @@ TEST(ControlHamiltonian, IsConstantUpToTheOrderWhereNothingDependsOnTime) {
   const tests::Pendulum pendulum;
   for (const std::string& method : element_names()) {
     const auto spread = [&](Eigen::Index intervals) {
-      const Eigen::VectorXd hamiltonian = control_hamiltonian(pendulum, solved(pendulum, {method, 1}, intervals));
+      const Eigen::VectorXd hamiltonian =
+          control_hamiltonian(pendulum, solved_on_uniform_grid(pendulum, {method, 1}, intervals));
       return hamiltonian.maxCoeff() - hamiltonian.minCoeff();
     };
     const double order = std::log2(spread(32) / spread(64));
@@ -53,11 +54,11 @@ TEST(FreeHorizonResidual, VanishesAtTheBestHorizonAndNotAtAnother) {
   };
   for (const std::string& method : element_names()) {
     const Restated best = priced(18.0, true);
-    const Trajectory trajectory = solved(best, {method, 2}, 8);
+    const Trajectory trajectory = solved_on_uniform_grid(best, {method, 2}, 8);
     EXPECT_NEAR(trajectory.node_times[8], 1.0, 1e-7) << method;
     EXPECT_NEAR(free_horizon_residual(best, trajectory), 0.0, 1e-6) << method;
     const Restated fixed = priced(10.0, false);
-    EXPECT_NEAR(free_horizon_residual(fixed, solved(fixed, {method, 2}, 8)), -8.0, 1e-6) << method;
+    EXPECT_NEAR(free_horizon_residual(fixed, solved_on_uniform_grid(fixed, {method, 2}, 8)), -8.0, 1e-6) << method;
   }
 }
 
@@ -77,14 +78,14 @@ class GrowingMomentum final : public tests::SmallProblem {
 
 TEST(FreeHorizonResidual, KnowsMomentaThatGrowWithTime) {
   for (const std::string& method : element_names()) {
-    const Trajectory trajectory = solved(GrowingMomentum(), {method, 2}, 8);
+    const Trajectory trajectory = solved_on_uniform_grid(GrowingMomentum(), {method, 2}, 8);
     EXPECT_NEAR(std::pow(trajectory.node_times[8], 4), 12.0, 1e-6) << method;
     EXPECT_NEAR(free_horizon_residual(GrowingMomentum(), trajectory), 0.0, 1e-6) << method;
   }
 }
 
 TEST(ControlHamiltonian, NeedsCostates) {
-  Trajectory trajectory = solved(tests::DoubleIntegrator(), {"dmoc", 1}, 8);
+  Trajectory trajectory = solved_on_uniform_grid(tests::DoubleIntegrator(), {"dmoc", 1}, 8);
   trajectory.psi_q.resize(0, 0);
   tests::expect_error_naming({"costates"},
                              [&] { static_cast<void>(control_hamiltonian(tests::DoubleIntegrator(), trajectory)); });
@@ -92,7 +93,7 @@ TEST(ControlHamiltonian, NeedsCostates) {
 
 TEST(ViolationBetweenNodes, IsWhatAMotionDoesBetweenThePointsWhereItIsBounded) {
   const tests::DoubleIntegrator base;
-  const Trajectory trajectory = solved(base, {"dmoc", 2}, 8);
+  const Trajectory trajectory = solved_on_uniform_grid(base, {"dmoc", 2}, 8);
   const auto violation = [&](const std::function<void(Statement&)>& state) {
     return violation_between_nodes(Restated(base, state), trajectory);
   };

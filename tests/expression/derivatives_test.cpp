@@ -23,7 +23,7 @@ using tests::Terms;
 using tests::visit_operations;
 using tests::visit_powers;
 
-constexpr double promise = 1e-12;  // of the sum of magnitudes
+constexpr double promise_of_derivatives = 1e-12;  // of the sum of magnitudes
 
 /// What the entries of a table come to at a point.
 std::vector<Terms> evaluate(const ExpressionMatrix& table, std::span<const double> point) {
@@ -36,7 +36,7 @@ void expect_near(const ExpressionMatrix& traced, const Eigen::MatrixXd& expected
   const std::vector<Terms> found = evaluate(traced, point);
   for (Eigen::Index i = 0; i < expected.size(); ++i) {
     const Terms& entry = found[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(entry.value, expected.data()[i], promise * entry.magnitude)
+    EXPECT_NEAR(entry.value, expected.data()[i], promise_of_derivatives * entry.magnitude)
         << "entry " << i << " at (" << point[0] << ", " << point[1] << ")";
   }
 }

@@ -20,7 +20,7 @@ namespace {
 using tests::Columns;
 using tests::RandomPoints;
 
-constexpr double promise = 1e-13;  // of the sum of magnitudes
+constexpr double promise_of_instruction_sets = 1e-13;  // of the sum of magnitudes
 
 void expect_all_agree(const Schedule& schedule, const Columns& inputs, std::size_t count) {
   const Columns baseline = tests::evaluate(Tape(schedule, InstructionSet::baseline), inputs, count);
@@ -29,7 +29,7 @@ void expect_all_agree(const Schedule& schedule, const Columns& inputs, std::size
     for (std::size_t k = 0; k < count; ++k) {
       const auto terms = tests::replay_interval(schedule, inputs, k);
       for (std::size_t j = 0; j < found.size(); ++j) {
-        ASSERT_NEAR(found[j][k], baseline[j][k], promise * terms[j].magnitude)
+        ASSERT_NEAR(found[j][k], baseline[j][k], promise_of_instruction_sets * terms[j].magnitude)
             << name_of(set) << ", output " << j << ", interval " << k;
       }
     }

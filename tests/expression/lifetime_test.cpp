@@ -20,7 +20,7 @@ namespace {
 
 constexpr int million = 1'000'000;
 
-double value(const Schedule& schedule, const std::vector<double>& point) {
+double value_of_schedule(const Schedule& schedule, const std::vector<double>& point) {
   return replay<double>(schedule, std::span<const double>(point))[0];
 }
 
@@ -84,7 +84,7 @@ TEST(Lifetime, AChainOfAMillionOperationsIsScheduledAndDestroyed) {
     EXPECT_LE(Tape(schedule).slot_count(), 2U);
     double expected = 0.3;
     for (int i = 0; i < million / 2; ++i) expected = std::sin(expected) + 0.1;
-    EXPECT_NEAR(value(schedule, {0.3, 0.1}), expected, 1e-14);
+    EXPECT_NEAR(value_of_schedule(schedule, {0.3, 0.1}), expected, 1e-14);
   }
   EXPECT_EQ(live_nodes(), before);
 }
@@ -116,7 +116,7 @@ TEST(Lifetime, ALongProductIsTracedAndDifferentiated) {
       expected *= std::cos(at);
       at = std::sin(at);
     }
-    EXPECT_NEAR(value(Schedule(std::span(&slope, 1)), {1e-3}), expected, 1e-12 * expected);
+    EXPECT_NEAR(value_of_schedule(Schedule(std::span(&slope, 1)), {1e-3}), expected, 1e-12 * expected);
   }
   EXPECT_EQ(live_nodes(), before);
 }
@@ -215,9 +215,9 @@ TEST(Threads, AnExpressionMayOutliveItsThread) {
     part = sin(x[0]);
   }).join();
   const Schedule schedule(std::span(&kept, 1));
-  EXPECT_EQ(value(schedule, {0.5, 3.0}), std::sin(0.5) * 3.0 + 2.0);
+  EXPECT_EQ(value_of_schedule(schedule, {0.5, 3.0}), std::sin(0.5) * 3.0 + 2.0);
   kept = Expression();
-  EXPECT_EQ(value(Schedule(std::span(&part, 1)), {0.5}), std::sin(0.5));
+  EXPECT_EQ(value_of_schedule(Schedule(std::span(&part, 1)), {0.5}), std::sin(0.5));
   part = Expression();
   EXPECT_EQ(live_nodes(), before);
 }

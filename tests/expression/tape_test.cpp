@@ -27,7 +27,7 @@ using tests::RandomProgram;
 using tests::replay_interval;
 using tests::Terms;
 
-constexpr double promise = 1e-13;  // of the sum of magnitudes
+constexpr double promise_of_tape = 1e-13;  // of the sum of magnitudes
 
 Columns random_columns(RandomPoints& random, std::size_t columns, std::size_t count, const Domain& domain) {
   Columns result(columns, std::vector<double>(count));
@@ -44,7 +44,7 @@ void expect_equals_replay(const Schedule& schedule, const Columns& inputs, std::
     for (std::size_t k = 0; k < count; ++k) {
       const std::vector<Terms> expected = replay_interval(schedule, inputs, k);
       for (std::size_t j = 0; j < found.size(); ++j) {
-        ASSERT_NEAR(found[j][k], expected[j].value, promise * expected[j].magnitude)
+        ASSERT_NEAR(found[j][k], expected[j].value, promise_of_tape * expected[j].magnitude)
             << "output " << j << ", interval " << k << " of " << count;
       }
     }

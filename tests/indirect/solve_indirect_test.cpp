@@ -9,6 +9,7 @@
 #include "methods/indirect/shooting_defect.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -56,12 +57,6 @@ class WithDoubleCost final : public tests::WithEnds {
   const Problem& base_of_cost_;
 };
 
-std::unique_ptr<Problem> problem_named(const std::string& name) {
-  if (name == "moving_frame") return std::make_unique<tests::MovingFrame>();
-  if (name == "relativistic_spring") return std::make_unique<tests::RelativisticSpring>();
-  return make_problem(name);
-}
-
 Trajectory direct_solution(const Problem& problem) {
   return tests::solve(problem, {"dmoc", 1}, Grid::uniform(48), tests::common_start(problem)).trajectory;
 }
@@ -104,7 +99,7 @@ TEST(SolveIndirect, AFreeMotionNeedsNoControl) {
 
 class IndirectSolutionOf : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<Problem> problem_ = problem_named(GetParam());
+  std::unique_ptr<Problem> problem_ = tests::problem_named(GetParam());
   IndirectSolution solution_ = solve_indirect(*problem_, direct_solution(*problem_));
 };
 

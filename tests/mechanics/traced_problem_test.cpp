@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/replay.hpp"
-#include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -47,18 +47,10 @@ double distance(const LongVector& a, const LongVector& b) {
   return static_cast<double>((a - b).lpNorm<Eigen::Infinity>() / (1.0L + b.lpNorm<Eigen::Infinity>()));
 }
 
-std::vector<std::unique_ptr<Problem>> problems() {
-  std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
-  all.push_back(std::make_unique<tests::MovingFrame>());
-  all.push_back(std::make_unique<tests::RelativisticSpring>());
-  return all;
-}
-
 TEST(TracedProblem, DerivativesAgreeWithDifferencesOfTheLagrangian) {
   constexpr double tolerance = 1e-12;
   tests::RandomPoints random;
-  for (const auto& problem : problems()) {
+  for (const auto& problem : tests::problems()) {
     SCOPED_TRACE(problem->name());
     const TracedProblem traced(*problem);
     const Eigen::Index n = traced.configuration_size();
@@ -85,7 +77,7 @@ TEST(TracedProblem, DerivativesAgreeWithDifferencesOfTheLagrangian) {
 }
 
 TEST(TracedProblem, ForcesAndCostAreTheProblemsOwn) {
-  for (const auto& problem : problems()) {
+  for (const auto& problem : tests::problems()) {
     const TracedProblem traced(*problem);
     const ControlledState x = inputs(traced.configuration_size(), traced.control_size());
     const TracedProblem::Values values = traced.at(x);

@@ -11,6 +11,7 @@
 namespace dmocbench {
 namespace {
 
+using tests::box;
 using tests::everywhere;
 using tests::HyperDual;
 using tests::HyperVector;
@@ -18,17 +19,6 @@ using tests::SmallProgram;
 using tests::vector;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// min ½|x - (3, 1)|² with x₁ + x₂ in [lower, upper] and x in [0, 2]².
-SmallProgram box(double lower, double upper) {
-  return SmallProgram({[](const HyperVector& x) {
-                         const HyperDual a = x[0] - 3.0;
-                         const HyperDual b = x[1] - 1.0;
-                         return 0.5 * (a * a + b * b);
-                       },
-                       [](const HyperVector& x) { return HyperVector{x[0] + x[1]}; }, everywhere(2, 0.0),
-                       everywhere(2, 2.0), vector({lower}), vector({upper})});
-}
 
 KktResidual at(SmallProgram program, const Eigen::VectorXd& x, double multiplier) {
   return kkt_residual(program, x, vector({multiplier}));

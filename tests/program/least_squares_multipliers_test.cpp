@@ -12,22 +12,11 @@
 namespace dmocbench {
 namespace {
 
+using tests::box;
 using tests::everywhere;
-using tests::HyperDual;
 using tests::HyperVector;
 using tests::SmallProgram;
 using tests::vector;
-
-/// min ½|x - (3, 1)|² with x₁ + x₂ in [lower, upper] and x in [0, 2]².
-SmallProgram box(double lower, double upper) {
-  return SmallProgram({[](const HyperVector& x) {
-                         const HyperDual a = x[0] - 3.0;
-                         const HyperDual b = x[1] - 1.0;
-                         return 0.5 * (a * a + b * b);
-                       },
-                       [](const HyperVector& x) { return HyperVector{x[0] + x[1]}; }, everywhere(2, 0.0),
-                       everywhere(2, 2.0), vector({lower}), vector({upper})});
-}
 
 TEST(LeastSquaresMultipliers, AreTheMultipliersAtTheKnownOptima) {
   // HS 7: λ = 1/(2√3). HS 39: ∇φ = (-1, 0, 0, 0) and rows (-3, 1, 0, 0), (2, -1, 0, 0) give λ = (-1, -1).

@@ -13,7 +13,7 @@ using tests::SmallProgram;
 using tests::vector;
 
 /// x₁² + x₂² = value with x₁ >= lower.
-SmallProgram circle(double value, double lower) {
+SmallProgram bounded_circle(double value, double lower) {
   return SmallProgram({[](const HyperVector& x) { return x[0]; },
                        [](const HyperVector& x) { return HyperVector{x[0] * x[0] + x[1] * x[1]}; },
                        vector({lower, -unbounded}), everywhere(2, unbounded), vector({value}), vector({value})});
@@ -35,13 +35,13 @@ TEST(LeastViolation, IsWhereContradictingRowsBalance) {
 }
 
 TEST(LeastViolation, IsWhereABoundHoldsWhatWouldHelp) {
-  SmallProgram program = circle(1.0, 2.0);
+  SmallProgram program = bounded_circle(1.0, 2.0);
   EXPECT_TRUE(is_point_of_least_violation(program, vector({2.0, 0.0})));
   EXPECT_FALSE(is_point_of_least_violation(program, vector({2.5, 0.0})));
 }
 
 TEST(LeastViolation, IsNotWhereTheRowsAreMet) {
-  SmallProgram program = circle(1.0, 0.0);
+  SmallProgram program = bounded_circle(1.0, 0.0);
   EXPECT_FALSE(is_point_of_least_violation(program, vector({1.0, 0.0})));
 }
 

@@ -27,7 +27,8 @@ SolverOptions within_reach() {
   return options;
 }
 
-Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options = within_reach()) {
+Solution solve_by_nlopt(NonlinearProgram& program, const Eigen::VectorXd& start,
+                        const SolverOptions& options = within_reach()) {
   return NloptSolver(options).solve(program, start);
 }
 
@@ -41,7 +42,7 @@ TEST(Nlopt, FindsTheKnownOptimaOfHockAndSchittkowski) {
   for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
     SCOPED_TRACE("HS " + std::to_string(known.number));
     SmallProgram program(known.statement);
-    const Solution solution = solve(program, known.start);
+    const Solution solution = solve_by_nlopt(program, known.start);
     EXPECT_EQ(solution.status, Status::solved) << solution.message;
     EXPECT_NEAR(solution.objective, known.objective, 1e-7);
     EXPECT_LT((solution.primal - known.optimum).norm(), 2e-4);
@@ -57,7 +58,7 @@ TEST(Nlopt, FindsTheKnownOptimaOfHockAndSchittkowski) {
 TEST(Nlopt, ReportsWhatWeComputeAtItsAnswer) {
   for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
     SmallProgram program(known.statement);
-    const Solution solution = solve(program, known.start);
+    const Solution solution = solve_by_nlopt(program, known.start);
     EXPECT_EQ(solution.objective, program.objective(solution.primal));
     const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);
     EXPECT_EQ(solution.kkt_residual, residual.stationarity);
@@ -68,7 +69,7 @@ TEST(Nlopt, ReportsWhatWeComputeAtItsAnswer) {
 
 TEST(Nlopt, MinimisesWithoutRows) {
   SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve(program, vector({-1.2, 1.0}));
+  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_LT((solution.primal - vector({1.0, 1.0})).norm(), 1e-5);
 }
@@ -77,7 +78,7 @@ TEST(Nlopt, KeepsFixedVariablesAtTheirValues) {
   tests::KnownProgram known = tests::hock_schittkowski().back();
   known.statement.variable_lower[1] = known.statement.variable_upper[1] = 4.5;
   SmallProgram program(known.statement);
-  const Solution solution = solve(program, known.start);
+  const Solution solution = solve_by_nlopt(program, known.start);
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_EQ(solution.primal[1], 4.5);
   EXPECT_GT(solution.objective, known.objective);
@@ -86,7 +87,7 @@ TEST(Nlopt, KeepsFixedVariablesAtTheirValues) {
 TEST(Nlopt, StartsWithinTheBounds) {
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   SmallProgram program(known.statement);
-  const Solution solution = solve(program, vector({-3.0, 9.0, 5.0, 1.0}));
+  const Solution solution = solve_by_nlopt(program, vector({-3.0, 9.0, 5.0, 1.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_NEAR(solution.objective, known.objective, 1e-7);
 }
@@ -100,7 +101,7 @@ TEST(Nlopt, HoldsARowBetweenTwoBounds) {
                           },
                           [](const HyperVector& z) { return HyperVector{z[0] + z[1]}; }, everywhere(2, -unbounded),
                           everywhere(2, unbounded), vector({lower}), vector({upper})});
-    const Solution solution = solve(program, vector({0.0, 0.0}));
+    const Solution solution = solve_by_nlopt(program, vector({0.0, 0.0}));
     EXPECT_EQ(solution.status, Status::solved) << solution.message;
     EXPECT_NEAR(solution.primal[0], x, 1e-6);
     EXPECT_NEAR(solution.multipliers[0], multiplier, 1e-6);
@@ -111,7 +112,7 @@ TEST(Nlopt, SaysInfeasibleWhereTheRowsCannotBeMet) {
   SmallProgram program = tests::equality_program(
       [](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
       [](const HyperVector& x) { return HyperVector{x[0] * x[0] + x[1] * x[1]}; }, 2, vector({-1.0}));
-  const Solution solution = solve(program, vector({1.0, 0.5}));
+  const Solution solution = solve_by_nlopt(program, vector({1.0, 0.5}));
   EXPECT_EQ(solution.status, Status::infeasible);
   EXPECT_NEAR(solution.constraint_violation.value_or(unbounded), 1.0, 1e-4);
 }
@@ -122,8 +123,8 @@ TEST(Nlopt, NeverSaysSolvedWhereRowsContradictEachOther) {
                                                    return HyperVector{x[0] + x[1], x[0] + x[1]};
                                                  },
                                                  2, vector({0.0, 2.0}));
-  EXPECT_EQ(solve(program, vector({1.0, 0.5})).status, Status::step_failed);
-  EXPECT_EQ(solve(program, vector({0.5, 0.5})).status, Status::infeasible);
+  EXPECT_EQ(solve_by_nlopt(program, vector({1.0, 0.5})).status, Status::step_failed);
+  EXPECT_EQ(solve_by_nlopt(program, vector({0.5, 0.5})).status, Status::infeasible);
 }
 
 TEST(Nlopt, TakesAFeasiblePointOfAProgramWithoutFreedom) {
@@ -132,16 +133,16 @@ TEST(Nlopt, TakesAFeasiblePointOfAProgramWithoutFreedom) {
                          vector({value}), vector({value}), vector({1.0}), vector({2.0})});
   };
   SmallProgram feasible = fixed_at(1.5);
-  EXPECT_EQ(solve(feasible, vector({1.5})).status, Status::solved);
+  EXPECT_EQ(solve_by_nlopt(feasible, vector({1.5})).status, Status::solved);
   SmallProgram infeasible = fixed_at(3.0);
-  EXPECT_FALSE(is_solved(solve(infeasible, vector({3.0})).status));
+  EXPECT_FALSE(is_solved(solve_by_nlopt(infeasible, vector({3.0})).status));
 }
 
 TEST(Nlopt, StopsAtTheEvaluationLimit) {
   SmallProgram program = tests::rosenbrock();
   SolverOptions options;
   options.most_iterations = 3;
-  const Solution solution = solve(program, vector({-1.2, 1.0}), options);
+  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
   EXPECT_EQ(solution.status, Status::iteration_limit);
   EXPECT_EQ(solution.evaluations, 3);
   EXPECT_EQ(solution.primal.size(), 2);
@@ -152,7 +153,7 @@ TEST(Nlopt, StopsAtTheTimeLimit) {
   SmallProgram program = tests::rosenbrock();
   SolverOptions options;
   options.most_seconds = 1e-12;
-  EXPECT_EQ(solve(program, vector({-1.2, 1.0}), options).status, Status::time_limit);
+  EXPECT_EQ(solve_by_nlopt(program, vector({-1.2, 1.0}), options).status, Status::time_limit);
 }
 
 TEST(Nlopt, StopsWhenAskedTo) {
@@ -160,7 +161,7 @@ TEST(Nlopt, StopsWhenAskedTo) {
   SolverOptions options;
   int asked = 0;
   options.stop_requested = [&] { return ++asked == 4; };
-  const Solution solution = solve(program, vector({-1.2, 1.0}), options);
+  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
   EXPECT_EQ(solution.status, Status::interrupted);
   EXPECT_EQ(asked, 4);
   EXPECT_EQ(solution.evaluations, 3);
@@ -170,11 +171,11 @@ TEST(Nlopt, SaysEvaluationFailedWhereTheStartIsNotANumber) {
   SmallProgram objective =
       tests::equality_program([](const HyperVector& x) { return log(x[0]); },
                               [](const HyperVector& x) { return HyperVector{x[0]}; }, 1, vector({2.0}));
-  EXPECT_EQ(solve(objective, vector({-1.0})).status, Status::evaluation_failed);
+  EXPECT_EQ(solve_by_nlopt(objective, vector({-1.0})).status, Status::evaluation_failed);
   SmallProgram row =
       tests::equality_program([](const HyperVector& x) { return x[0] * x[0] + x[1]; },
                               [](const HyperVector& x) { return HyperVector{sqrt(x[0])}; }, 2, vector({2.0}));
-  EXPECT_EQ(solve(row, vector({-1.0, 0.0})).status, Status::evaluation_failed);
+  EXPECT_EQ(solve_by_nlopt(row, vector({-1.0, 0.0})).status, Status::evaluation_failed);
 }
 
 TEST(Nlopt, TurnsBackWhereAStepLeavesTheDomain) {
@@ -182,15 +183,15 @@ TEST(Nlopt, TurnsBackWhereAStepLeavesTheDomain) {
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return 10.0 * (x[0] - log(x[0])); },
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
-  const Solution solution = solve(program, vector({3.0}));
+  const Solution solution = solve_by_nlopt(program, vector({3.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_NEAR(solution.primal[0], 1.0, 1e-6);
 }
 
 /// Values are right, one kind of derivative is not a number.
-class BrokenDerivatives final : public SmallProgram {
+class BrokenFirstDerivatives final : public SmallProgram {
  public:
-  BrokenDerivatives(SmallProgram::Statement statement, bool in_gradient)
+  BrokenFirstDerivatives(SmallProgram::Statement statement, bool in_gradient)
       : SmallProgram(std::move(statement)), in_gradient_(in_gradient) {}
   void gradient(const VectorIn& x, VectorOut result) override {
     SmallProgram::gradient(x, result);
@@ -208,8 +209,8 @@ class BrokenDerivatives final : public SmallProgram {
 TEST(Nlopt, SaysEvaluationFailedWhereADerivativeIsNotANumber) {
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   for (const bool in_gradient : {true, false}) {
-    BrokenDerivatives program(known.statement, in_gradient);
-    EXPECT_EQ(solve(program, known.start).status, Status::evaluation_failed);
+    BrokenFirstDerivatives program(known.statement, in_gradient);
+    EXPECT_EQ(solve_by_nlopt(program, known.start).status, Status::evaluation_failed);
   }
 }
 
@@ -220,12 +221,12 @@ TEST(Nlopt, LetsExceptionsOfAProgramThrough) {
         return (x[0] - 1.0) * (x[0] - 1.0);
       },
       [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
-  EXPECT_THROW(static_cast<void>(solve(program, vector({0.0}))), std::domain_error);
+  EXPECT_THROW(static_cast<void>(solve_by_nlopt(program, vector({0.0}))), std::domain_error);
 }
 
 TEST(Nlopt, IsNotBelievedWhereOurResidualIsLarger) {
   SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve(program, vector({-1.2, 1.0}), passing_on("ftol_rel", "0.1"));
+  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), passing_on("ftol_rel", "0.1"));
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_GT(solution.kkt_residual.value_or(0.0), 1e-7);
   EXPECT_EQ(solution.message, sentence_of(Status::not_confirmed));
@@ -237,7 +238,7 @@ TEST(Nlopt, RefusesMoreEqualitiesThanFreeVariables) {
                                                    return HyperVector{x[0], 2.0 * x[0]};
                                                  },
                                                  1, vector({1.0, 2.0}));
-  const Solution solution = solve(program, vector({0.0}));
+  const Solution solution = solve_by_nlopt(program, vector({0.0}));
   EXPECT_EQ(solution.status, Status::invalid_program);
   EXPECT_NE(solution.message.find("2 and 1"), std::string::npos) << solution.message;
 }
@@ -256,18 +257,18 @@ SmallProgram large(std::size_t free_count) {
 TEST(Nlopt, RefusesMoreFreeVariablesThanItCanBearAndNamesBothNumbers) {
   constexpr std::size_t most = NloptSolver::most_free_variables;
   SmallProgram too_large = large(most + 1);
-  const Solution solution = solve(too_large, everywhere(static_cast<Eigen::Index>(most) + 2, 0.0));
+  const Solution solution = solve_by_nlopt(too_large, everywhere(static_cast<Eigen::Index>(most) + 2, 0.0));
   EXPECT_EQ(solution.status, Status::too_large);
   EXPECT_EQ(solution.primal.size(), 0);
   EXPECT_NE(solution.message.find(std::to_string(most)), std::string::npos) << solution.message;
   EXPECT_NE(solution.message.find(std::to_string(most + 1)), std::string::npos) << solution.message;
   SmallProgram fits = large(most);
-  EXPECT_EQ(solve(fits, everywhere(static_cast<Eigen::Index>(most) + 1, 0.0)).status, Status::solved);
+  EXPECT_EQ(solve_by_nlopt(fits, everywhere(static_cast<Eigen::Index>(most) + 1, 0.0)).status, Status::solved);
 }
 
 TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
   SmallProgram program = tests::rosenbrock();
-  const Solution limited = solve(program, vector({-1.2, 1.0}), passing_on("maxeval", "2"));
+  const Solution limited = solve_by_nlopt(program, vector({-1.2, 1.0}), passing_on("maxeval", "2"));
   EXPECT_EQ(limited.status, Status::iteration_limit);
   EXPECT_EQ(limited.evaluations, 2);
   for (const auto& [name, value] : std::map<std::string, std::string>{{"no_such_option", "1"},
@@ -276,14 +277,14 @@ TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
                                                                       {"maxeval", "2.5"},
                                                                       {"maxtime", "nan"}}) {
     tests::expect_error_naming({name}, [&, options = passing_on(name, value)] {
-      static_cast<void>(solve(program, vector({0.0, 0.0}), options));
+      static_cast<void>(solve_by_nlopt(program, vector({0.0, 0.0}), options));
     });
   }
 }
 
 TEST(Nlopt, RefusesAStartOfTheWrongSize) {
   SmallProgram program = tests::rosenbrock();
-  tests::expect_error_naming({"3", "2"}, [&] { static_cast<void>(solve(program, everywhere(3, 0.0))); });
+  tests::expect_error_naming({"3", "2"}, [&] { static_cast<void>(solve_by_nlopt(program, everywhere(3, 0.0))); });
 }
 
 }  // namespace

@@ -100,6 +100,17 @@ inline SmallProgram equality_program(std::function<HyperDual(const HyperVector&)
                        everywhere(variables, unbounded), row_values, row_values});
 }
 
+/// min ½|x - (3, 1)|² with x₁ + x₂ in [lower, upper] and x in [0, 2]².
+inline SmallProgram box(double lower, double upper) {
+  return SmallProgram({[](const HyperVector& x) {
+                         const HyperDual a = x[0] - 3.0;
+                         const HyperDual b = x[1] - 1.0;
+                         return 0.5 * (a * a + b * b);
+                       },
+                       [](const HyperVector& x) { return HyperVector{x[0] + x[1]}; }, everywhere(2, 0.0),
+                       everywhere(2, 2.0), vector({lower}), vector({upper})});
+}
+
 /// Rosenbrock's valley, no rows: minimum 0 at (1, 1).
 inline SmallProgram rosenbrock() {
   return equality_program(

@@ -6,20 +6,16 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
-#include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
 namespace {
 
+using tests::problem_named;
 using tests::Scheme;
 using tests::Solved;
-
-std::unique_ptr<Problem> problem_named(const std::string& name) {
-  if (name == "moving_frame") return std::make_unique<tests::MovingFrame>();
-  return make_problem(name);
-}
 
 struct NamedTableau {
   std::string family;

@@ -19,7 +19,7 @@ namespace {
 using tests::RandomPoints;
 using tests::Scheme;
 
-struct Derivatives {
+struct FilledDerivatives {
   Eigen::VectorXd gradient;
   Eigen::VectorXd jacobian;
   Eigen::VectorXd hessian;
@@ -36,7 +36,7 @@ double relative(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
 }
 
-Differences operator-(const Derivatives& a, const Derivatives& b) {
+Differences operator-(const FilledDerivatives& a, const FilledDerivatives& b) {
   return {relative(a.gradient, b.gradient), relative(a.jacobian, b.jacobian), relative(a.hessian, b.hessian)};
 }
 
@@ -47,8 +47,8 @@ bool offers(const std::string& name) {
 
 /// The derivatives of one back end at a point near the guess, where both problems are regular; the arrays start as NaN,
 /// so that an entry that is not written shows.
-Derivatives derivatives_by(const std::string& back_end, const Problem& problem, const Scheme& scheme,
-                           const Grid& grid) {
+FilledDerivatives derivatives_by(const std::string& back_end, const Problem& problem, const Scheme& scheme,
+                                 const Grid& grid) {
   Transcription program(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid, back_end);
   RandomPoints random;
   Eigen::VectorXd x = sample(program, guessed_motion(problem));
@@ -57,8 +57,8 @@ Derivatives derivatives_by(const std::string& back_end, const Problem& problem, 
   const auto array = [](std::size_t size) {
     return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")).eval();
   };
-  Derivatives result{array(program.variable_count()), array(program.jacobian_structure().size()),
-                     array(program.hessian_structure().size())};
+  FilledDerivatives result{array(program.variable_count()), array(program.jacobian_structure().size()),
+                           array(program.hessian_structure().size())};
   // Twice: nothing may be left behind by an evaluation elsewhere.
   for (const Eigen::VectorXd& point : {(x.array() + 0.1).matrix().eval(), x}) {
     program.gradient(point, result.gradient);
@@ -70,7 +70,7 @@ Derivatives derivatives_by(const std::string& back_end, const Problem& problem, 
 
 class BackEnds : public testing::TestWithParam<std::tuple<std::string, std::string, int>> {
  protected:
-  [[nodiscard]] Derivatives by(const std::string& back_end) const {
+  [[nodiscard]] FilledDerivatives by(const std::string& back_end) const {
     return derivatives_by(back_end, *problem_, scheme_, grid_);
   }
   [[nodiscard]] Differences from_exact(const std::string& back_end) const { return by(back_end) - by("tape"); }

@@ -6,6 +6,7 @@
 
 #include "methods/expression/replay.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
@@ -13,6 +14,7 @@
 namespace dmocbench {
 namespace {
 
+using tests::problems;
 using tests::RandomPoints;
 using Long = long double;
 using LongVector = Eigen::Matrix<Long, Eigen::Dynamic, 1>;
@@ -122,14 +124,6 @@ class DiscretePrinciple {
   PlainFormulas formulas_;
   Eigen::Index n_;
 };
-
-std::vector<std::unique_ptr<Problem>> problems() {
-  std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
-  all.push_back(std::make_unique<tests::MovingFrame>());
-  all.push_back(std::make_unique<tests::RelativisticSpring>());
-  return all;
-}
 
 /// Any point of the program: not a solution.
 Eigen::VectorXd arbitrary_point(const Problem& problem, Transcription& program) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
@@ -12,16 +13,9 @@ namespace dmocbench {
 namespace {
 
 using tests::pack;
+using tests::problems;
 using tests::row_residual;
 using tests::Solved;
-
-std::vector<std::unique_ptr<Problem>> problems() {
-  std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
-  all.push_back(std::make_unique<tests::MovingFrame>());
-  all.push_back(std::make_unique<tests::RelativisticSpring>());
-  return all;
-}
 
 /// What a solution may leave in its own rows: Ipopt stops below this, and so must the other method's rows.
 constexpr double tolerance = 1e-11;

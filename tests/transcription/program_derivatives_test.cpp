@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/replay.hpp"
-#include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/hyper_dual.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
@@ -18,6 +18,7 @@ namespace dmocbench {
 namespace {
 
 using tests::HyperDual;
+using tests::problem_named;
 using tests::RandomPoints;
 using tests::Scheme;
 
@@ -113,12 +114,6 @@ Derivatives of_program(Transcription& program, const Eigen::VectorXd& x, double 
   result.hessian = lower + lower.transpose();
   result.hessian.diagonal() = lower.diagonal();
   return result;
-}
-
-/// The hand-written problem of this folder's helpers joins the registered ones: its L depends on t.
-std::unique_ptr<Problem> problem_named(const std::string& name) {
-  if (name == "moving_frame") return std::make_unique<tests::MovingFrame>();
-  return make_problem(name);
 }
 
 using FamilyAndStages = std::pair<std::string, int>;

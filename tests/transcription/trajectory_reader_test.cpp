@@ -5,6 +5,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/columns.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
@@ -12,16 +13,9 @@
 namespace dmocbench {
 namespace {
 
+using tests::problems;
 using tests::Scheme;
 using tests::Solved;
-
-std::vector<std::unique_ptr<Problem>> problems() {
-  std::vector<std::unique_ptr<Problem>> all;
-  for (const std::string& name : paper_problem_names()) all.push_back(make_problem(name));
-  all.push_back(std::make_unique<tests::MovingFrame>());
-  all.push_back(std::make_unique<tests::RelativisticSpring>());
-  return all;
-}
 
 TEST(Trajectory, MomentumIsTheSameSeenFromBothSidesOfANode) {
   for (const auto& problem : problems()) {

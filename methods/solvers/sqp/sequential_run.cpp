@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "methods/solvers/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/sqp/linearised_program.hpp"
@@ -18,10 +19,6 @@ namespace {
 /// Quadratic programs are solved far more accurately than the whole: with equal tolerances the last major iterations
 /// stall.
 constexpr double tolerance_of_quadratic_programs = 0.1;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 

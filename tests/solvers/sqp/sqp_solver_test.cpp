@@ -20,7 +20,7 @@ using tests::HyperVector;
 using tests::SmallProgram;
 using tests::vector;
 
-Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options = {}) {
+Solution solve_by_sqp(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options = {}) {
   return SqpSolver(options).solve(program, start);
 }
 
@@ -35,7 +35,7 @@ TEST(Sqp, FindsTheKnownOptimaOfHockAndSchittkowski) {
     for (const char* hessian : {"exact", "limited_memory"}) {
       SCOPED_TRACE("HS " + std::to_string(known.number) + " " + hessian);
       SmallProgram program(known.statement);
-      const Solution solution = solve(program, known.start, with("hessian", hessian));
+      const Solution solution = solve_by_sqp(program, known.start, with("hessian", hessian));
       EXPECT_EQ(solution.status, Status::solved) << solution.message;
       EXPECT_NEAR(solution.objective, known.objective, 1e-8);
       EXPECT_LT((solution.primal - known.optimum).norm(), 2e-5);
@@ -48,7 +48,7 @@ TEST(Sqp, FindsTheKnownOptimaOfHockAndSchittkowski) {
 
 TEST(Sqp, FollowsRosenbrocksValley) {
   SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve(program, vector({-1.2, 1.0}));
+  const Solution solution = solve_by_sqp(program, vector({-1.2, 1.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_LT((solution.primal - vector({1.0, 1.0})).norm(), 1e-8);
 }
@@ -57,7 +57,7 @@ TEST(Sqp, GivesMultipliersOfOurSign) {
   // HS 71: x₁x₂x₃x₄ >= 25 is active from below: more of it would cost more, so its multiplier is negative.
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   SmallProgram program(known.statement);
-  const Solution solution = solve(program, known.start);
+  const Solution solution = solve_by_sqp(program, known.start);
   EXPECT_NEAR(solution.multipliers[0], -0.5522936596, 1e-8);
   EXPECT_NEAR(solution.multipliers[1], 0.1614685642, 1e-8);
 }
@@ -71,7 +71,7 @@ TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
         const tests::Solved by_ipopt =
             tests::solve(*problem, {method, 1}, Grid::uniform(intervals), tests::common_start(*problem));
         Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(intervals));
-        const Solution solution = solve(program, sample(program, tests::common_start(*problem)));
+        const Solution solution = solve_by_sqp(program, sample(program, tests::common_start(*problem)));
         EXPECT_EQ(solution.status, Status::solved) << solution.message;
         EXPECT_NEAR(solution.objective / by_ipopt.solution.objective, 1.0, 1e-10);
         EXPECT_LT((solution.primal - by_ipopt.solution.primal).lpNorm<Eigen::Infinity>(), 1e-6);
@@ -91,7 +91,7 @@ TEST(Sqp, SolvesWithActiveControlBoundsToAPointWhereIpoptStays) {
       auto bounded = sqp::tests::with_control_bound(program, bound);
       SolverOptions options;
       options.tolerance = 1e-8;
-      const Solution solution = solve(bounded, sample(program, guessed_motion(*problem)), options);
+      const Solution solution = solve_by_sqp(bounded, sample(program, guessed_motion(*problem)), options);
       ASSERT_EQ(solution.status, Status::solved) << solution.message;
       const Solution by_ipopt = make_solver("ipopt")->solve(bounded, solution.primal);
       EXPECT_NEAR(by_ipopt.objective / solution.objective, 1.0, 1e-8);
@@ -104,7 +104,7 @@ TEST(Sqp, KeepsFixedVariablesAtTheirValues) {
   tests::KnownProgram known = tests::hock_schittkowski().back();
   known.statement.variable_lower[1] = known.statement.variable_upper[1] = 4.5;
   SmallProgram program(known.statement);
-  const Solution solution = solve(program, known.start);
+  const Solution solution = solve_by_sqp(program, known.start);
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_EQ(solution.primal[1], 4.5);
 }
@@ -113,7 +113,7 @@ TEST(Sqp, SaysInfeasibleWhereTheRowsCannotBeMet) {
   SmallProgram program = tests::equality_program(
       [](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
       [](const HyperVector& x) { return HyperVector{x[0] * x[0] + x[1] * x[1]}; }, 2, vector({-1.0}));
-  const Solution solution = solve(program, vector({1.0, 0.5}));
+  const Solution solution = solve_by_sqp(program, vector({1.0, 0.5}));
   EXPECT_EQ(solution.status, Status::infeasible) << solution.message;
   EXPECT_NEAR(solution.constraint_violation.value(), 1.0, 1e-3);
 }
@@ -124,7 +124,7 @@ TEST(Sqp, GivesUpWithAWordWhereTheObjectiveFallsForever) {
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
   SolverOptions options;
   options.most_iterations = 100;
-  const Solution solution = solve(program, vector({0.0}), options);
+  const Solution solution = solve_by_sqp(program, vector({0.0}), options);
   EXPECT_FALSE(is_solved(solution.status));
   EXPECT_FALSE(solution.message.empty());
 }
@@ -133,20 +133,20 @@ TEST(Sqp, StopsAtTheIterationLimitAndWhenAsked) {
   SmallProgram program = tests::rosenbrock();
   SolverOptions options;
   options.most_iterations = 3;
-  const Solution limited = solve(program, vector({-1.2, 1.0}), options);
+  const Solution limited = solve_by_sqp(program, vector({-1.2, 1.0}), options);
   EXPECT_EQ(limited.status, Status::iteration_limit);
   EXPECT_EQ(limited.major_iterations, 3);
   options.most_iterations = 500;
   int asked = 0;
   options.stop_requested = [&] { return ++asked > 4; };
-  EXPECT_EQ(solve(program, vector({-1.2, 1.0}), options).status, Status::interrupted);
+  EXPECT_EQ(solve_by_sqp(program, vector({-1.2, 1.0}), options).status, Status::interrupted);
 }
 
 TEST(Sqp, SaysWhereAFormulaGivesNoNumber) {
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return log(x[0]); },
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
-  EXPECT_EQ(solve(program, vector({-1.0})).status, Status::evaluation_failed);
+  EXPECT_EQ(solve_by_sqp(program, vector({-1.0})).status, Status::evaluation_failed);
 }
 
 TEST(Sqp, StepsBackFromPlacesWhereAFormulaGivesNoNumber) {
@@ -154,7 +154,7 @@ TEST(Sqp, StepsBackFromPlacesWhereAFormulaGivesNoNumber) {
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return x[0] - log(x[0]); },
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
-  const Solution solution = solve(program, vector({3.0}));
+  const Solution solution = solve_by_sqp(program, vector({3.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_NEAR(solution.primal[0], 1.0, 1e-8);
 }
@@ -172,7 +172,7 @@ TEST(Sqp, RefusesWhatItDoesNotKnow) {
 
 TEST(Sqp, RefusesAStartOfTheWrongSize) {
   SmallProgram program = tests::rosenbrock();
-  EXPECT_EQ(tests::sentence_of_error([&] { static_cast<void>(solve(program, vector({1.0}))); }),
+  EXPECT_EQ(tests::sentence_of_error([&] { static_cast<void>(solve_by_sqp(program, vector({1.0}))); }),
             "the start has 1 entries, the program 2 variables");
 }
 

@@ -10,7 +10,7 @@ namespace dmocbench::sqp {
 namespace {
 
 /// A pivot of the Cholesky factorisation that is this small beside its diagonal entry is rounding.
-constexpr double smallest_pivot = 100.0 * std::numeric_limits<double>::epsilon();
+constexpr double smallest_relative_pivot = 100.0 * std::numeric_limits<double>::epsilon();
 
 Eigen::MatrixXd without(const Eigen::MatrixXd& matrix, Eigen::Index place) {
   const Eigen::Index after = matrix.rows() - place - 1;
@@ -45,7 +45,7 @@ bool ReducedHessian::append(const Eigen::VectorXd& border, double diagonal) {
   Eigen::VectorXd row = border;
   if (size_ > 0) factor_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(row);
   const double pivot = diagonal - row.squaredNorm();
-  if (!(pivot > smallest_pivot * std::abs(diagonal))) return false;
+  if (!(pivot > smallest_relative_pivot * std::abs(diagonal))) return false;
   reserve(size_ + 1);
   matrix_.col(size_).head(size_) = border;
   matrix_.row(size_).head(size_) = border.transpose();
