@@ -3,6 +3,8 @@
 
 #include "methods/transcription/costates.hpp"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
@@ -33,10 +35,10 @@ class CostatesOf : public testing::TestWithParam<std::tuple<std::string, std::st
 /// The optimal cost if the motion starts at (q, p) instead; `end_too` moves the final state as well.
 class OptimalCost {
  public:
-  OptimalCost(const Problem& problem, const Scheme& scheme, const Grid& grid, const Trajectory& near)
+  OptimalCost(const Problem& problem, Scheme scheme, Grid grid, const Trajectory& near)
       : problem_(problem),
-        scheme_(scheme),
-        grid_(grid),
+        scheme_(std::move(scheme)),
+        grid_(std::move(grid)),
         start_(smooth_motion(near)),
         legendre_(TracedProblem(problem)) {}
 
