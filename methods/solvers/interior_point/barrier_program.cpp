@@ -7,18 +7,6 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-BoundList bounds_of(const Eigen::VectorXd& bounds, const Eigen::VectorXd& others) {
-  BoundList list;
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
-    if (!std::isfinite(bounds[i]) || bounds[i] == others[i]) continue;
-    list.entries.push_back(i);
-    values.push_back(bounds[i]);
-  }
-  list.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  return list;
-}
-
 /// Moves a number away from its bounds: by a hundredth of its size, at most a hundredth of their distance.
 double pushed_inside(double value, double lower, double upper) {
   constexpr double share = 1e-2;
@@ -36,14 +24,6 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
 
 /// Eigen's allFinite() looks at one number at a time.
 bool is_finite(const Eigen::VectorXd& vector) { return (vector.array() * 0.0).sum() == 0.0; }
-
-double sum_of_logarithms(const Eigen::VectorXd& vector, const BoundList& bounds, double side) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    sum += std::log(side * (vector[bounds.entries[i]] - bounds.values[static_cast<Eigen::Index>(i)]));
-  }
-  return sum;
-}
 
 }  // namespace
 
@@ -114,8 +94,8 @@ void BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eig
 }
 
 double BarrierProgram::barrier(const Point& point) const {
-  return -sum_of_logarithms(point.x, x_lower_, 1.0) - sum_of_logarithms(point.x, x_upper_, -1.0) -
-         sum_of_logarithms(point.s, s_lower_, 1.0) - sum_of_logarithms(point.s, s_upper_, -1.0);
+  return barrier_of(point.x, x_lower_, 1.0) + barrier_of(point.x, x_upper_, -1.0) + barrier_of(point.s, s_lower_, 1.0) +
+         barrier_of(point.s, s_upper_, -1.0);
 }
 
 }  // namespace dmocbench::interior_point

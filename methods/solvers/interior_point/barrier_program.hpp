@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/bound_list.hpp"
 #include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
@@ -20,13 +21,6 @@ struct Point {
   Eigen::VectorXd x_upper;
   Eigen::VectorXd s_lower;
   Eigen::VectorXd s_upper;
-};
-
-/// Where a vector has bounds on one side, and their values. Entries whose two bounds are equal have none: they do not
-/// move.
-struct BoundList {
-  std::vector<Eigen::Index> entries;
-  Eigen::VectorXd values;
 };
 
 /// The program as the barrier method sees it,

@@ -5,7 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/clock.hpp"
+#include "methods/solvers/interior_point/bound_list.hpp"
 #include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench::interior_point {
@@ -18,7 +19,6 @@ constexpr double kappa_epsilon = 10.0;
 constexpr double kappa_mu = 0.2;
 constexpr double theta_mu = 1.5;
 constexpr double tau_min = 0.99;
-constexpr double kappa_sigma = 1e10;
 constexpr double s_max = 100.0;
 constexpr double eta = 1e-8;
 constexpr double delta = 1.0;
@@ -29,57 +29,6 @@ constexpr double kappa_soc = 0.99;
 constexpr int most_corrections = 4;
 constexpr double small_violation = 1e-4;   // θ_min over θ of the start
 constexpr double largest_violation = 1e4;  // θ_max over it
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The longest step that leaves `1 - share` of the distance from every bound.
-double longest(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds, double side,
-               double share) {
-  double length = 1.0;
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const Eigen::Index entry = bounds.entries[i];
-    const double distance = side * (vector[entry] - bounds.values[static_cast<Eigen::Index>(i)]);
-    const double change = side * step[entry];
-    if (change < 0.0) length = std::min(length, -share * distance / change);
-  }
-  return length;
-}
-
-double longest(const Eigen::VectorXd& z, const Eigen::VectorXd& step, double share) {
-  double length = 1.0;
-  for (Eigen::Index i = 0; i < z.size(); ++i) {
-    if (step[i] < 0.0) length = std::min(length, -share * z[i] / step[i]);
-  }
-  return length;
-}
-
-double largest_product(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z, double side,
-                       double mu) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const auto b = static_cast<Eigen::Index>(i);
-    const double distance = side * (vector[bounds.entries[i]] - bounds.values[b]);
-    largest = std::max(largest, std::abs(distance * z[b] - mu));
-  }
-  return largest;
-}
-
-void subtract(const BoundList& bounds, const Eigen::VectorXd& z, double side, Eigen::VectorXd& slope) {
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    slope[bounds.entries[i]] -= side * z[static_cast<Eigen::Index>(i)];
-  }
-}
-
-/// z within a factor of μ/d, so that it cannot leave the neighbourhood of the barrier's own multipliers.
-void keep_near(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu, Eigen::VectorXd& z) {
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const auto b = static_cast<Eigen::Index>(i);
-    const double barrier = mu / (side * (vector[bounds.entries[i]] - bounds.values[b]));
-    z[b] = std::clamp(z[b], barrier / kappa_sigma, barrier * kappa_sigma);
-  }
-}
 
 }  // namespace
 
@@ -104,6 +53,7 @@ Solution InteriorPointRun::run() {
   std::optional<Status> end;
   if (!begin(point_.x)) end = Status::evaluation_failed;
   while (!end) end = iterate();
+  if (options_.verbose) std::printf("%d iterations, %d linear systems\n", iterations_, newton_.factorisations());
   solution.status = *end;
   solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
   solution.primal = point_.x;
@@ -157,19 +107,19 @@ InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
     return at;
   }
   Eigen::VectorXd slope = slope_;
-  subtract(program_.x_lower(), point_.x_lower, 1.0, slope);
-  subtract(program_.x_upper(), point_.x_upper, -1.0, slope);
+  subtract_multipliers(program_.x_lower(), point_.x_lower, 1.0, slope);
+  subtract_multipliers(program_.x_upper(), point_.x_upper, -1.0, slope);
   Eigen::VectorXd slack_slope = -point_.multipliers;
-  subtract(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
-  subtract(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
+  subtract_multipliers(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
+  subtract_multipliers(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
   at.stationarity = slope.lpNorm<Eigen::Infinity>();
   for (const Eigen::Index i : program_.inequalities()) {
     at.stationarity = std::max(at.stationarity, std::abs(slack_slope[i]));
   }
-  at.complementarity = std::max({largest_product(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
-                                 largest_product(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
-                                 largest_product(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
-                                 largest_product(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
+  at.complementarity = std::max({complementarity(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
+                                 complementarity(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
+                                 complementarity(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
+                                 complementarity(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
   return at;
 }
 
@@ -220,16 +170,16 @@ std::optional<Status> InteriorPointRun::iterate() {
 }
 
 double InteriorPointRun::largest_step(const Direction& direction, double share) const {
-  return std::min({longest(point_.x, direction.x, program_.x_lower(), 1.0, share),
-                   longest(point_.x, direction.x, program_.x_upper(), -1.0, share),
-                   longest(point_.s, direction.s, program_.s_lower(), 1.0, share),
-                   longest(point_.s, direction.s, program_.s_upper(), -1.0, share)});
+  return std::min({longest_step(point_.x, direction.x, program_.x_lower(), 1.0, share),
+                   longest_step(point_.x, direction.x, program_.x_upper(), -1.0, share),
+                   longest_step(point_.s, direction.s, program_.s_lower(), 1.0, share),
+                   longest_step(point_.s, direction.s, program_.s_upper(), -1.0, share)});
 }
 
 double InteriorPointRun::largest_bound_step(const Direction& direction, double share) const {
-  return std::min({longest(point_.x_lower, direction.x_lower, share), longest(point_.x_upper, direction.x_upper, share),
-                   longest(point_.s_lower, direction.s_lower, share),
-                   longest(point_.s_upper, direction.s_upper, share)});
+  return std::min(
+      {longest_step(point_.x_lower, direction.x_lower, share), longest_step(point_.x_upper, direction.x_upper, share),
+       longest_step(point_.s_lower, direction.s_lower, share), longest_step(point_.s_upper, direction.s_upper, share)});
 }
 
 /// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper; with
@@ -281,10 +231,10 @@ void InteriorPointRun::move_bounds(const Direction& direction, double length) {
 }
 
 void InteriorPointRun::keep_bounds_near_barrier() {
-  keep_near(point_.x, program_.x_lower(), 1.0, mu_, point_.x_lower);
-  keep_near(point_.x, program_.x_upper(), -1.0, mu_, point_.x_upper);
-  keep_near(point_.s, program_.s_lower(), 1.0, mu_, point_.s_lower);
-  keep_near(point_.s, program_.s_upper(), -1.0, mu_, point_.s_upper);
+  keep_near_barrier(point_.x, program_.x_lower(), 1.0, mu_, point_.x_lower);
+  keep_near_barrier(point_.x, program_.x_upper(), -1.0, mu_, point_.x_upper);
+  keep_near_barrier(point_.s, program_.s_lower(), 1.0, mu_, point_.s_lower);
+  keep_near_barrier(point_.s, program_.s_upper(), -1.0, mu_, point_.s_upper);
 }
 
 void InteriorPointRun::report(const char* kind, double length) const {

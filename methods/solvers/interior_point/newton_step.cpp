@@ -5,53 +5,6 @@
 
 namespace dmocbench::interior_point {
 
-namespace {
-
-/// Adds what a list of bounds contributes: z/d to the diagonal, ∓μ/d to the slope. `side` is 1 for lower bounds.
-void add_bounds(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z, double side,
-                double mu, Eigen::VectorXd& diagonal, Eigen::VectorXd& slope) {
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const auto b = static_cast<Eigen::Index>(i);
-    const Eigen::Index entry = bounds.entries[i];
-    const double distance = side * (vector[entry] - bounds.values[b]);
-    diagonal[entry] += z[b] / distance;
-    slope[entry] -= side * mu / distance;
-  }
-}
-
-/// δz = μ/d - z - (z/d) δd.
-Eigen::VectorXd bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds,
-                           const Eigen::VectorXd& z, double side, double mu) {
-  Eigen::VectorXd result(z.size());
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const auto b = static_cast<Eigen::Index>(i);
-    const Eigen::Index entry = bounds.entries[i];
-    const double distance = side * (vector[entry] - bounds.values[b]);
-    result[b] = mu / distance - z[b] - z[b] / distance * side * step[entry];
-  }
-  return result;
-}
-
-/// Makes steps near bounds cost more: adds μ/d² to the diagonal.
-void add_nearness(const Eigen::VectorXd& vector, const BoundList& bounds, double mu, Eigen::VectorXd& diagonal) {
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const double distance = vector[bounds.entries[i]] - bounds.values[static_cast<Eigen::Index>(i)];
-    diagonal[bounds.entries[i]] += mu / (distance * distance);
-  }
-}
-
-/// Of -ln(x - l), and of -ln(u - x) alike.
-double barrier_slope(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-    const Eigen::Index entry = bounds.entries[i];
-    sum -= step[entry] / (vector[entry] - bounds.values[static_cast<Eigen::Index>(i)]);
-  }
-  return sum;
-}
-
-}  // namespace
-
 bool InertiaShift::raise() noexcept {
   constexpr double first = 1e-4;
   constexpr double smallest = 1e-20;
@@ -83,10 +36,10 @@ void NewtonStep::fill_barrier(const Point& point, double mu, const Eigen::Vector
   diagonal_.setZero();
   slack_.setZero();
   slack_slope_ = -point.multipliers;
-  add_bounds(point.x, program_.x_lower(), point.x_lower, 1.0, mu, diagonal_, slope_);
-  add_bounds(point.x, program_.x_upper(), point.x_upper, -1.0, mu, diagonal_, slope_);
-  add_bounds(point.s, program_.s_lower(), point.s_lower, 1.0, mu, slack_, slack_slope_);
-  add_bounds(point.s, program_.s_upper(), point.s_upper, -1.0, mu, slack_, slack_slope_);
+  add_barrier(point.x, program_.x_lower(), point.x_lower, 1.0, mu, diagonal_, slope_);
+  add_barrier(point.x, program_.x_upper(), point.x_upper, -1.0, mu, diagonal_, slope_);
+  add_barrier(point.s, program_.s_lower(), point.s_lower, 1.0, mu, slack_, slack_slope_);
+  add_barrier(point.s, program_.s_upper(), point.s_upper, -1.0, mu, slack_, slack_slope_);
 }
 
 Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction) {
@@ -158,15 +111,10 @@ bool NewtonStep::estimate_multipliers(Point& point) {
   point.multipliers.setZero();
   fill_barrier(point, no_mu, program_.gradient());
   // The slope with the multipliers of the bounds as they are, where fill_barrier has those of the barrier.
-  const auto add = [](const BoundList& bounds, const Eigen::VectorXd& z, double side, Eigen::VectorXd& slope) {
-    for (std::size_t i = 0; i < bounds.entries.size(); ++i) {
-      slope[bounds.entries[i]] -= side * z[static_cast<Eigen::Index>(i)];
-    }
-  };
-  add(program_.x_lower(), point.x_lower, 1.0, slope_);
-  add(program_.x_upper(), point.x_upper, -1.0, slope_);
-  add(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
-  add(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
+  subtract_multipliers(program_.x_lower(), point.x_lower, 1.0, slope_);
+  subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope_);
+  subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
+  subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
   diagonal_.setOnes();
   slack_.setOnes();
   shift_.begin();

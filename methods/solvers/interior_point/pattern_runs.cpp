@@ -4,23 +4,24 @@ namespace dmocbench::interior_point {
 
 std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern) {
   std::vector<PatternRun> runs;
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    const Eigen::Index row = pattern.rows[e];
-    const Eigen::Index column = pattern.columns[e];
-    if (!runs.empty()) {
-      PatternRun& run = runs.back();
-      const Eigen::Index row_step = row - (run.row + (run.length - 1) * run.row_step);
-      const Eigen::Index column_step = column - (run.column + (run.length - 1) * run.column_step);
-      const bool is_step = row_step >= 0 && row_step <= 1 && column_step >= 0 && column_step <= 1;
-      const bool goes_on = run.length == 1 || (row_step == run.row_step && column_step == run.column_step);
-      if (is_step && goes_on) {
-        run.row_step = row_step;
-        run.column_step = column_step;
-        ++run.length;
-        continue;
+  const std::vector<int>& rows = pattern.rows;
+  const std::vector<int>& columns = pattern.columns;
+  const auto is_step = [](int step) { return step == 0 || step == 1; };
+  for (std::size_t begin = 0; begin < pattern.size();) {
+    std::size_t end = begin + 1;
+    int row_step = 0;
+    int column_step = 0;
+    if (end < pattern.size() && is_step(rows[end] - rows[begin]) && is_step(columns[end] - columns[begin])) {
+      row_step = rows[end] - rows[begin];
+      column_step = columns[end] - columns[begin];
+      while (end < pattern.size() && rows[end] == rows[end - 1] + row_step &&
+             columns[end] == columns[end - 1] + column_step) {
+        ++end;
       }
     }
-    runs.push_back({static_cast<Eigen::Index>(e), row, column, 0, 0, 1});
+    runs.push_back({static_cast<Eigen::Index>(begin), rows[begin], columns[begin], row_step, column_step,
+                    static_cast<Eigen::Index>(end - begin)});
+    begin = end;
   }
   return runs;
 }

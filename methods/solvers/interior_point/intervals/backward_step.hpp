@@ -8,11 +8,12 @@ struct StepSizes {
   [[nodiscard]] constexpr int next() const { return next_size(shape) * column_count(shape); }
   [[nodiscard]] constexpr int transition() const { return state_size(shape) * column_count(shape); }
   [[nodiscard]] constexpr int condensed() const { return column_count(shape) * column_count(shape); }
+  [[nodiscard]] constexpr int scaled() const { return free_size(shape) * (column_count(shape) + state_size(shape)); }
   [[nodiscard]] constexpr int value() const { return state_size(shape) * (2 * state_size(shape) + 1); }
   [[nodiscard]] constexpr int reach() const { return state_size(shape) * (state_size(shape) + 1); }
   [[nodiscard]] constexpr int all() const {
-    return equalities() + shape.rows + 2 * next() + 3 * transition() + condensed() + column_count(shape) + value() +
-           reach() + 2;
+    return equalities() + shape.rows + 2 * next() + 3 * transition() + condensed() + scaled() + column_count(shape) +
+           value() + reach() + 2;
   }
 };
 
@@ -34,11 +35,12 @@ struct StepWork {
     transition = take(sizes.transition());
     weighted = take(sizes.transition());
     condensed = take(sizes.condensed());
+    scaled = take(sizes.scaled());
     line = take(column_count(s));
     reached = take(sizes.transition());
     value = take(sizes.value());
     reach = take(sizes.reach());
-    smallest_pivot = take(1);
+    pivots_hold = take(1);
     smallest_ratio = take(1);
   }
 
@@ -50,11 +52,12 @@ struct StepWork {
   Lanes* transition;   // X x (w, X, 1): the next state
   Lanes* weighted;     // X x (w, X, 1): derivative of the value of the rest with respect to the next state
   Lanes* condensed;    // (w, X, 1) x (w, X, 1): the quadratic form of interval and rest; lower triangle
+  Lanes* scaled;       // w x (w, X, 1, ν): rows that are eliminated, divided by their pivots
   Lanes* line;         // (w, X, 1): an inequality, weighted
   Lanes* reached;      // (w, X, 1) x ν
   Lanes* value;        // X x (X, 1, ν): P, p, Φ
-  Lanes* reach;        // ν x (1, ν): γ, Γ
-  Lanes* smallest_pivot;
+  Lanes* reach;        // ν x (1, ν): γ, lower triangle of Γ
+  Lanes* pivots_hold;  // 1, or -1 once one did not
   Lanes* smallest_ratio;
 };
 
@@ -74,18 +77,19 @@ struct StepWork<FixedShape<numbers...>> {
   Lanes transition[sizes.transition()];
   Lanes weighted[sizes.transition()];
   Lanes condensed[sizes.condensed()];
+  Lanes scaled[at_least_one(sizes.scaled())];
   Lanes line[column_count(S{0})];
   Lanes reached[sizes.transition()];
   Lanes value[sizes.value()];
   Lanes reach[sizes.reach()];
-  Lanes smallest_pivot[1];
+  Lanes pivots_hold[1];
   Lanes smallest_ratio[1];
 };
 
 /// Solves the equalities for the dependent entries of Z. Rows and columns come in an order in which no exchange is
 /// needed, see elimination_plan.hpp.
 template <class S>
-DMOCBENCH_INLINE void eliminate_equalities(const S& shape, const Lanes* local, const double* usual_pivots,
+DMOCBENCH_INLINE void eliminate_equalities(const S& shape, const Lanes* local, const double* pivot_scales,
                                            StepWork<S>& work) {
   const int n = shape.rows;
   const int columns = next_size(shape) + state_size(shape) + 1;
@@ -93,7 +97,7 @@ DMOCBENCH_INLINE void eliminate_equalities(const S& shape, const Lanes* local, c
   for (int i = 0; i < n * columns; ++i) a[i] = local[i];
   for (int p = 0; p < n; ++p) {
     const Lanes pivot = a[p + p * n];
-    *work.smallest_ratio = least_so_far(*work.smallest_ratio, magnitude(pivot) / Lanes::all(usual_pivots[p]));
+    *work.smallest_ratio = least_so_far(*work.smallest_ratio, magnitude(pivot) * Lanes::all(pivot_scales[p]));
     work.reciprocals[p] = Lanes::all(1.0) / pivot;
     for (int i = p + 1; i < n; ++i) {
       const Lanes factor = a[i + p * n] * work.reciprocals[p];
@@ -205,34 +209,31 @@ DMOCBENCH_INLINE void condense(const S& shape, const LocalBlocks<S>& blocks, con
   }
 }
 
-/// Cholesky factor of the free unknowns' Hessian, in place; L⁻¹ times all that stands beside it. A pivot that is not
-/// positive is replaced, so that no other lane is disturbed, and remembered.
+/// Factors L D Lᵀ of the free unknowns' Hessian: what is eliminated stays in `condensed` and `reached`, the same
+/// divided by the pivots goes to `scaled`. A pivot that is not positive is replaced, so that no other lane is
+/// disturbed, and remembered.
 template <class S>
 DMOCBENCH_INLINE void factorise_free(const S& shape, StepWork<S>& work) {
   const int w = free_size(shape);
   const int X = state_size(shape);
   const int N = column_count(shape);
+  const Lanes one = Lanes::all(1.0);
   Lanes* const c = work.condensed;
+  Lanes* const scaled = work.scaled;
   for (int p = 0; p < w; ++p) {
     const Lanes diagonal = c[p + p * N];
-    Lanes pivot = diagonal;
-    for (int q = 0; q < p; ++q) pivot -= c[p + q * N] * c[p + q * N];
+    for (int q = 0; q < p; ++q) {
+      for (int i = p; i < N; ++i) c[i + p * N] -= c[i + q * N] * scaled[q + p * w];
+      for (int j = 0; j < X; ++j) work.reached[p + j * N] -= scaled[q + p * w] * work.reached[q + j * N];
+    }
+    Lanes pivot = c[p + p * N];
     // A pivot that is rounding of its diagonal entry is no pivot.
-    const Lanes relative = pivot / larger(magnitude(diagonal), Lanes::all(1e-300));
-    *work.smallest_pivot = least_so_far(*work.smallest_pivot, relative);
-    pivot = chosen(pivot.v > 0.0, pivot, Lanes::all(1.0));
-    const Lanes reciprocal = Lanes::all(1.0) / square_root(pivot);
-    c[p + p * N] = reciprocal;
-    for (int i = p + 1; i < N; ++i) {
-      Lanes sum = c[i + p * N];
-      for (int q = 0; q < p; ++q) sum -= c[i + q * N] * c[p + q * N];
-      c[i + p * N] = sum * reciprocal;
-    }
-    for (int j = 0; j < X; ++j) {
-      Lanes sum = work.reached[p + j * N];
-      for (int q = 0; q < p; ++q) sum -= c[p + q * N] * work.reached[q + j * N];
-      work.reached[p + j * N] = sum * reciprocal;
-    }
+    const Lanes::Mask holds = pivot.v > (Lanes::all(smallest_pivot_share) * magnitude(diagonal)).v;
+    *work.pivots_hold = smaller(*work.pivots_hold, chosen(holds, one, -one));
+    pivot = chosen(holds, pivot, one);
+    const Lanes reciprocal = one / pivot;
+    for (int i = p + 1; i < N; ++i) scaled[p + i * w] = c[i + p * N] * reciprocal;
+    for (int j = 0; j < X; ++j) scaled[p + (N + j) * w] = work.reached[p + j * N] * reciprocal;
   }
 }
 
@@ -243,13 +244,14 @@ DMOCBENCH_INLINE void advance(const S& shape, bool all_active, const Lanes::Mask
   const int X = state_size(shape);
   const int N = column_count(shape);
   const Lanes* const c = work.condensed;
+  const Lanes* const scaled = work.scaled;
   const auto put = [&](Lanes& target, const Lanes& value) {
     target = all_active ? value : chosen(active, value, target);
   };
   for (int j = 0; j < X; ++j) {
     for (int i = j; i < X + 1; ++i) {
       Lanes sum = c[w + i + (w + j) * N];
-      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * c[w + j + q * N];
+      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * scaled[q + (w + j) * w];
       if (i == X) {
         put(work.value[j + X * X], sum);
       } else {
@@ -259,16 +261,16 @@ DMOCBENCH_INLINE void advance(const S& shape, bool all_active, const Lanes::Mask
     }
     for (int i = 0; i < X + 1; ++i) {
       Lanes sum = work.reached[w + i + j * N];
-      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * work.reached[q + j * N];
+      for (int q = 0; q < w; ++q) sum -= c[w + i + q * N] * scaled[q + (N + j) * w];
       if (i < X) {
         put(work.value[i + (X + 1 + j) * X], sum);
       } else {
         put(work.reach[j], work.reach[j] + sum);
       }
     }
-    for (int i = 0; i < X; ++i) {
+    for (int i = j; i < X; ++i) {
       Lanes sum = work.reach[i + (1 + j) * X];
-      for (int q = 0; q < w; ++q) sum += work.reached[q + i * N] * work.reached[q + j * N];
+      for (int q = 0; q < w; ++q) sum += work.reached[q + i * N] * scaled[q + (N + j) * w];
       put(work.reach[i + (1 + j) * X], sum);
     }
   }

@@ -169,7 +169,7 @@ std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, 
   const Slots slots(entries.shape, *order);
   EliminationPlan plan;
   plan.shape = entries.shape;
-  plan.usual_pivots = order->pivots;
+  for (const double pivot : order->pivots) plan.pivot_scales.push_back(1.0 / pivot);
   for (int i = 0; i < entries.shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
   append_ones(entries, slots, plan);
   append_collected(entries, slots, plan);

@@ -10,8 +10,6 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
-constexpr double smallest_pivot = 1e-13;
 /// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
 constexpr double smallest_ratio = 1e-7;
 
@@ -112,7 +110,7 @@ Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, co
   arrays.terminal_weights = weights_.values().data();
   kernel_.backward(*plan_, arrays, group_);
   if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
-  if (!(group_.smallest_pivot > smallest_pivot)) return Verdict::wrong_inertia;
+  if (!group_.pivots_hold) return Verdict::wrong_inertia;
   for (int segment = lane_count - 1; segment >= 0; --segment) {
     read_value(segment);
     weights_.learn(segment_value_.Gamma);

@@ -4,14 +4,11 @@
 template <class S>
 DMOCBENCH_INLINE void store_gain(const S& shape, const StepWork<S>& work, Lanes* gain) {
   const int w = free_size(shape);
-  const int X = state_size(shape);
-  const int N = column_count(shape);
-  const Lanes* const c = work.condensed;
-  for (int j = 0; j < 2 * X + 1; ++j) {
+  for (int j = 0; j < 2 * state_size(shape) + 1; ++j) {
     for (int p = w - 1; p >= 0; --p) {
-      Lanes sum = j <= X ? c[w + j + p * N] : work.reached[p + (j - X - 1) * N];
-      for (int q = p + 1; q < w; ++q) sum -= c[q + p * N] * gain[q + j * w];
-      gain[p + j * w] = sum * c[p + p * N];
+      Lanes sum = work.scaled[p + (w + j) * w];
+      for (int q = p + 1; q < w; ++q) sum -= work.scaled[p + q * w] * gain[q + j * w];
+      gain[p + j * w] = sum;
     }
   }
 }

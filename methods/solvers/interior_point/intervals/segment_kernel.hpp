@@ -33,13 +33,16 @@ struct Emitted {
   std::size_t first;
 };
 
+/// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
+inline constexpr double smallest_pivot_share = 1e-13;
+
 /// How the intervals of a program are eliminated; the same for all of them.
 struct EliminationPlan {
   Shape shape{};
   std::vector<Collected> collected;
   std::vector<Emitted> emitted;
   std::vector<int> node_in_next;     ///< which entry of Z, in the order of elimination, is x_i
-  std::vector<double> usual_pivots;  ///< of the equalities, as large as they are on the whole
+  std::vector<double> pivot_scales;  ///< of the equalities: one over what the pivots are on the whole
   std::vector<int> ones;             ///< entries of the blocks that are 1 in every interval
 };
 
@@ -60,7 +63,8 @@ struct SegmentGroup {
 
   double* state = nullptr;       ///< forward: X at the first node
   double* multiplier = nullptr;  ///< forward: ν
-  double smallest_pivot = 0.0;   ///< smallest pivot of the Hessian of the free unknowns, relative to its diagonal
+  bool pivots_hold = false;      ///< all pivots of the free unknowns' Hessians are positive, beyond rounding; if
+                                 ///< not, the sweep ended early and left no value
   double smallest_ratio = 0.0;   ///< smallest pivot of the equalities, relative to the usual one
 };
 

@@ -19,7 +19,7 @@ inline void start_value(const S& shape, const double* terminal_weights, StepWork
     work.value[i + i * X] = Lanes::all(terminal_weights[i]);
     work.value[i + (X + 1 + i) * X] = Lanes::all(1.0);
   }
-  *work.smallest_pivot = Lanes::all(1.0);
+  *work.pivots_hold = Lanes::all(1.0);
   *work.smallest_ratio = Lanes::all(1e300);
 }
 
@@ -50,9 +50,9 @@ DMOCBENCH_INLINE void step_backward(const S& shape, const EliminationPlan& plan,
                                     const Lanes::Mask* active, StepWork<S>& work, Lanes* record) {
   const LocalBlocks<S> blocks{shape};
   const RecordBlocks<S> places{shape};
-  const Lanes pivot_before = *work.smallest_pivot;
+  const Lanes held_before = *work.pivots_hold;
   const Lanes ratio_before = *work.smallest_ratio;
-  eliminate_equalities(shape, local, plan.usual_pivots.data(), work);
+  eliminate_equalities(shape, local, plan.pivot_scales.data(), work);
   make_transition(shape, blocks, local, plan.node_in_next.data(), work);
   condense(shape, blocks, local, work);
   factorise_free(shape, work);
@@ -66,7 +66,7 @@ DMOCBENCH_INLINE void step_backward(const S& shape, const EliminationPlan& plan,
     advance(shape, true, Lanes::Mask{}, work);
   } else {
     advance(shape, false, *active, work);
-    *work.smallest_pivot = chosen(*active, *work.smallest_pivot, pivot_before);
+    *work.pivots_hold = chosen(*active, *work.pivots_hold, held_before);
     *work.smallest_ratio = chosen(*active, *work.smallest_ratio, ratio_before);
   }
   if (!has_own_rows(shape)) store_multipliers(shape, work, record + places.multipliers());
@@ -83,7 +83,8 @@ void sweep_backward(const EliminationPlan& plan, const NewtonArrays& arrays, Seg
   prepare_locals(plan, blocks.size(), locals);
   start_value(shape, arrays.terminal_weights, work);
   const int blocks_there = (group.steps + block_steps - 1) / block_steps;
-  for (int block = blocks_there - 1; block >= 0; --block) {
+  // A pivot that fails ends the sweep: nobody reads what would follow.
+  for (int block = blocks_there - 1; block >= 0 && smallest_of(*work.pivots_hold) > 0.0; --block) {
     const int begin = block * block_steps;
     const int count = begin + block_steps <= group.steps ? block_steps : group.steps - begin;
     collect(plan, arrays, group, begin, count, locals, blocks.size());
@@ -94,13 +95,17 @@ void sweep_backward(const EliminationPlan& plan, const NewtonArrays& arrays, Seg
                     reinterpret_cast<Lanes*>(group.records) + static_cast<std::ptrdiff_t>(step) * places.size());
     }
   }
+  group.pivots_hold = smallest_of(*work.pivots_hold) > 0.0;
+  group.smallest_ratio = smallest_of(*work.smallest_ratio);
+  if (!group.pivots_hold) return;
   const int X = state_size(shape);
   auto* value = reinterpret_cast<Lanes*>(group.value);
   auto* reach = reinterpret_cast<Lanes*>(group.reach);
   for (int i = 0; i < X * (2 * X + 1); ++i) value[i] = work.value[i];
   for (int i = 0; i < X * (X + 1); ++i) reach[i] = work.reach[i];
-  group.smallest_pivot = smallest_of(*work.smallest_pivot);
-  group.smallest_ratio = smallest_of(*work.smallest_ratio);
+  for (int j = 0; j < X; ++j) {
+    for (int i = 0; i < j; ++i) reach[i + (1 + j) * X] = work.reach[j + (1 + i) * X];
+  }
 }
 
 /// One step forward: the next state, and what the step of this interval is made of.
