@@ -15,22 +15,20 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, std::string& why) {
+std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, std::string& why,
+                                               SegmentKernelChoice choose) {
   auto entries = interval_entries(program, why);
   if (!entries) return nullptr;
   try {
-    return std::make_unique<IntervalKkt>(program, std::move(*entries));
+    return std::make_unique<IntervalKkt>(program, std::move(*entries), choose);
   } catch (const Error& error) {
     why = error.what();
     return nullptr;
   }
 }
 
-IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries)
-    : entries_(std::move(entries)),
-      ends_(program, entries_),
-      kernel_(segment_kernel_for(entries_.shape)),
-      weights_(entries_) {
+IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
+    : entries_(std::move(entries)), ends_(program, entries_), kernel_(choose(entries_.shape)), weights_(entries_) {
   cut_into_segments();
   padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
   const auto X = static_cast<std::size_t>(state_size(entries_.shape));

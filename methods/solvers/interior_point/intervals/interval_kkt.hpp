@@ -24,9 +24,11 @@ namespace dmocbench::interior_point {
 class IntervalKkt : public KktSystem {
  public:
   /// Null, with the reason in `why`, for a program whose structure does not allow it (interval_entries.hpp).
-  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why);
+  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why,
+                                                         SegmentKernelChoice choose = segment_kernel_for);
 
-  IntervalKkt(const NonlinearProgram& program, IntervalEntries entries);
+  IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
+              SegmentKernelChoice choose = segment_kernel_for);
 
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                               Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;

@@ -1,15 +1,16 @@
-#include <algorithm>
-
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 
 namespace dmocbench::interior_point {
 
-SegmentKernel segment_kernel_for(const Shape& shape) {
+std::vector<SegmentKernelChoice> available_segment_kernels() {
+  std::vector<SegmentKernelChoice> choices{segment_kernel_baseline};
 #ifdef DMOCBENCH_X86_KERNELS
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return segment_kernel_avx512(shape);
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return segment_kernel_avx2(shape);
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) choices.push_back(segment_kernel_avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) choices.push_back(segment_kernel_avx512);
 #endif
-  return segment_kernel_baseline(shape);
+  return choices;
 }
+
+SegmentKernel segment_kernel_for(const Shape& shape) { return available_segment_kernels().back()(shape); }
 
 }  // namespace dmocbench::interior_point

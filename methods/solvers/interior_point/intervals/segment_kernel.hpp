@@ -83,8 +83,13 @@ struct SegmentKernel {
   void (*forward)(const EliminationPlan& plan, const SegmentGroup& group, double* primal_step, double* multiplier_step);
 };
 
+/// Gives the kernel for a shape.
+using SegmentKernelChoice = SegmentKernel (*)(const Shape& shape);
+
 /// The fastest kernel for a shape on this processor.
 [[nodiscard]] SegmentKernel segment_kernel_for(const Shape& shape);
+/// The choices among the kernels of one instruction set, for every one that this processor has; the fastest last.
+[[nodiscard]] std::vector<SegmentKernelChoice> available_segment_kernels();
 
 // The same source, segment_kernel.cpp, compiled once per instruction set.
 [[nodiscard]] SegmentKernel segment_kernel_baseline(const Shape& shape);

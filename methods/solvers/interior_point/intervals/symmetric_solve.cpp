@@ -1,5 +1,6 @@
 #include "methods/solvers/interior_point/intervals/symmetric_solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -22,19 +23,30 @@ Eigen::VectorXd equilibration(const Eigen::MatrixXd& lower) {
   return largest.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 1.0; });
 }
 
+/// Smallest magnitude of the eigenvalues of a symmetric block (a, b; b, c).
+double smallest_eigenvalue(double a, double b, double c) {
+  const double largest = 0.5 * (std::abs(a + c) + std::hypot(a - c, 2.0 * b));
+  return largest > 0.0 ? std::abs(a * c - b * b) / largest : 0.0;
+}
+
 /// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
 DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
+  const Eigen::Index n = factors.rows();
+  // What elimination leaves of dependent rows is rounding, a few units of it per row.
+  const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   DenseInertia inertia;
-  for (Eigen::Index i = 0; i < factors.rows(); ++i) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < n; ++i) {
     if (pivots[static_cast<std::size_t>(i)] < 0) {
+      smallest = std::min(smallest, smallest_eigenvalue(factors(i, i), factors(i + 1, i), factors(i + 1, i + 1)));
       ++inertia.negative;
       ++i;
     } else {
-      const double pivot = factors(i, i);
-      inertia.is_singular = inertia.is_singular || !(std::abs(pivot) > std::numeric_limits<double>::epsilon());
-      if (pivot < 0.0) ++inertia.negative;
+      smallest = std::min(smallest, std::abs(factors(i, i)));
+      if (factors(i, i) < 0.0) ++inertia.negative;
     }
   }
+  inertia.is_singular = !(smallest > rounding);
   return inertia;
 }
 

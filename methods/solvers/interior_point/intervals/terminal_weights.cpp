@@ -38,6 +38,7 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
     if (inner < 0) continue;
     Diagonal& diagonal = diagonals_[static_cast<std::size_t>(inner)];
     if (entry.source == Source::diagonal) {
+      diagonal.moves = true;
       diagonal.first = entry.first;
     } else {
       diagonal.has_hessian = true;
@@ -45,6 +46,8 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
       diagonal.entry = entry.first;
     }
   }
+  const auto is_fixed = [](const Diagonal& diagonal) { return !diagonal.moves; };
+  diagonals_.erase(std::remove_if(diagonals_.begin(), diagonals_.end(), is_fixed), diagonals_.end());
 }
 
 /// The softest unknowns count most, so it is their harmonic mean; as the Hessian of an interval is proportional to its

@@ -34,6 +34,7 @@ class TerminalWeights {
  private:
   /// Where the diagonal entries of the Hessian of an unknown of the intervals are.
   struct Diagonal {
+    bool moves = false;     ///< is not fixed
     std::size_t first = 0;  ///< of what is added to them
     bool has_hessian = false;
     Source source = Source::hessian;
