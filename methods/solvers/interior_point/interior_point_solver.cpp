@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
+#include "methods/solvers/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
@@ -49,6 +50,7 @@ std::string InteriorPointSolver::description() const {
 
 Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
   require_start(program, start);
+  const Clock::time_point begin = Clock::now();
   std::string why;
   const auto kkt = make_system(program, factorisation_of(options_.passed_on), why);
   if (!kkt) {
@@ -59,6 +61,7 @@ Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::Vect
     return refused;
   }
   Solution solution = interior_point::InteriorPointRun(program, *kkt, start, options_).run();
+  solution.seconds = seconds_since(begin);  // finding the structure is part of it
   const std::string message = solution.message;
   confirm(program, options_.tolerance, solution);
   if (solution.status == Status::step_failed) solution.message = message;

@@ -143,6 +143,43 @@ DMOCBENCH_INLINE void make_transition(const S& shape, const LocalBlocks<S>& bloc
   }
 }
 
+/// True where the dependent entries of Z are the next node's unknowns, in their order (the elimination plan sees to
+/// it): their Hessian then joins that of the rest before the transition is applied, instead of being applied twice.
+template <class S>
+inline constexpr bool joins_rest = false;
+template <int node, int carried, int shared, int inner>
+inline constexpr bool joins_rest<FixedShape<node, carried, shared, inner, node>> = true;
+
+/// Derivatives of interval and rest with respect to Z and to the next state, as functions of (w, X, 1).
+template <class S>
+DMOCBENCH_INLINE void differentiate_interval(const S& shape, const LocalBlocks<S>& blocks, const Lanes* local,
+                                             StepWork<S>& work) {
+  const int n = shape.rows;
+  const int Z = next_size(shape);
+  const int X = state_size(shape);
+  const int w = free_size(shape);
+  const Lanes* const hessian = local + blocks.hessian();
+  const auto direct = [&](int i, int j) { return hessian[i + (j < w ? n + j : Z + j - w) * Z]; };
+  for (int j = 0; j < column_count(shape); ++j) {
+    for (int i = joins_rest<S> ? n : 0; i < Z; ++i) {
+      Lanes sum = direct(i, j);
+      for (int z = 0; z < n; ++z) sum += hessian[i + z * Z] * work.next[z + j * Z];
+      work.slope[i + j * Z] = sum;
+    }
+    const bool is_constant = j == column_count(shape) - 1;
+    for (int i = 0; i < X; ++i) {
+      Lanes sum = is_constant ? work.value[i + X * X] : Lanes{};
+      if (joins_rest<S> && i < n) sum += direct(i, j);
+      for (int x = 0; x < X; ++x) {
+        const Lanes curvature =
+            joins_rest<S> && i < n && x < n ? work.value[i + x * X] + hessian[i + x * Z] : work.value[i + x * X];
+        sum += curvature * work.transition[x + j * X];
+      }
+      work.weighted[i + j * X] = sum;
+    }
+  }
+}
+
 /// An inequality whose slack is eliminated adds its square, weighted by 1/e, to the quadratic form: to its derivative
 /// with respect to Z, and to the part of the condensed form that reads X directly.
 template <class S>
@@ -157,7 +194,10 @@ DMOCBENCH_INLINE void add_inequality(const S& shape, const LocalBlocks<S>& block
     Lanes sum = j < w ? local[blocks.soft(row, shape.rows + j)] : local[blocks.soft(row, Z + j - w)];
     for (int z = 0; z < shape.rows; ++z) sum += local[blocks.soft(row, z)] * work.next[z + j * Z];
     line[j] = weight * sum;
-    for (int z = 0; z < Z; ++z) work.slope[z + j * Z] += local[blocks.soft(row, z)] * line[j];
+    for (int z = 0; z < Z; ++z) {
+      Lanes& slope = joins_rest<S> && z < shape.rows ? work.weighted[z + j * state_size(shape)] : work.slope[z + j * Z];
+      slope += local[blocks.soft(row, z)] * line[j];
+    }
   }
   for (int x = 0; x < state_size(shape); ++x) {
     for (int i = w + x; i < N; ++i) work.condensed[i + (w + x) * N] += local[blocks.soft(row, Z + x)] * line[i];
@@ -173,25 +213,14 @@ DMOCBENCH_INLINE void condense(const S& shape, const LocalBlocks<S>& blocks, con
   const int w = free_size(shape);
   const int N = column_count(shape);
   const Lanes* const hessian = local + blocks.hessian();
-  for (int j = 0; j < N; ++j) {
-    for (int i = 0; i < Z; ++i) {
-      Lanes sum = j < w ? hessian[i + (n + j) * Z] : hessian[i + (Z + j - w) * Z];
-      for (int z = 0; z < n; ++z) sum += hessian[i + z * Z] * work.next[z + j * Z];
-      work.slope[i + j * Z] = sum;
-    }
-    for (int i = 0; i < X; ++i) {
-      Lanes sum = j == N - 1 ? work.value[i + X * X] : Lanes{};
-      for (int x = 0; x < X; ++x) sum += work.value[i + x * X] * work.transition[x + j * X];
-      work.weighted[i + j * X] = sum;
-    }
-  }
+  differentiate_interval(shape, blocks, local, work);
   for (int i = 0; i < N * N; ++i) work.condensed[i] = Lanes{};
   for (int row = 0; row < shape.soft; ++row) add_inequality(shape, blocks, local, row, work);
   for (int j = 0; j < w + X; ++j) {
     for (int i = j; i < N; ++i) {
       Lanes sum = work.condensed[i + j * N];
       for (int x = 0; x < X; ++x) sum += work.transition[x + j * X] * work.weighted[x + i * X];
-      for (int z = 0; z < n; ++z) sum += work.next[z + j * Z] * work.slope[z + i * Z];
+      for (int z = 0; z < n && !joins_rest<S>; ++z) sum += work.next[z + j * Z] * work.slope[z + i * Z];
       if (j < w) {
         sum += work.slope[n + j + i * Z];
       } else {

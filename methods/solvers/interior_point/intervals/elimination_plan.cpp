@@ -1,5 +1,6 @@
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -30,10 +31,10 @@ Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays
 
 /// Largest entry of what is left, with every row measured by its own largest entry.
 std::pair<Eigen::Index, Eigen::Index> best_pivot(const Eigen::MatrixXd& left, const Eigen::VectorXd& row_scale,
-                                                 Eigen::Index from) {
+                                                 Eigen::Index from, Eigen::Index end_of_columns) {
   std::pair<Eigen::Index, Eigen::Index> best{from, from};
   double largest = 0.0;
-  for (Eigen::Index j = from; j < left.cols(); ++j) {
+  for (Eigen::Index j = from; j < end_of_columns; ++j) {
     for (Eigen::Index i = from; i < left.rows(); ++i) {
       const double size = std::abs(left(i, j)) / row_scale[i];
       if (!(size > largest)) continue;
@@ -44,7 +45,8 @@ std::pair<Eigen::Index, Eigen::Index> best_pivot(const Eigen::MatrixXd& left, co
   return best;
 }
 
-std::optional<Order> find_order(Eigen::MatrixXd left) {
+/// `columns_in_order`: the columns are taken as they stand, the first of them dependent.
+std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
     std::vector<int> list(static_cast<std::size_t>(count));
     std::iota(list.begin(), list.end(), 0);
@@ -56,7 +58,7 @@ std::optional<Order> find_order(Eigen::MatrixXd left) {
   if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
   constexpr double smallest = 1e-12;  // of a row's largest entry: beyond it a pivot is rounding
   for (Eigen::Index p = 0; p < left.rows(); ++p) {
-    const auto [row, column] = best_pivot(left, row_scale, p);
+    const auto [row, column] = best_pivot(left, row_scale, p, columns_in_order ? p + 1 : left.cols());
     const double pivot = left(row, column);
     if (!(std::abs(pivot) > smallest * row_scale[row])) return std::nullopt;
     left.row(p).swap(left.row(row));
@@ -68,6 +70,13 @@ std::optional<Order> find_order(Eigen::MatrixXd left) {
     for (Eigen::Index i = p + 1; i < left.rows(); ++i) left.row(i) -= left(i, p) / pivot * left.row(p);
   }
   return order;
+}
+
+/// True if the dependent unknowns are those of the next node.
+bool determines_next_node(const Order& order, const Shape& shape) {
+  if (shape.rows != shape.node) return false;
+  return std::all_of(order.columns.begin(), order.columns.begin() + shape.rows,
+                     [&](int column) { return column < shape.node; });
 }
 
 std::vector<int> inverse(const std::vector<int>& order) {
@@ -164,11 +173,19 @@ void append_emitted(const IntervalEntries& entries, const Slots& slots, Eliminat
 
 std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, const NewtonArrays& arrays,
                                                 std::size_t interval) {
-  const auto order = find_order(equalities_of(entries, arrays, interval));
+  const Eigen::MatrixXd equalities = equalities_of(entries, arrays, interval);
+  auto order = find_order(equalities, false);
   if (!order) return std::nullopt;
+  const bool is_plain = determines_next_node(*order, entries.shape);
+  if (is_plain) {
+    // The same unknowns in their natural order, for which there are faster kernels.
+    const auto natural = find_order(equalities, true);
+    if (natural) order = natural;
+  }
   const Slots slots(entries.shape, *order);
   EliminationPlan plan;
   plan.shape = entries.shape;
+  plan.shape.is_plain = is_plain && std::is_sorted(order->columns.begin(), order->columns.end());
   for (const double pivot : order->pivots) plan.pivot_scales.push_back(1.0 / pivot);
   for (int i = 0; i < entries.shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
   append_ones(entries, slots, plan);

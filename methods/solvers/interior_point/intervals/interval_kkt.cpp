@@ -28,7 +28,7 @@ std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, 
 }
 
 IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
-    : entries_(std::move(entries)), ends_(program, entries_), kernel_(choose(entries_.shape)), weights_(entries_) {
+    : entries_(std::move(entries)), ends_(program, entries_), choose_(choose), weights_(entries_) {
   cut_into_segments();
   padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
   const auto X = static_cast<std::size_t>(state_size(entries_.shape));
@@ -79,6 +79,7 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
 bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   plan_ = elimination_plan(entries_, arrays, entries_.intervals / 2);
   if (!plan_) return false;
+  kernel_ = choose_(plan_->shape);
   workspace_.resize(kernel_.workspace_size(*plan_));
   group_.workspace = workspace_.data();
   return true;

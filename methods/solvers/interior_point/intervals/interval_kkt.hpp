@@ -51,7 +51,8 @@ class IntervalKkt : public KktSystem {
 
   IntervalEntries entries_;
   EndSystem ends_;
-  SegmentKernel kernel_;
+  SegmentKernelChoice choose_;
+  SegmentKernel kernel_{};
   std::optional<EliminationPlan> plan_;
   TerminalWeights weights_;
 

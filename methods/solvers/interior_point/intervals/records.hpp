@@ -32,7 +32,7 @@ DMOCBENCH_INLINE void store_slope(const S& shape, const LocalBlocks<S>& blocks, 
     }
   };
   for (int j = 0; j < N; ++j) {
-    for (int z = 0; z < n; ++z) slope[z + j * n] = work.slope[z + j * next_size(shape)];
+    for (int z = 0; z < n; ++z) slope[z + j * n] = joins_rest<S> ? Lanes{} : work.slope[z + j * next_size(shape)];
     add_rest(work.weighted + j * X, slope + j * n);
   }
   for (int j = 0; j < X; ++j) {

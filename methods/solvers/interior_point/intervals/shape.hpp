@@ -19,9 +19,11 @@ struct Shape {
   int inner;    ///< entries of y
   int rows;     ///< equalities: those of a node and those of an interval
   int soft;     ///< inequalities of an interval
+  /// The dependent entries of Z are the unknowns of the next node, in their order.
+  bool is_plain = false;
 };
 
-/// The same sizes as constants of the compiler.
+/// The same sizes as constants of the compiler, of a shape that is plain.
 template <int Node, int Carried, int Shared, int Inner, int Rows>
 struct FixedShape {
   static constexpr int node = Node;
@@ -32,8 +34,8 @@ struct FixedShape {
   int soft;
 
   [[nodiscard]] static constexpr bool fits(const Shape& shape) {
-    return shape.node == Node && shape.carried == Carried && shape.shared == Shared && shape.inner == Inner &&
-           shape.rows == Rows;
+    return shape.is_plain && shape.node == Node && shape.carried == Carried && shape.shared == Shared &&
+           shape.inner == Inner && shape.rows == Rows;
   }
 };
 
