@@ -1,0 +1,248 @@
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/transcription.hpp"
+#include "problems/brachistochrone.hpp"
+#include "problems/orbital_transfer.hpp"
+#include "problems/two_link_manipulator.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/small_programs.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+SolverOptions options_with(const std::string& factorisation) {
+  SolverOptions options;
+  options.passed_on["factorisation"] = factorisation;
+  return options;
+}
+
+Solution solve_by_interior_point(NonlinearProgram& program, const Eigen::VectorXd& start,
+                                 const SolverOptions& options = {}) {
+  return InteriorPointSolver(options).solve(program, start);
+}
+
+/// Ipopt's answer, and a point near it, from which a solver cannot but go back to it.
+struct AnswerOfIpopt {
+  Solution solution;
+  Eigen::VectorXd near;
+};
+
+AnswerOfIpopt ask_ipopt(NonlinearProgram& program, const Eigen::VectorXd& start) {
+  constexpr double share = 1e-3;
+  AnswerOfIpopt answer{.solution = make_solver("ipopt")->solve(program, start), .near = {}};
+  EXPECT_EQ(answer.solution.status, Status::solved) << answer.solution.message;
+  tests::RandomPoints random;
+  answer.near = answer.solution.primal + share * random.vector(start.size());
+  return answer;
+}
+
+void expect_same_answer(const Solution& found, const Solution& wanted, double unknowns = 1e-6) {
+  ASSERT_EQ(found.status, Status::solved) << found.message;
+  EXPECT_NEAR(found.objective, wanted.objective, 1e-9 * std::abs(wanted.objective));
+  EXPECT_LT((found.primal - wanted.primal).lpNorm<Eigen::Infinity>(), unknowns);
+}
+
+void expect_agreement_with_ipopt(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals,
+                                 const Motion& motion) {
+  SCOPED_TRACE(problem.name() + ", " + scheme.label() + ", N = " + std::to_string(intervals));
+  Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
+  const AnswerOfIpopt ipopt = ask_ipopt(program, sample(program, motion));
+  for (const char* factorisation : {"intervals", "sparse"}) {
+    SCOPED_TRACE(factorisation);
+    expect_same_answer(solve_by_interior_point(program, ipopt.near, options_with(factorisation)), ipopt.solution);
+  }
+}
+
+/// All methods on the paper's problems, and those that a problem with more in it is tried with.
+std::vector<tests::Scheme> gauss_schemes_up_to(int most_stages) { return tests::schemes_of({"gauss"}, most_stages); }
+
+TEST(InteriorPoint, AgreesWithIpoptOnTheOrbitalTransfer) {
+  const OrbitalTransfer problem;
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(2)) {
+    for (const Eigen::Index intervals : {16, 32}) {
+      expect_agreement_with_ipopt(problem, scheme, intervals, tests::common_start(problem));
+    }
+  }
+}
+
+TEST(InteriorPoint, AgreesWithIpoptOnTheTwoLinkManipulator) {
+  const TwoLinkManipulator problem;
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(2)) {
+    for (const Eigen::Index intervals : {16, 32}) {
+      expect_agreement_with_ipopt(problem, scheme, intervals, tests::common_start(problem));
+    }
+  }
+}
+
+TEST(InteriorPoint, AgreesWithIpoptFromTheSameStartFarAway) {
+  const OrbitalTransfer problem;
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(1)) {
+    SCOPED_TRACE(scheme.label());
+    Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(32));
+    const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+    const Solution ipopt = make_solver("ipopt")->solve(program, start);
+    ASSERT_EQ(ipopt.status, Status::solved);
+    expect_same_answer(solve_by_interior_point(program, start), ipopt);
+  }
+}
+
+TEST(InteriorPoint, AgreesWithIpoptWhereBoundsOnControlsAreActive) {
+  const TwoLinkManipulator base;
+  const Motion motion = tests::common_start(base);
+  Transcription free(base, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16));
+  const Solution unbounded_answer = make_solver("ipopt")->solve(free, sample(free, motion));
+  const auto largest_torque =
+      read_trajectory(free, unbounded_answer.primal, unbounded_answer.multipliers).stage_u.cwiseAbs().maxCoeff();
+  const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
+    statement.u = tests::all_between(2, -0.9 * largest_torque, 0.9 * largest_torque);
+  });
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(2)) expect_agreement_with_ipopt(problem, scheme, 16, motion);
+}
+
+TEST(InteriorPoint, AgreesWithIpoptOnAFreeHorizon) {
+  const Brachistochrone problem;
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(1)) {
+    expect_agreement_with_ipopt(problem, scheme, 16, guessed_motion(problem));
+  }
+}
+
+TEST(InteriorPoint, AgreesWithIpoptOnEverythingAtOnce) {
+  const tests::Everything everything;
+  for (const tests::Scheme& scheme : tests::all_schemes(2)) {
+    expect_agreement_with_ipopt(everything.problem(), scheme, 12, guessed_motion(everything.problem()));
+  }
+}
+
+TEST(InteriorPoint, RefusesAProgramWithoutIntervalsInASentence) {
+  tests::SmallProgram program = tests::rosenbrock();
+  const Solution solution = solve_by_interior_point(program, tests::vector({-1.2, 1.0}));
+  EXPECT_EQ(solution.status, Status::invalid_program);
+  EXPECT_NE(solution.message.find("interval structure"), std::string::npos) << solution.message;
+  EXPECT_NE(solution.message.find("factorisation=sparse"), std::string::npos) << solution.message;
+}
+
+TEST(InteriorPoint, SolvesAnyProgramBySparseFactorisation) {
+  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
+    SCOPED_TRACE("HS " + std::to_string(known.number));
+    tests::SmallProgram program(known.statement);
+    const Solution solution = solve_by_interior_point(program, known.start, options_with("sparse"));
+    EXPECT_EQ(solution.status, Status::solved) << solution.message;
+    EXPECT_NEAR(solution.objective, known.objective, 1e-8);
+    EXPECT_LT((solution.primal - known.optimum).norm(), 2e-5);
+  }
+}
+
+TEST(InteriorPoint, KnowsItsOptions) {
+  SolverOptions options;
+  options.passed_on["mu_strategy"] = "adaptive";
+  tests::expect_error_naming({"mu_strategy", "factorisation"},
+                             [&] { static_cast<void>(make_solver("interior_point", options)); });
+  tests::expect_error_naming({"factorisation", "dense"},
+                             [&] { static_cast<void>(make_solver("interior_point", options_with("dense"))); });
+  tests::SmallProgram program = tests::rosenbrock();
+  tests::expect_error_naming({"3"}, [&] {
+    static_cast<void>(solve_by_interior_point(program, Eigen::VectorXd::Zero(3), options_with("sparse")));
+  });
+}
+
+/// A double integrator whose control may not be as large as the shortest way needs it: T = 1 needs |u| >= 4.
+TEST(InteriorPoint, NeverSaysThatAnInfeasibleProblemIsSolved) {
+  const tests::DoubleIntegrator base;
+  const tests::Restated problem(
+      base, [](tests::Restated::Statement& statement) { statement.u = tests::all_between(1, -3.0, 3.0); });
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(1)) {
+    SCOPED_TRACE(scheme.label());
+    Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(16));
+    const Solution solution = solve_by_interior_point(program, sample(program, guessed_motion(problem)));
+    EXPECT_TRUE(solution.status == Status::infeasible || solution.status == Status::step_failed)
+        << name_of(solution.status);
+    EXPECT_GT(solution.constraint_violation.value(), 1e-3);
+  }
+}
+
+/// x² + y² = -1.
+TEST(InteriorPoint, SaysInfeasibleAtAPointOfLeastViolation) {
+  tests::SmallProgram program =
+      tests::equality_program([](const tests::HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
+                              [](const tests::HyperVector& x) { return tests::HyperVector{x[0] * x[0] + x[1] * x[1]}; },
+                              2, tests::vector({-1.0}));
+  const Solution solution = solve_by_interior_point(program, tests::vector({1.0, 0.5}), options_with("sparse"));
+  EXPECT_TRUE(solution.status == Status::infeasible || solution.status == Status::step_failed)
+      << name_of(solution.status);
+  EXPECT_NEAR(solution.constraint_violation.value(), 1.0, 1e-2);
+}
+
+/// A program of intervals for the tests of how a solve ends.
+class PendulumProgram {
+ public:
+  PendulumProgram()
+      : program_(problem_, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16)),
+        start_(sample(program_, guessed_motion(problem_))) {}
+  [[nodiscard]] Transcription& program() { return program_; }
+  [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
+
+ private:
+  tests::Pendulum problem_;
+  Transcription program_;
+  Eigen::VectorXd start_;
+};
+
+TEST(InteriorPoint, EndsWhereAFormulaIsNotANumberAtTheStart) {
+  PendulumProgram of;
+  Eigen::VectorXd start = of.start();
+  start[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(solve_by_interior_point(of.program(), start).status, Status::evaluation_failed);
+}
+
+TEST(InteriorPoint, EndsWhenAskedTo) {
+  PendulumProgram of;
+  SolverOptions options;
+  int asked = 0;
+  options.stop_requested = [&] { return ++asked == 3; };
+  const Solution solution = solve_by_interior_point(of.program(), of.start(), options);
+  EXPECT_EQ(solution.status, Status::interrupted);
+  EXPECT_EQ(solution.major_iterations, 2);
+}
+
+TEST(InteriorPoint, EndsAtTheIterationLimitWithItsLastPoint) {
+  PendulumProgram of;
+  SolverOptions options;
+  options.most_iterations = 2;
+  const Solution solution = solve_by_interior_point(of.program(), of.start(), options);
+  EXPECT_EQ(solution.status, Status::iteration_limit);
+  EXPECT_EQ(solution.major_iterations, 2);
+  EXPECT_EQ(solution.primal.size(), of.start().size());
+  EXPECT_NE(solution.primal, of.start());
+  EXPECT_TRUE(solution.kkt_residual.has_value());
+}
+
+TEST(InteriorPoint, EndsAtTheTimeLimit) {
+  PendulumProgram of;
+  SolverOptions options;
+  options.most_seconds = 1e-12;
+  EXPECT_EQ(solve_by_interior_point(of.program(), of.start(), options).status, Status::time_limit);
+}
+
+TEST(InteriorPoint, TellsWhatWeComputeAtItsAnswer) {
+  PendulumProgram of;
+  const Solution solution = solve_by_interior_point(of.program(), of.start());
+  ASSERT_EQ(solution.status, Status::solved) << solution.message;
+  EXPECT_EQ(solution.objective, of.program().objective(solution.primal));
+  EXPECT_LT(solution.kkt_residual.value(), 1e-9);
+  EXPECT_LT(solution.constraint_violation.value(), 1e-9);
+  EXPECT_GT(solution.major_iterations.value(), 2);
+  EXPECT_GT(solution.evaluations.value(), 2);
+}
+
+}  // namespace
+}  // namespace dmocbench

@@ -1,0 +1,88 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/transcription.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/dense_kkt.hpp"
+#include "tests/support/random_points.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench::interior_point {
+namespace {
+
+/// A system of a program near a start, with a Hessian that is shifted to be definite.
+tests::KktNumbers shifted_numbers(Transcription& program, const Eigen::VectorXd& start) {
+  tests::RandomPoints random;
+  const auto m = static_cast<Eigen::Index>(program.constraint_count());
+  tests::KktNumbers numbers;
+  numbers.hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  numbers.jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  const Eigen::VectorXd x = start + random.vector(start.size(), -1e-2, 1e-2);
+  program.hessian(x, 1.0, random.vector(m, -1e-2, 1e-2), numbers.hessian);
+  program.jacobian(x, numbers.jacobian);
+  numbers.diagonal = random.vector(start.size(), 10.0, 11.0);
+  numbers.softness = random.vector(m, 0.1, 1.0);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.softness[i] = 0.0;
+  }
+  numbers.slope = random.vector(start.size());
+  numbers.rows = random.vector(m);
+  return numbers;
+}
+
+void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
+  SCOPED_TRACE(problem.name() + ", " + scheme.label() + ", N = " + std::to_string(intervals));
+  Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
+  const tests::KktNumbers numbers = shifted_numbers(program, sample(program, guessed_motion(problem)));
+  const auto choices = available_segment_kernels();
+  Eigen::VectorXd baseline;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    std::string why;
+    const auto kkt = IntervalKkt::make(program, why, choices[i]);
+    ASSERT_NE(kkt, nullptr) << why;
+    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd multipliers(numbers.rows.size());
+    ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers), Verdict::solved);
+    Eigen::VectorXd steps(primal.size() + multipliers.size());
+    steps << primal, multipliers;
+    if (i == 0) {
+      baseline = steps;
+      continue;
+    }
+    const Eigen::Index n = primal.size();
+    EXPECT_LT((steps - baseline).head(n).lpNorm<Eigen::Infinity>(), 1e-9 * baseline.head(n).lpNorm<Eigen::Infinity>())
+        << "instruction set " << i;
+    EXPECT_LT((steps - baseline).tail(steps.size() - n).lpNorm<Eigen::Infinity>(),
+              1e-9 * baseline.tail(steps.size() - n).lpNorm<Eigen::Infinity>())
+        << "instruction set " << i;
+  }
+}
+
+TEST(SegmentKernels, HaveOneForEveryProcessor) {
+  ASSERT_FALSE(available_segment_kernels().empty());
+  EXPECT_EQ(available_segment_kernels().front(), &segment_kernel_baseline);
+}
+
+/// Shapes known to the compiler and shapes that are not; whole blocks of eight steps, and what is left of them.
+TEST(SegmentKernels, AgreeOnEveryInstructionSet) {
+  for (const char* name : {"double_integrator", "orbital_transfer", "two_link_manipulator", "hovercraft"}) {
+    const auto problem = make_problem(name);
+    for (const tests::Scheme& scheme : tests::all_schemes(2)) {
+      for (const Eigen::Index intervals : {16, 64, 77}) expect_same_steps(*problem, scheme, intervals);
+    }
+  }
+}
+
+/// Up to two stages: with three, what the elimination of DMOC loses to cancellation is more than the promise.
+TEST(SegmentKernels, AgreeOnEveryInstructionSetWhereEverythingIsStated) {
+  const tests::Everything everything;
+  for (const tests::Scheme& scheme : tests::all_schemes(2)) expect_same_steps(everything.problem(), scheme, 69);
+}
+
+}  // namespace
+}  // namespace dmocbench::interior_point
