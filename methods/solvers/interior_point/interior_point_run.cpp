@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iomanip>
+#include <iostream>
 #include <limits>
+#include <sstream>
 
 #include "methods/solvers/clock.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
@@ -53,8 +55,10 @@ Solution InteriorPointRun::run() {
   std::optional<Status> end;
   if (!begin(point_.x)) end = Status::evaluation_failed;
   while (!end) end = iterate();
-  if (options_.verbose) std::printf("%d iterations, %d linear systems\n", iterations_, newton_.factorisations());
-  solution.status = *end;
+  if (options_.verbose) {
+    std::cout << iterations_ << " iterations, " << newton_.factorisations() << " linear systems\n";
+  }
+  solution.status = end.value_or(Status::solver_error);
   solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
   solution.primal = point_.x;
   solution.multipliers = point_.multipliers;
@@ -184,7 +188,7 @@ double InteriorPointRun::largest_bound_step(const Direction& direction, double s
 
 /// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper; with
 /// differences that are rounding counted as none.
-bool InteriorPointRun::try_point(const Direction& direction, double length, double slope, double step_length) {
+bool InteriorPointRun::try_point(const Direction& direction, double length, double slope, double reference_length) {
   trial_.x = point_.x + length * direction.x;
   trial_.s = point_.s + length * direction.s;
   if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) return false;
@@ -195,9 +199,10 @@ bool InteriorPointRun::try_point(const Direction& direction, double length, doub
   const double noise = noise_of_function();
   if (!filter_.accepts(violation - noise_of_violation_, function - noise)) return false;
   const bool is_noise = violation <= noise_of_violation_ && violation_ <= noise_of_violation_;
-  const bool is_descent = slope < 0.0 && step_length * std::pow(-slope, s_phi) > delta * std::pow(violation_, s_theta);
+  const bool is_descent =
+      slope < 0.0 && reference_length * std::pow(-slope, s_phi) > delta * std::pow(violation_, s_theta);
   if (violation_ <= small_violation * first_violation_ && (is_descent || is_noise)) {
-    if (!(function - function_ <= eta * step_length * slope + noise)) return false;
+    if (!(function - function_ <= eta * reference_length * slope + noise)) return false;
   } else {
     const bool is_better = violation <= (1.0 - Filter::margin) * violation_ ||
                            function - function_ <= -Filter::margin * violation_ + noise;
@@ -240,10 +245,12 @@ void InteriorPointRun::keep_bounds_near_barrier() {
 void InteriorPointRun::report(const char* kind, double length) const {
   if (!options_.verbose) return;
   const Residuals at = residuals(0.0);
-  std::printf(
-      "%4d %c  cost %.10e  violation %.2e  stationarity %.2e  complementarity %.2e  mu %.1e  shift %.1e  step %.1e\n",
-      iterations_, kind[0], objective_, at.violation, at.stationarity, at.complementarity, mu_, newton_.shift(),
-      length);
+  std::ostringstream line;
+  line << std::setw(4) << iterations_ << " " << std::setw(6) << kind << std::scientific << std::setprecision(10)
+       << "  cost " << objective_ << std::setprecision(1) << "  violation " << at.violation << "  stationarity "
+       << at.stationarity << "  complementarity " << at.complementarity << "  mu " << mu_ << "  shift "
+       << newton_.shift() << "  step " << length << "\n";
+  std::cout << line.str();
 }
 
 bool InteriorPointRun::search(const Direction& direction) {
@@ -288,6 +295,7 @@ bool InteriorPointRun::correct_second_order(const Direction& direction, double s
   for (int i = 0; i < most_corrections; ++i) {
     if (!residual.allFinite() || !newton_.correct(point_, mu_, residual, corrected)) return false;
     const double corrected_length = largest_step(corrected, share);
+    // NOLINTNEXTLINE(readability-suspicious-call-argument): descent is measured by the step that is corrected.
     if (try_point(corrected, corrected_length, slope, length)) return true;
     const double now = trial_rows_.lpNorm<1>();
     if (!(now <= kappa_soc * before)) return false;

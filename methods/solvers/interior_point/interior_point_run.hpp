@@ -48,7 +48,7 @@ class InteriorPointRun {
   [[nodiscard]] double largest_step(const Direction& direction, double share) const;
   [[nodiscard]] double largest_bound_step(const Direction& direction, double share) const;
   [[nodiscard]] bool search(const Direction& direction);
-  [[nodiscard]] bool try_point(const Direction& direction, double length, double slope, double step_length);
+  [[nodiscard]] bool try_point(const Direction& direction, double length, double slope, double reference_length);
   [[nodiscard]] bool correct_second_order(const Direction& direction, double slope, double length);
   void move_bounds(const Direction& direction, double length);
   void keep_bounds_near_barrier();

@@ -39,7 +39,7 @@ inline void collect(const EliminationPlan& plan, const NewtonArrays& arrays, con
                     int count, Lanes* locals, int local_size) {
   Lanes block[8];
   for (const Collected& item : plan.collected) {
-    read_block(arrays.arrays[static_cast<int>(item.source)] + item.first, group, begin, count, block);
+    read_block(arrays.of(item.source) + item.first, group, begin, count, block);
     for (int step = 0; step < count; ++step) {
       Lanes* local = locals + step * local_size;
       const Lanes value = item.adds ? local[item.slot] + block[step] : block[step];

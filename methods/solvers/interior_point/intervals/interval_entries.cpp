@@ -171,7 +171,7 @@ class Sorter {
   }
 
   // Columns in the natural order of an interval's unknowns.
-  [[nodiscard]] int next_node(const Member& m) const { return m.column; }
+  [[nodiscard]] static int next_node(const Member& m) { return m.column; }
   [[nodiscard]] int inner(const Member& m) const { return result_.shape.node + m.column; }
   [[nodiscard]] int this_node(const Member& m) const { return next_size(result_.shape) + m.column; }
   [[nodiscard]] int shared(const Member& m) const {
@@ -246,15 +246,16 @@ class Sorter {
   [[nodiscard]] Destination hessian_destination(std::size_t i, std::size_t j) const {
     if (is_fixed_inner(i) || is_fixed_inner(j)) return {};
     const auto interval = interval_of(unknowns_[i], unknowns_[j]);
-    const int a = interval ? seen_from(unknowns_[i], *interval) : -1;
-    const int b = interval ? seen_from(unknowns_[j], *interval) : -1;
+    if (!interval) return to_ends();
+    const int a = seen_from(unknowns_[i], *interval);
+    const int b = seen_from(unknowns_[j], *interval);
     const int Z = next_size(result_.shape);
     if (a < 0 || b < 0 || (a >= Z && b >= Z)) return to_ends();
     return {Destination::Where::interval, {LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
   }
 
   /// The interval whose blocks hold the Hessian's entry of two unknowns: that before a node for the node's own ones.
-  [[nodiscard]] std::optional<std::size_t> interval_of(const Member& a, const Member& b) const {
+  [[nodiscard]] static std::optional<std::size_t> interval_of(const Member& a, const Member& b) {
     for (const Member* m : {&a, &b}) {
       if (in_column(*m, Place::Kind::interval)) return m->at;
     }

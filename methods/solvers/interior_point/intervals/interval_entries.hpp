@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -54,9 +55,9 @@ struct IntervalEntries {
   std::vector<std::size_t> soft_rows;
 
   std::vector<std::size_t> shared_unknowns;
-  std::vector<bool> inner_is_fixed;             ///< one per inner unknown
-  std::vector<std::size_t> single_unknowns[2];  ///< further unknowns of the first and of the last node
-  std::vector<std::size_t> single_rows;         ///< further rows of the ends, and those of the border
+  std::vector<bool> inner_is_fixed;                         ///< one per inner unknown
+  std::array<std::vector<std::size_t>, 2> single_unknowns;  ///< further unknowns of the first and of the last node
+  std::vector<std::size_t> single_rows;                     ///< further rows of the ends, and those of the border
   std::vector<LocalEntry> local;
   std::vector<PaddedColumn> padded;
   std::vector<EndEntry> ends;

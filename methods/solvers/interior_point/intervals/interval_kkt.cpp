@@ -49,8 +49,8 @@ void IntervalKkt::cut_into_segments() {
     group_.first[lane] = begin_of(lane);
     group_.length[lane] = static_cast<int>(begin_of(lane + 1) - begin_of(lane));
   }
-  group_.steps = *std::max_element(group_.length, group_.length + lane_count);
-  group_.shortest = *std::min_element(group_.length, group_.length + lane_count);
+  group_.steps = *std::ranges::max_element(group_.length);
+  group_.shortest = *std::ranges::min_element(group_.length);
   const auto record = static_cast<std::size_t>(RecordBlocks<Shape>{entries_.shape}.size());
   records_.resize(static_cast<std::size_t>(group_.steps) * record * lane_count);
   group_.records = records_.data();
@@ -60,7 +60,7 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
                                     const Eigen::VectorXd& rows) {
   NewtonArrays arrays;
   const auto give = [&](Source source, const Eigen::VectorXd& values) {
-    arrays.arrays[static_cast<int>(source)] = values.data();
+    arrays.arrays[static_cast<std::size_t>(source)] = values.data();
   };
   give(Source::jacobian, matrix.jacobian);
   give(Source::hessian, matrix.hessian);
@@ -70,17 +70,19 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
   give(Source::rows, rows);
   give(Source::padded, padded_);
   for (const PaddedColumn& column : entries_.padded) {
-    const double* from = arrays.arrays[static_cast<int>(column.source)] + column.entry;
+    const double* from = arrays.of(column.source) + column.entry;
     std::copy_n(from, column.length, padded_.data() + column.padded_first + column.begin);
   }
   return arrays;
 }
 
 bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
-  plan_ = elimination_plan(entries_, arrays, entries_.intervals / 2);
-  if (!plan_) return false;
-  kernel_ = choose_(plan_->shape);
-  workspace_.resize(kernel_.workspace_size(*plan_));
+  auto plan = elimination_plan(entries_, arrays, entries_.intervals / 2);
+  has_plan_ = plan.has_value();
+  if (!plan) return false;
+  plan_ = std::move(*plan);
+  kernel_ = choose_(plan_.shape);
+  workspace_.resize(kernel_.workspace_size(plan_));
   group_.workspace = workspace_.data();
   return true;
 }
@@ -89,7 +91,7 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
                            Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   NewtonArrays arrays = arrays_of(matrix, slope, rows);
   weights_.follow(arrays);
-  if (!plan_ && !choose_plan(arrays)) return Verdict::singular;
+  if (!has_plan_ && !choose_plan(arrays)) return Verdict::singular;
   Verdict verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict == Verdict::untrusted) {
     if (!choose_plan(arrays)) return Verdict::singular;
@@ -107,7 +109,7 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
 Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                const Eigen::VectorXd& rows) {
   arrays.terminal_weights = weights_.values().data();
-  kernel_.backward(*plan_, arrays, group_);
+  kernel_.backward(plan_, arrays, group_);
   if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
   if (!group_.pivots_hold) return Verdict::wrong_inertia;
   for (int segment = lane_count - 1; segment >= 0; --segment) {
@@ -150,7 +152,7 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
   }
   primal_step.setZero();
   multiplier_step.setZero();
-  kernel_.forward(*plan_, group_, primal_step.data(), multiplier_step.data());
+  kernel_.forward(plan_, group_, primal_step.data(), multiplier_step.data());
   ends_.write(primal_step, multiplier_step);
   write_soft_multipliers(arrays, rows, primal_step, multiplier_step);
 }
@@ -176,8 +178,7 @@ void IntervalKkt::write_soft_multipliers(const NewtonArrays& arrays, const Eigen
   for (const LocalEntry& entry : entries_.local) {
     if (entry.block != LocalEntry::Block::soft || entry.column < 0 || entry.column == one) continue;
     auto sum = multiplier_step.segment(at(entries_.soft_rows[static_cast<std::size_t>(entry.row)]), count);
-    const Eigen::Map<const Eigen::VectorXd> derivative(arrays.arrays[static_cast<int>(entry.source)] + entry.first,
-                                                       count);
+    const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
     if (entry.column >= first_shared) {
       sum += derivative * primal_step[at(first_of(entry.column))];
     } else {
@@ -185,7 +186,7 @@ void IntervalKkt::write_soft_multipliers(const NewtonArrays& arrays, const Eigen
     }
   }
   for (const std::size_t row : entries_.soft_rows) {
-    const Eigen::Map<const Eigen::ArrayXd> softness(arrays.arrays[static_cast<int>(Source::softness)] + row, count);
+    const Eigen::Map<const Eigen::ArrayXd> softness(arrays.of(Source::softness) + row, count);
     multiplier_step.segment(at(row), count).array() /= softness;
   }
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +52,8 @@ class IntervalKkt : public KktSystem {
   EndSystem ends_;
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
-  std::optional<EliminationPlan> plan_;
+  bool has_plan_ = false;
+  EliminationPlan plan_;
   TerminalWeights weights_;
 
   Eigen::VectorXd padded_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,7 +13,7 @@ inline constexpr int lane_count = 8;
 
 /// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
 enum class Source : unsigned char { jacobian, hessian, diagonal, slope, rows, softness, padded };
-inline constexpr int source_count = 7;
+inline constexpr std::size_t source_count = 7;
 
 /// One number of every interval: interval k reads entry `first` + k of an array and puts it into (or adds it to) the
 /// entry `slot` of its blocks (`LocalBlocks`), and by symmetry also into `mirror` if that is another one.
@@ -49,12 +50,12 @@ struct EliminationPlan {
 /// Eight segments side by side, and where their results stand. All arrays of numbers are lane by lane: entry i of lane
 /// l at i * lane_count + l.
 struct SegmentGroup {
-  std::ptrdiff_t first[lane_count] = {};  ///< their first intervals
-  int length[lane_count] = {};            ///< numbers of their intervals, which differ by at most one
-  int steps = 0;                          ///< the largest length
-  int shortest = 0;                       ///< the smallest length
-  double* records = nullptr;              ///< steps * RecordBlocks::size(), written backward, read forward
-  double* workspace = nullptr;            ///< SegmentKernel::workspace_size numbers
+  std::array<std::ptrdiff_t, lane_count> first{};  ///< their first intervals
+  std::array<int, lane_count> length{};            ///< numbers of their intervals, which differ by at most one
+  int steps = 0;                                   ///< the largest length
+  int shortest = 0;                                ///< the smallest length
+  double* records = nullptr;                       ///< steps * RecordBlocks::size(), written backward, read forward
+  double* workspace = nullptr;                     ///< SegmentKernel::workspace_size numbers
 
   // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
   // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.
@@ -70,8 +71,9 @@ struct SegmentGroup {
 
 /// What a backward sweep reads: the arrays by `Source`, and the weights at the end of a segment (terminal_weights.hpp).
 struct NewtonArrays {
-  const double* arrays[source_count] = {};
-  [[nodiscard]] double at(Source source, std::size_t entry) const { return arrays[static_cast<int>(source)][entry]; }
+  std::array<const double*, source_count> arrays{};
+  [[nodiscard]] const double* of(Source source) const { return arrays[static_cast<std::size_t>(source)]; }
+  [[nodiscard]] double at(Source source, std::size_t entry) const { return of(source)[entry]; }
   const double* terminal_weights = nullptr;  ///< one per entry of the state
 };
 

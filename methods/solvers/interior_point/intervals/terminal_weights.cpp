@@ -54,10 +54,9 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
 /// length, their number is a factor.
 double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
   double compliance = 0.0;
-  const double* added = arrays.arrays[static_cast<int>(Source::diagonal)];
+  const double* added = arrays.of(Source::diagonal);
   for (const Diagonal& diagonal : diagonals_) {
-    const double* hessian =
-        diagonal.has_hessian ? arrays.arrays[static_cast<int>(diagonal.source)] + diagonal.entry : nullptr;
+    const double* hessian = diagonal.has_hessian ? arrays.of(diagonal.source) + diagonal.entry : nullptr;
     for (std::size_t k = 0; k < intervals_; ++k) {
       const double curvature = (hessian != nullptr ? hessian[k] : 0.0) + added[diagonal.first + k];
       compliance += 1.0 / (std::abs(curvature) + smallest_curvature);
