@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace dmocbench::interior_point {
@@ -19,10 +20,8 @@ class Filter {
 
   [[nodiscard]] bool accepts(double violation, double function) const {
     if (!(violation <= largest_violation_)) return false;
-    for (const Pair& pair : pairs_) {
-      if (violation >= pair.violation && function >= pair.function) return false;
-    }
-    return true;
+    return std::none_of(pairs_.begin(), pairs_.end(),
+                        [&](const Pair& pair) { return violation >= pair.violation && function >= pair.function; });
   }
 
   /// Refuses points that are not better than this one.
