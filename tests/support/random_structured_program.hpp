@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -24,11 +25,11 @@ struct RandomShape {
   bool rows_at_nodes = false;  ///< as many rows at nodes (DMOC), or in intervals (collocation)
   Eigen::Index slopes = 0;     ///< further unknowns of an interval with as many rows
   Eigen::Index controls = 1;
-  Eigen::Index soft = 0;        ///< inequalities of an interval
-  bool horizon = false;         ///< one unknown of the border, which all intervals read
-  bool velocity[2] = {};        ///< as many further unknowns at an end as a node has
-  Eigen::Index fixed[2] = {};   ///< fixed unknowns of the first and the last node
-  Eigen::Index conditions = 0;  ///< rows of the border, which read both ends
+  Eigen::Index soft = 0;                ///< inequalities of an interval
+  bool horizon = false;                 ///< one unknown of the border, which all intervals read
+  std::array<bool, 2> velocity{};       ///< as many further unknowns at an end as a node has
+  std::array<Eigen::Index, 2> fixed{};  ///< fixed unknowns of the first and the last node
+  Eigen::Index conditions = 0;          ///< rows of the border, which read both ends
   bool condition_is_soft = false;
   bool fixes_control = false;
   bool slopes_cost_nothing = false;  ///< as where the dynamics are linear and the cost reads states and controls only
@@ -370,7 +371,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
   std::vector<std::size_t> nodes_;  // first entries of columns
   std::vector<std::size_t> inner_;
   std::vector<std::size_t> node_rows_;
-  std::vector<std::size_t> ends_[2];  // unknowns of the first and of the last node, further ones behind
+  std::array<std::vector<std::size_t>, 2> ends_;  // unknowns of the first and of the last node, further ones behind
   std::vector<ColumnPlace> local_unknowns_;
   std::vector<Local> local_rows_;
   std::size_t first_soft_ = 0;

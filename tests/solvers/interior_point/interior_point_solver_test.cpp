@@ -166,7 +166,7 @@ TEST(InteriorPoint, NeverSaysThatAnInfeasibleProblemIsSolved) {
     const Solution solution = solve_by_interior_point(program, sample(program, guessed_motion(problem)));
     EXPECT_TRUE(solution.status == Status::infeasible || solution.status == Status::step_failed)
         << name_of(solution.status);
-    EXPECT_GT(solution.constraint_violation.value(), 1e-3);
+    EXPECT_GT(solution.constraint_violation.value_or(0.0), 1e-3);
   }
 }
 
@@ -179,7 +179,7 @@ TEST(InteriorPoint, SaysInfeasibleAtAPointOfLeastViolation) {
   const Solution solution = solve_by_interior_point(program, tests::vector({1.0, 0.5}), options_with("sparse"));
   EXPECT_TRUE(solution.status == Status::infeasible || solution.status == Status::step_failed)
       << name_of(solution.status);
-  EXPECT_NEAR(solution.constraint_violation.value(), 1.0, 1e-2);
+  EXPECT_NEAR(solution.constraint_violation.value_or(0.0), 1.0, 1e-2);
 }
 
 /// A program of intervals for the tests of how a solve ends.
@@ -238,10 +238,10 @@ TEST(InteriorPoint, TellsWhatWeComputeAtItsAnswer) {
   const Solution solution = solve_by_interior_point(of.program(), of.start());
   ASSERT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_EQ(solution.objective, of.program().objective(solution.primal));
-  EXPECT_LT(solution.kkt_residual.value(), 1e-9);
-  EXPECT_LT(solution.constraint_violation.value(), 1e-9);
-  EXPECT_GT(solution.major_iterations.value(), 2);
-  EXPECT_GT(solution.evaluations.value(), 2);
+  EXPECT_LT(solution.kkt_residual.value_or(1.0), 1e-9);
+  EXPECT_LT(solution.constraint_violation.value_or(1.0), 1e-9);
+  EXPECT_GT(solution.major_iterations.value_or(0), 2);
+  EXPECT_GT(solution.evaluations.value_or(0), 2);
 }
 
 }  // namespace

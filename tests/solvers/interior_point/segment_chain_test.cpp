@@ -3,6 +3,7 @@
 #include "methods/solvers/interior_point/intervals/segment_chain.hpp"
 
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -84,6 +85,13 @@ std::optional<SegmentValue> dense_value(const LinearQuadraticSteps& steps, std::
                       .gamma = state.col(columns - 1) - reached * factor.solve(constant)};
 }
 
+SegmentValue dense_minimum(const LinearQuadraticSteps& steps, std::size_t begin, std::size_t end,
+                           const Eigen::VectorXd& weights) {
+  const auto value = dense_value(steps, begin, end, weights);
+  if (!value) throw std::logic_error("these steps have no minimum");
+  return *value;
+}
+
 void expect_same_value(const SegmentValue& found, const SegmentValue& wanted) {
   const auto expect_close = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char* name) {
     EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-11 * (1.0 + b.lpNorm<Eigen::Infinity>())) << name;
@@ -103,9 +111,9 @@ TEST(SegmentChain, OfTwoSegmentsIsOneOfDoubleLength) {
     const auto steps = random_steps(random, n, m, 6, 1.0);
     const Eigen::VectorXd weights = random.vector(n, 0.5, 5.0);
     SegmentChain chain;
-    chain.start(dense_value(steps, 3, 6, weights).value(), weights);
-    ASSERT_TRUE(chain.join(dense_value(steps, 0, 3, weights).value()));
-    expect_same_value(chain.total(), dense_value(steps, 0, 6, weights).value());
+    chain.start(dense_minimum(steps, 3, 6, weights), weights);
+    ASSERT_TRUE(chain.join(dense_minimum(steps, 0, 3, weights)));
+    expect_same_value(chain.total(), dense_minimum(steps, 0, 6, weights));
   }
 }
 
@@ -119,12 +127,12 @@ TEST(SegmentChain, OfManySegmentsOfAnyLengthIsTheWholeHorizon) {
     const Eigen::VectorXd weights = random.vector(n, 0.5, 5.0);
     std::vector<SegmentValue> values;
     for (std::size_t s = 0; s + 1 < cuts.size(); ++s) {
-      values.push_back(dense_value(steps, cuts[s], cuts[s + 1], weights).value());
+      values.push_back(dense_minimum(steps, cuts[s], cuts[s + 1], weights));
     }
     SegmentChain chain;
     chain.start(values.back(), weights);
     for (std::size_t s = values.size() - 1; s-- > 0;) ASSERT_TRUE(chain.join(values[s]));
-    expect_same_value(chain.total(), dense_value(steps, 0, 12, weights).value());
+    expect_same_value(chain.total(), dense_minimum(steps, 0, 12, weights));
 
     const Eigen::VectorXd first = random.vector(n);
     const Eigen::VectorXd multiplier = random.vector(n);
@@ -142,7 +150,7 @@ TEST(SegmentChain, OfManySegmentsOfAnyLengthIsTheWholeHorizon) {
     // The multiplier of a segment's end is the slope of all that follows, less that of the weights.
     for (std::size_t s = 0; s + 1 < values.size(); ++s) {
       const auto column = static_cast<Eigen::Index>(s);
-      const SegmentValue rest = dense_value(steps, cuts[s + 1], 12, weights).value();
+      const SegmentValue rest = dense_minimum(steps, cuts[s + 1], 12, weights);
       const Eigen::VectorXd slope = rest.P * states.col(column + 1) + rest.p + rest.Phi * multiplier -
                                     weights.cwiseProduct(states.col(column + 1));
       EXPECT_LT((slope - multipliers.col(column)).lpNorm<Eigen::Infinity>(), 1e-10) << "segment " << s;
