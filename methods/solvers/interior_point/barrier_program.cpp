@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/solvers/clock.hpp"
+
 namespace dmocbench::interior_point {
 
 namespace {
@@ -46,9 +48,9 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program)
 
 template <class Evaluation>
 void BarrierProgram::timed(const Evaluation& evaluation) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Clock::time_point begin = Clock::now();
   evaluation();
-  evaluation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  evaluation_seconds_ += seconds_since(begin);
 }
 
 Point BarrierProgram::interior(const Eigen::VectorXd& start) {

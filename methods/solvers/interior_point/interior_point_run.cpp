@@ -41,7 +41,7 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, co
       program_(program),
       newton_(program_, kkt),
       tolerance_(options.tolerance),
-      begin_(std::chrono::steady_clock::now()) {
+      begin_(Clock::now()) {
   point_ = program_.interior(start);
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     if (program.variable_lower()[i] == program.variable_upper()[i]) fixed_.push_back(i);
@@ -273,7 +273,7 @@ bool InteriorPointRun::search(const Direction& direction) {
   for (bool is_first = true; is_first || length >= least; length *= 0.5) {
     bool accepted = try_point(direction, length, slope, length);
     if (!accepted && is_first && trial_rows_.lpNorm<1>() >= violation_) {
-      accepted = correct_second_order(direction, slope, length);
+      accepted = correct_second_order(slope, length);
     }
     is_first = false;
     if (!accepted) continue;
@@ -287,7 +287,7 @@ bool InteriorPointRun::search(const Direction& direction) {
 }
 
 /// Steps for the rows' curvature: their residual at the trial point joins the right-hand side, (27) of the paper.
-bool InteriorPointRun::correct_second_order(const Direction& direction, double slope, double length) {
+bool InteriorPointRun::correct_second_order(double slope, double length) {
   const double share = std::max(tau_min, 1.0 - mu_);
   Eigen::VectorXd residual = length * rows_ + trial_rows_;
   double before = violation_;
@@ -302,7 +302,6 @@ bool InteriorPointRun::correct_second_order(const Direction& direction, double s
     before = now;
     residual = corrected_length * residual + trial_rows_;
   }
-  static_cast<void>(direction);
   return false;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/solution.hpp"
+#include "methods/solvers/clock.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
@@ -49,7 +49,7 @@ class InteriorPointRun {
   [[nodiscard]] double largest_bound_step(const Direction& direction, double share) const;
   [[nodiscard]] bool search(const Direction& direction);
   [[nodiscard]] bool try_point(const Direction& direction, double length, double slope, double reference_length);
-  [[nodiscard]] bool correct_second_order(const Direction& direction, double slope, double length);
+  [[nodiscard]] bool correct_second_order(double slope, double length);
   void move_bounds(const Direction& direction, double length);
   void keep_bounds_near_barrier();
   void accept_trial();
@@ -86,7 +86,7 @@ class InteriorPointRun {
   int iterations_ = 0;
   double step_length_ = 0.0;
   std::string message_;
-  std::chrono::steady_clock::time_point begin_;
+  Clock::time_point begin_;
 };
 
 }  // namespace dmocbench::interior_point

@@ -17,7 +17,7 @@ double value_at(const Eigen::VectorXd& vector, std::size_t i) { return vector[st
 
 EndSystem::EndSystem(const NonlinearProgram& program, const IntervalEntries& entries)
     : state_size_(state_size(entries.shape)), node_(entries.shape.node), carried_(entries.shape.carried) {
-  number_unknowns(program, entries);
+  number_unknowns(entries);
   number_rows(entries);
   place(entries);
   keep_what_moves(program);
@@ -27,8 +27,7 @@ EndSystem::EndSystem(const NonlinearProgram& program, const IntervalEntries& ent
   reduced_.resize(kept, kept);
 }
 
-void EndSystem::number_unknowns(const NonlinearProgram& program, const IntervalEntries& entries) {
-  static_cast<void>(program);
+void EndSystem::number_unknowns(const IntervalEntries& entries) {
   const auto single = [&](std::size_t end) {
     for (const std::size_t unknown : entries.single_unknowns[end]) unknowns_.push_back({unknown, size_++});
   };

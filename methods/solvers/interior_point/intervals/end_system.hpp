@@ -44,7 +44,7 @@ class EndSystem {
     double sign;
   };
 
-  void number_unknowns(const NonlinearProgram& program, const IntervalEntries& entries);
+  void number_unknowns(const IntervalEntries& entries);
   void number_rows(const IntervalEntries& entries);
   void place(const IntervalEntries& entries);
   void keep_what_moves(const NonlinearProgram& program);
