@@ -156,7 +156,7 @@ Tape::Workspace::Workspace(const Tape& tape)
   }
 }
 
-void Tape::evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
+void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
   if (inputs.size() < input_count_ || outputs.size() < output_count_) {
     throw Error("a tape with " + std::to_string(input_count_) + " inputs and " + std::to_string(output_count_) +
@@ -165,7 +165,7 @@ void Tape::evaluate(std::size_t count, std::span<const Input> inputs, std::span<
   if (workspace.serial_ != serial_) {
     throw Error("this workspace was made for another tape");
   }
-  if (count == 0) return;
+  if (begin >= end) return;
   // Inputs that are the same for all intervals are spread over a column of the workspace once.
   for (const ReadInput& input : read_inputs_) {
     if (!inputs[input.index].same_for_all) continue;
@@ -174,9 +174,9 @@ void Tape::evaluate(std::size_t count, std::span<const Input> inputs, std::span<
     workspace.columns_[input.column] = spread;
   }
   const TapeKernel kernel = kernel_of(set_);
-  for (std::size_t first = 0; first < count; first += block_width) {
+  for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
-    kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(), std::min(block_width, count - first));
+    kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(), std::min(block_width, end - first));
   }
 }
 

@@ -49,12 +49,17 @@ class Tape {
   Tape() = default;
   explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set());
 
-  /// Evaluates intervals 0 .. count - 1.
+  /// Evaluates intervals 0 .. count - 1, or from `begin` to `end` - 1.
   ///
-  /// `inputs[i]` is read where the schedule reads input i, at entries below `count` only; inputs the schedule does not
-  /// read may be null. `outputs[j]` receives `count` values. Outputs must not overlap inputs or each other. Allocates
-  /// nothing. Throws `Error` if there are too few inputs or outputs or the workspace is another tape's.
+  /// `inputs[i]` is read where the schedule reads input i, at the entries of these intervals only; inputs the schedule
+  /// does not read may be null. `outputs[j]` receives their values, each at the entry of its interval. Outputs must not
+  /// overlap inputs or each other. Allocates nothing. Throws `Error` if there are too few inputs or outputs or the
+  /// workspace is another tape's.
   void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
+                Workspace& workspace) const {
+    evaluate(0, count, inputs, outputs, workspace);
+  }
+  void evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const;
 
   [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }

@@ -18,14 +18,15 @@ class AssembledTape {
   AssembledTape(const Schedule& schedule, const std::vector<ColumnPlace>& places, std::size_t size,
                 std::size_t intervals, AssemblyMode mode = AssemblyMode::whole);
 
-  /// Writes all `size` entries of `result`, or adds to them. Allocates nothing.
+  /// Writes all `size` entries of `result`, or adds to them. Allocates nothing; long grids by several threads
+  /// (parallel.hpp), with the same result.
   void evaluate(std::span<const Tape::Input> inputs, VectorOut result);
 
   [[nodiscard]] const Tape& tape() const noexcept { return tape_; }
 
  private:
   Tape tape_;
-  Tape::Workspace workspace_;
+  std::vector<Tape::Workspace> workspaces_;  // one per part
   ColumnAssembly assembly_;
 };
 

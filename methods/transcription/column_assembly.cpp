@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
+#include "methods/program/parallel.hpp"
 
 namespace dmocbench {
 
@@ -51,14 +52,20 @@ std::span<double* const> ColumnAssembly::open(VectorOut& result) {
 
 void ColumnAssembly::close(VectorOut& result) const {
   for (const std::size_t entry : zeros_) result.data()[entry] = 0.0;
+  // Columns that begin at different entries may share some: a part has a stretch of intervals of one column alone.
+  constexpr std::size_t additions_per_part = 65536;
+  const std::size_t parts = part_count(intervals_, additions_per_part);
   for (const Addition& addition : additions_) {
     double* target = result.data() + addition.place.first;
     const double* source = scratch_.data() + addition.scratch;
     if (addition.place.shared) {
       *target = std::accumulate(source, source + intervals_, *target);
-    } else {
-      for (std::size_t k = 0; k < intervals_; ++k) target[k] += source[k];
+      continue;
     }
+    for_each_part(parts, [&](std::size_t part) {
+      const std::size_t end = begin_of_part(part + 1, parts, intervals_);
+      for (std::size_t k = begin_of_part(part, parts, intervals_); k < end; ++k) target[k] += source[k];
+    });
   }
 }
 

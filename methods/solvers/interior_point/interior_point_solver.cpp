@@ -8,6 +8,7 @@
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
 namespace dmocbench {
@@ -34,7 +35,9 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
 std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program, Factorisation choice,
                                                        std::string& why) {
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  return interior_point::IntervalKkt::make(program, why);
+  auto by_intervals = interior_point::IntervalKkt::make(program, why);
+  if (!by_intervals) return nullptr;
+  return std::make_unique<interior_point::RefinedKkt>(program, std::move(by_intervals));
 }
 
 }  // namespace

@@ -26,17 +26,71 @@ std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern) {
   return runs;
 }
 
+namespace {
+
+bool is_on_diagonal(const PatternRun& run) {
+  return run.row == run.column && (run.length == 1 || run.row_step == run.column_step);
+}
+
+PatternRun transposed(const PatternRun& run) {
+  return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
+}
+
+void add_run(const PatternRun& run, const Eigen::VectorXd& values, const Eigen::VectorXd& x, Eigen::VectorXd& result) {
+  const auto entries = values.segment(run.entry, run.length);
+  if (run.column_step == 0) {
+    result.segment(run.row, run.row_step == 0 ? 1 : run.length) += x[run.column] * entries;
+  } else if (run.row_step == 0) {
+    result[run.row] += entries.dot(x.segment(run.column, run.length));
+  } else {
+    result.segment(run.row, run.length) += entries.cwiseProduct(x.segment(run.column, run.length));
+  }
+}
+
+/// Entries `begin` .. `end` - 1 of a run.
+PatternRun part_of(const PatternRun& run, Eigen::Index begin, Eigen::Index end) {
+  return {run.entry + begin,
+          run.row + begin * run.row_step,
+          run.column + begin * run.column_step,
+          run.row_step,
+          run.column_step,
+          end - begin};
+}
+
+}  // namespace
+
+void add_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
+                 Eigen::VectorXd& result) {
+  for (const PatternRun& run : runs) add_run(run, values, x, result);
+}
+
 void add_transposed_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values,
                             const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) {
+  for (const PatternRun& run : runs) add_run(transposed(run), values, multipliers, result);
+}
+
+std::vector<PatternRun> cut_at_diagonal(const std::vector<PatternRun>& runs) {
+  std::vector<PatternRun> cut;
   for (const PatternRun& run : runs) {
-    const auto entries = values.segment(run.entry, run.length);
-    if (run.row_step == 0) {
-      result.segment(run.column, run.column_step == 0 ? 1 : run.length) += multipliers[run.row] * entries;
-    } else if (run.column_step == 0) {
-      result[run.column] += entries.dot(multipliers.segment(run.row, run.length));
-    } else {
-      result.segment(run.column, run.length) += entries.cwiseProduct(multipliers.segment(run.row, run.length));
+    // Where row and column become equal, if one of them moves alone.
+    const Eigen::Index step = run.row_step - run.column_step;
+    const Eigen::Index meeting = step == 0 ? -1 : (run.column - run.row) / step;
+    if (meeting < 0 || meeting >= run.length) {
+      cut.push_back(run);
+      continue;
     }
+    if (meeting > 0) cut.push_back(part_of(run, 0, meeting));
+    cut.push_back(part_of(run, meeting, meeting + 1));
+    if (meeting + 1 < run.length) cut.push_back(part_of(run, meeting + 1, run.length));
+  }
+  return cut;
+}
+
+void add_symmetric_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
+                           Eigen::VectorXd& result) {
+  for (const PatternRun& run : runs) {
+    add_run(run, values, x, result);
+    if (!is_on_diagonal(run)) add_run(transposed(run), values, x, result);
   }
 }
 

@@ -15,10 +15,13 @@ inline std::ptrdiff_t interval_at(const SegmentGroup& group, int lane, int step)
   return group.first[lane] + (inside > 0 ? inside : 0);
 }
 
-/// Reads entry `first` + interval of `array` for the steps `begin` .. `begin` + `count` - 1 of every lane.
-inline void read_block(const double* array, const SegmentGroup& group, int begin, int count, Lanes (&block)[8]) {
-  const bool all_there = count == block_steps && begin + count <= group.shortest;
+/// Reads entry `first` + interval - `lag` of `array` for the steps `begin` .. `begin` + `count` - 1 of every lane; 0
+/// where there is no such interval.
+inline void read_block(const double* array, const SegmentGroup& group, int begin, int count, int lag,
+                       Lanes (&block)[8]) {
+  const bool all_there = count == block_steps && begin + count <= group.shortest && group.first[0] + begin - lag >= 0;
   if (all_there) {
+    array -= lag;
     Lanes::Vector rows[8];
     for (int lane = 0; lane < lane_count; ++lane) {
       __builtin_memcpy(&rows[lane], array + group.first[lane] + begin, sizeof rows[lane]);
@@ -29,7 +32,8 @@ inline void read_block(const double* array, const SegmentGroup& group, int begin
   }
   for (int step = 0; step < count; ++step) {
     for (int lane = 0; lane < lane_count; ++lane) {
-      block[step].v[lane] = array[interval_at(group, lane, begin + step)];
+      const std::ptrdiff_t interval = interval_at(group, lane, begin + step) - lag;
+      block[step].v[lane] = interval >= 0 ? array[interval] : 0.0;
     }
   }
 }
@@ -39,13 +43,13 @@ inline void collect(const EliminationPlan& plan, const NewtonArrays& arrays, con
                     int count, Lanes* locals, int local_size) {
   Lanes block[8];
   for (const Collected& item : plan.collected) {
-    read_block(arrays.of(item.source) + item.first, group, begin, count, block);
-    for (int step = 0; step < count; ++step) {
-      Lanes* local = locals + step * local_size;
-      const Lanes value = item.adds ? local[item.slot] + block[step] : block[step];
-      local[item.slot] = value;
-      local[item.mirror] = value;
+    read_block(arrays.of(item.source) + item.first, group, begin, count, item.from_before ? 1 : 0, block);
+    if (item.adds) {
+      for (int step = 0; step < count; ++step) block[step] += locals[step * local_size + item.slot];
     }
+    for (int step = 0; step < count; ++step) locals[step * local_size + item.slot] = block[step];
+    if (item.mirror == item.slot) continue;
+    for (int step = 0; step < count; ++step) locals[step * local_size + item.mirror] = block[step];
   }
 }
 

@@ -128,7 +128,16 @@ void append_collected(const IntervalEntries& entries, const Slots& slots, Elimin
   for (const LocalEntry& entry : entries.local) {
     const auto [slot, mirror] = slots.of(entry);
     const auto at = static_cast<std::size_t>(slot);
-    plan.collected.push_back({entry.source, is_set[at], entry.first, slot, mirror});
+    plan.collected.push_back({entry.source, is_set[at], false, entry.first, slot, mirror});
+    is_set[at] = true;
+  }
+  // What the interval before has put into s_k beyond J_{k,k-1} x_{k-1} is taken back.
+  for (const LocalEntry& entry : entries.local) {
+    if (entry.block != LocalEntry::Block::carry || entry.column >= entries.shape.node) continue;
+    if (!moves_by_increment(entries.shape, plan.node_in_next.data(), entry.column)) continue;
+    const int slot = slots.blocks().equality(slots.row(entry.row), next_size(entries.shape) + entry.column);
+    const auto at = static_cast<std::size_t>(slot);
+    plan.collected.push_back({entry.source, is_set[at], true, entry.first, slot, slot});
     is_set[at] = true;
   }
 }

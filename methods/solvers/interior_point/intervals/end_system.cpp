@@ -106,7 +106,8 @@ void EndSystem::keep_what_moves(const NonlinearProgram& program) {
 }
 
 void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights) {
+                         const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
+                         const Eigen::VectorXd& terminal_weights) {
   const Eigen::Index n = state_size_;
   matrix_.setZero();
   right_hand_side_.setZero();
@@ -117,6 +118,7 @@ void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, 
   matrix_.block(last_state_, last_state_, n, n).diagonal() = -terminal_weights;
   matrix_.block(carry_at_, node_, carried_, carried_).setIdentity();
   matrix_.block(last_rows_, last_state_ + node_, carried_, carried_).setIdentity();
+  matrix_.block(last_rows_, last_state_, carried_, node_) += last_carry;
   right_hand_side_.head(n) = -horizon.p;
   right_hand_side_.segment(multiplier_at_, n) = -horizon.gamma;
   for (const Placed& entry : placed_) {
@@ -146,8 +148,9 @@ Verdict EndSystem::factorise_and_solve() {
 }
 
 Verdict EndSystem::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights) {
-  assemble(matrix, slope, rows, horizon, terminal_weights);
+                         const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
+                         const Eigen::VectorXd& terminal_weights) {
+  assemble(matrix, slope, rows, horizon, last_carry, terminal_weights);
   const Verdict verdict = factorise_and_solve();
   if (verdict != Verdict::solved) return verdict;
   state_ = solution_.head(state_size_);

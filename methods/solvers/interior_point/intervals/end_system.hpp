@@ -19,9 +19,11 @@ class EndSystem {
   /// Throws `Error` if the ends have an entry that belongs to neither of them.
   EndSystem(const NonlinearProgram& program, const IntervalEntries& entries);
 
-  /// Solves it for a horizon with the value `horizon`.
+  /// Solves it for a horizon with the value `horizon`, in whose last state s_N is short of `last_carry` x_N (carried x
+  /// node, see `moves_by_increment`).
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights);
+                              const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
+                              const Eigen::VectorXd& terminal_weights);
 
   /// X at the first node, and ν.
   [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
@@ -49,7 +51,8 @@ class EndSystem {
   void place(const IntervalEntries& entries);
   void keep_what_moves(const NonlinearProgram& program);
   void assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                const SegmentValue& horizon, const Eigen::VectorXd& terminal_weights);
+                const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
+                const Eigen::VectorXd& terminal_weights);
   [[nodiscard]] Verdict factorise_and_solve();
 
   Eigen::Index state_size_ = 0;

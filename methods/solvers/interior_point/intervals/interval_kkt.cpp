@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
+#include "methods/program/parallel.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -29,31 +30,8 @@ std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, 
 
 IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
     : entries_(std::move(entries)), ends_(program, entries_), choose_(choose), weights_(entries_) {
-  cut_into_segments();
   padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
-  const auto X = static_cast<std::size_t>(state_size(entries_.shape));
-  value_.resize(X * (2 * X + 1) * lane_count);
-  reach_.resize(X * (X + 1) * lane_count);
-  state_.resize(X * lane_count);
-  multiplier_.resize(X * lane_count);
-  group_.value = value_.data();
-  group_.reach = reach_.data();
-  group_.state = state_.data();
-  group_.multiplier = multiplier_.data();
-}
-
-void IntervalKkt::cut_into_segments() {
-  const auto intervals = static_cast<std::ptrdiff_t>(entries_.intervals);
-  const auto begin_of = [&](int lane) { return lane * intervals / lane_count; };
-  for (int lane = 0; lane < lane_count; ++lane) {
-    group_.first[lane] = begin_of(lane);
-    group_.length[lane] = static_cast<int>(begin_of(lane + 1) - begin_of(lane));
-  }
-  group_.steps = *std::ranges::max_element(group_.length);
-  group_.shortest = *std::ranges::min_element(group_.length);
-  const auto record = static_cast<std::size_t>(RecordBlocks<Shape>{entries_.shape}.size());
-  records_.resize(static_cast<std::size_t>(group_.steps) * record * lane_count);
-  group_.records = records_.data();
+  groups_ = cut_into_groups(entries_.shape, entries_.intervals);
 }
 
 NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
@@ -82,8 +60,7 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   if (!plan) return false;
   plan_ = std::move(*plan);
   kernel_ = choose_(plan_.shape);
-  workspace_.resize(kernel_.workspace_size(plan_));
-  group_.workspace = workspace_.data();
+  for (GroupMemory& memory : groups_) memory.make_workspace(kernel_.workspace_size(plan_));
   return true;
 }
 
@@ -109,22 +86,49 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
 Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                const Eigen::VectorXd& rows) {
   arrays.terminal_weights = weights_.values().data();
-  kernel_.backward(plan_, arrays, group_);
-  if (!(group_.smallest_ratio > smallest_ratio)) return Verdict::untrusted;
-  if (!group_.pivots_hold) return Verdict::wrong_inertia;
-  for (int segment = lane_count - 1; segment >= 0; --segment) {
-    read_value(segment);
-    weights_.learn(segment_value_.Gamma);
-    if (segment == lane_count - 1) {
-      chain_.start(segment_value_, weights_.values());
-    } else if (!chain_.join(segment_value_)) {
-      return Verdict::wrong_inertia;
-    }
+  ++eliminations_;
+  for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
+  for (const GroupMemory& memory : groups_) {
+    if (!(memory.group().smallest_ratio > smallest_ratio)) return Verdict::untrusted;
   }
-  return ends_.solve(matrix, slope, rows, chain_.total(), weights_.values());
+  for (const GroupMemory& memory : groups_) {
+    if (!memory.group().pivots_hold) return Verdict::wrong_inertia;
+  }
+  if (!join_segments()) return Verdict::wrong_inertia;
+  find_last_carry(arrays);
+  return ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
 }
 
-void IntervalKkt::read_value(int segment) {
+/// J_{N,N-1}, of the unknowns that move by increments.
+void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
+  const Shape& shape = entries_.shape;
+  last_carry_.setZero(shape.carried, shape.node);
+  for (const LocalEntry& entry : entries_.local) {
+    if (entry.block != LocalEntry::Block::carry || entry.column >= shape.node) continue;
+    if (!moves_by_increment(shape, plan_.node_in_next.data(), entry.column)) continue;
+    last_carry_(entry.row, entry.column) += arrays.at(entry.source, entry.first + entries_.intervals - 1);
+  }
+}
+
+/// From the last segment to the first; false if a state between two is no minimum.
+bool IntervalKkt::join_segments() {
+  bool is_last = true;
+  for (std::size_t g = groups_.size(); g-- > 0;) {
+    for (int segment = lane_count - 1; segment >= 0; --segment) {
+      read_value(groups_[g].group(), segment);
+      weights_.learn(segment_value_.Gamma);
+      if (is_last) {
+        chain_.start(segment_value_, weights_.values());
+      } else if (!chain_.join(segment_value_)) {
+        return false;
+      }
+      is_last = false;
+    }
+  }
+  return true;
+}
+
+void IntervalKkt::read_value(const SegmentGroup& group, int segment) {
   const Eigen::Index X = state_size(entries_.shape);
   const auto read = [&](const double* from, auto& to) {
     for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = from[i * lane_count + segment];
@@ -134,25 +138,29 @@ void IntervalKkt::read_value(int segment) {
   segment_value_.Phi.resize(X, X);
   segment_value_.Gamma.resize(X, X);
   segment_value_.gamma.resize(X);
-  read(group_.value, segment_value_.P);
-  read(group_.value + X * X * lane_count, segment_value_.p);
-  read(group_.value + X * (X + 1) * lane_count, segment_value_.Phi);
-  read(group_.reach, segment_value_.gamma);
-  read(group_.reach + X * lane_count, segment_value_.Gamma);
+  read(group.value, segment_value_.P);
+  read(group.value + X * X * lane_count, segment_value_.p);
+  read(group.value + X * (X + 1) * lane_count, segment_value_.Phi);
+  read(group.reach, segment_value_.gamma);
+  read(group.reach + X * lane_count, segment_value_.Gamma);
 }
 
 void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                              Eigen::VectorXd& multiplier_step) {
   chain_.spread(ends_.state(), ends_.multiplier(), states_, multipliers_);
-  for (Eigen::Index i = 0; i < states_.rows(); ++i) {
-    for (int segment = 0; segment < lane_count; ++segment) {
-      group_.state[i * lane_count + segment] = states_(i, segment);
-      group_.multiplier[i * lane_count + segment] = multipliers_(i, segment);
-    }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const SegmentGroup& group = groups_[g].group();
+    const auto first = static_cast<Eigen::Index>(g) * lane_count;
+    Eigen::Map<Eigen::MatrixXd>(group.state, lane_count, states_.rows()) =
+        states_.middleCols(first, lane_count).transpose();
+    Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
+        multipliers_.middleCols(first, lane_count).transpose();
   }
   primal_step.setZero();
   multiplier_step.setZero();
-  kernel_.forward(plan_, group_, primal_step.data(), multiplier_step.data());
+  for_each_part(groups_.size(), [&](std::size_t g) {
+    kernel_.forward(plan_, arrays, groups_[g].group(), primal_step.data(), multiplier_step.data());
+  });
   ends_.write(primal_step, multiplier_step);
   write_soft_multipliers(arrays, rows, primal_step, multiplier_step);
 }

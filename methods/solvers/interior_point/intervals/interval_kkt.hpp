@@ -9,8 +9,8 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
 #include "methods/solvers/interior_point/intervals/end_system.hpp"
+#include "methods/solvers/interior_point/intervals/group_memory.hpp"
 #include "methods/solvers/interior_point/intervals/interval_entries.hpp"
-#include "methods/solvers/interior_point/intervals/lane_array.hpp"
 #include "methods/solvers/interior_point/intervals/segment_chain.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 #include "methods/solvers/interior_point/intervals/terminal_weights.hpp"
@@ -33,15 +33,18 @@ class IntervalKkt : public KktSystem {
                               Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
 
   [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
+  /// Backward sweeps so far, with those for other terminal weights and other orders of elimination.
+  [[nodiscard]] int eliminations() const noexcept { return eliminations_; }
 
  private:
-  void cut_into_segments();
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                        const Eigen::VectorXd& rows);
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
   [[nodiscard]] Verdict eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                   const Eigen::VectorXd& rows);
-  void read_value(int segment);
+  [[nodiscard]] bool join_segments();
+  void read_value(const SegmentGroup& group, int segment);
+  void find_last_carry(const NewtonArrays& arrays);
   void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                   Eigen::VectorXd& multiplier_step);
   void write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
@@ -53,17 +56,13 @@ class IntervalKkt : public KktSystem {
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
+  int eliminations_ = 0;
   EliminationPlan plan_;
   TerminalWeights weights_;
+  Eigen::MatrixXd last_carry_;  // carried x node
 
   Eigen::VectorXd padded_;
-  SegmentGroup group_;
-  LaneArray records_;
-  LaneArray workspace_;
-  LaneArray value_;
-  LaneArray reach_;
-  LaneArray state_;
-  LaneArray multiplier_;
+  std::vector<GroupMemory> groups_;
   SegmentValue segment_value_;
   SegmentChain chain_;
   Eigen::MatrixXd states_;  // at the first nodes of the segments, one column each

@@ -2,24 +2,24 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 namespace dmocbench::interior_point {
 
 /// Numbers on a boundary of 64 bytes, as vector registers want them.
 class LaneArray {
  public:
-  /// Makes room for at least `count` numbers, all zero.
-  void resize(std::size_t count) { lines_.assign(count / line_size + 1, Line{}); }
+  /// Makes room for at least `count` numbers. They are anything: memory is first touched by the thread that fills it.
+  void resize(std::size_t count) { lines_ = std::make_unique_for_overwrite<Line[]>(count / line_size + 1); }
 
-  [[nodiscard]] double* data() noexcept { return lines_.front().numbers.data(); }
+  [[nodiscard]] double* data() noexcept { return lines_ ? lines_[0].numbers.data() : nullptr; }
 
  private:
   static constexpr std::size_t line_size = 8;
   struct alignas(line_size * sizeof(double)) Line {
-    std::array<double, line_size> numbers{};
+    std::array<double, line_size> numbers;
   };
-  std::vector<Line> lines_ = std::vector<Line>(1);
+  std::unique_ptr<Line[]> lines_;
 };
 
 }  // namespace dmocbench::interior_point

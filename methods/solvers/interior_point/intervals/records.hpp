@@ -26,19 +26,23 @@ DMOCBENCH_INLINE void store_slope(const S& shape, const LocalBlocks<S>& blocks, 
       if (node_in_next[i] < n) column[node_in_next[i]] += derivative[i];
     }
     for (int i = 0; i < shape.carried; ++i) {
-      for (int z = 0; z < n; ++z) {
+      for (int z = 0; z < n && !is_always_plain<S>; ++z) {
         column[z] += local[blocks.carry(i, shape.node + z)] * derivative[shape.node + i];
+      }
+      for (int x = 0; x < shape.node; ++x) {
+        if (!moves_by_increment(shape, node_in_next, x)) continue;
+        column[next_of_node(shape, node_in_next, x)] -= local[blocks.carry(i, x)] * derivative[shape.node + i];
       }
     }
   };
   for (int j = 0; j < N; ++j) {
-    for (int z = 0; z < n; ++z) slope[z + j * n] = joins_rest<S> ? Lanes{} : work.slope[z + j * next_size(shape)];
+    for (int z = 0; z < n; ++z) slope[z + j * n] = is_always_plain<S> ? Lanes{} : work.slope[z + j * next_size(shape)];
     add_rest(work.weighted + j * X, slope + j * n);
   }
   for (int j = 0; j < X; ++j) {
     Lanes* const column = slope + (N + j) * n;
     for (int z = 0; z < n; ++z) column[z] = Lanes{};
-    add_rest(work.value + (X + 1 + j) * X, column);
+    add_rest(work.rest.value + (X + 1 + j) * X, column);
   }
 }
 
@@ -48,7 +52,7 @@ DMOCBENCH_INLINE void store_transition(const S& shape, const StepWork<S>& work, 
   const int kept = shape.node + shape.carried;
   for (int j = 0; j < column_count(shape); ++j) {
     for (int i = 0; i < kept; ++i) transition[i + j * kept] = work.transition[i + j * X];
-    for (int i = 0; i < shape.rows; ++i) {
+    for (int i = 0; i < shape.rows && !is_always_plain<S>; ++i) {
       dependent[i + j * shape.rows] = work.next[i + j * next_size(shape)];
     }
   }
@@ -59,7 +63,8 @@ template <class S>
 DMOCBENCH_INLINE void store_multipliers(const S& shape, const StepWork<S>& work, Lanes* multipliers) {
   const int X = state_size(shape);
   for (int j = 0; j < 2 * X + 1; ++j) {
-    for (int i = 0; i < shape.carried; ++i) multipliers[i + j * shape.carried] = work.value[shape.node + i + j * X];
+    for (int i = 0; i < shape.carried; ++i)
+      multipliers[i + j * shape.carried] = work.rest.value[shape.node + i + j * X];
   }
 }
 

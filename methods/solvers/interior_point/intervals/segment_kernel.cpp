@@ -19,7 +19,11 @@ namespace DMOCBENCH_SEGMENT_NAMESPACE {
 //
 #include "methods/solvers/interior_point/intervals/records.hpp"
 //
-#include "methods/solvers/interior_point/intervals/sweeps.hpp"
+#include "methods/solvers/interior_point/intervals/backward_sweep.hpp"
+//
+#include "methods/solvers/interior_point/intervals/forward_sweep.hpp"
+//
+#include "methods/solvers/interior_point/intervals/kernel_choice.hpp"
 
 }  // namespace DMOCBENCH_SEGMENT_NAMESPACE
 

@@ -20,6 +20,7 @@ inline constexpr std::size_t source_count = 7;
 struct Collected {
   Source source;
   bool adds;
+  bool from_before;  ///< reads what interval k - 1 would, and 0 for the first
   std::size_t first;
   int slot;
   int mirror;
@@ -54,7 +55,11 @@ struct SegmentGroup {
   std::array<int, lane_count> length{};            ///< numbers of their intervals, which differ by at most one
   int steps = 0;                                   ///< the largest length
   int shortest = 0;                                ///< the smallest length
-  double* records = nullptr;                       ///< steps * RecordBlocks::size(), written backward, read forward
+  int recorded_steps = 0;                          ///< for how many steps there is room in `records`: all of them, or
+                                                   ///< chunks of a multiple of eight, which the forward sweep
+                                                   ///< eliminates again, one after the other, from checkpoints
+  double* records = nullptr;                       ///< recorded_steps * RecordBlocks::size(), written backward
+  double* checkpoints = nullptr;                   ///< per chunk, if they are several: the value at its end
   double* workspace = nullptr;                     ///< SegmentKernel::workspace_size numbers
 
   // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
@@ -82,7 +87,9 @@ struct SegmentKernel {
   /// How many numbers of workspace a group needs.
   std::size_t (*workspace_size)(const EliminationPlan& plan);
   void (*backward)(const EliminationPlan& plan, const NewtonArrays& arrays, SegmentGroup& group);
-  void (*forward)(const EliminationPlan& plan, const SegmentGroup& group, double* primal_step, double* multiplier_step);
+  /// With the arrays of the backward sweep before.
+  void (*forward)(const EliminationPlan& plan, const NewtonArrays& arrays, const SegmentGroup& group,
+                  double* primal_step, double* multiplier_step);
 };
 
 /// Gives the kernel for a shape.

@@ -5,7 +5,7 @@ namespace dmocbench::interior_point {
 /// Sizes of what one interval of a program works with. The KKT system of interval k couples
 ///
 ///   - the state X = (x_k, s_k, θ): the unknowns x_k of node k, the sum s_k that the rows of node k receive from
-///     interval k - 1, and unknowns θ of the whole horizon;
+///     interval k - 1 (shifted by a multiple of x_k, see `moves_by_increment`), and unknowns θ of the whole horizon;
 ///   - the next unknowns Z = (x_{k+1}, y_k), with y_k the unknowns of the interval itself;
 ///   - its equalities: those of node k, then its own. They determine as many entries of Z, the dependent ones; the
 ///     others are the free unknowns w of the interval.
@@ -34,6 +34,7 @@ struct FixedShape {
   int soft;
 
   [[nodiscard]] static constexpr bool fits(const Shape& shape) {
+    static_assert(Rows == Node, "the equalities of a plain shape determine the next node");
     return shape.is_plain && shape.node == Node && shape.carried == Carried && shape.shared == Shared &&
            shape.inner == Inner && shape.rows == Rows;
   }
@@ -50,6 +51,21 @@ constexpr int next_size(const S& shape) {
 template <class S>
 constexpr int free_size(const S& shape) {
   return next_size(shape) - shape.rows;
+}
+/// True where the dependent entries of Z are known to be the next node's unknowns, in their order: they stand in the
+/// next state, and their Hessian joins that of the rest before the transition is applied, instead of being applied
+/// twice.
+template <class S>
+inline constexpr bool is_always_plain = false;
+template <int node, int carried, int shared, int inner, int rows>
+inline constexpr bool is_always_plain<FixedShape<node, carried, shared, inner, rows>> = true;
+/// True if entry i of x_{k+1} is dependent and node rows exist; `node_in_next` as in `EliminationPlan`. The equalities
+/// then determine its increment x_{k+1,i} - x_{k,i}, and s_{k+1} is the sum with J_{k+1,k} x_k replaced by
+/// -J_{k+1,k} (x_{k+1} - x_k). For DMOC both stay of the size of a momentum, where x_k and J_{k+1,k} x_k, about M/h
+/// x_k, would have to cancel in every interval, and cost a digit whenever the intervals become three times shorter.
+template <class S>
+constexpr bool moves_by_increment(const S& shape, const int* node_in_next, int i) {
+  return shape.carried > 0 && (is_always_plain<S> || node_in_next[i] < shape.rows);
 }
 /// Columns of everything that is linear in (w, X, 1).
 template <class S>
@@ -98,12 +114,13 @@ struct RecordBlocks {
   [[nodiscard]] constexpr int gain() const { return 0; }
   /// (x, s) x (w, X, 1): the next state.
   [[nodiscard]] constexpr int transition() const { return gain() + free_size(shape) * (2 * state_size(shape) + 1); }
-  /// rows x (w, X, 1): the dependent entries of Z.
+  /// rows x (w, X, 1): the dependent entries of Z, unless the transition has them.
   [[nodiscard]] constexpr int dependent() const {
     return transition() + (shape.node + shape.carried) * column_count(shape);
   }
+  [[nodiscard]] constexpr int dependent_rows() const { return is_always_plain<S> ? 0 : shape.rows; }
   /// carried x (X, 1, ν): the multipliers of the rows of node k, where the interval has no rows of its own ...
-  [[nodiscard]] constexpr int multipliers() const { return dependent() + shape.rows * column_count(shape); }
+  [[nodiscard]] constexpr int multipliers() const { return dependent() + dependent_rows() * column_count(shape); }
   /// ... or rows x (w, X, 1) and rows x ν: the slope that they balance, ...
   [[nodiscard]] constexpr int slope() const { return multipliers(); }
   /// ... and the factors of the equalities: rows x rows, then the reciprocals of the pivots.

@@ -11,6 +11,8 @@ namespace {
 
 /// The multiples of the stiffness that are tried, one after the other.
 constexpr std::array<double, 3> multiples{1.0, 1e3, 1e6};
+/// Where a failure is most to be believed: the smallest may be too small, the largest may drown the stiffness.
+constexpr std::size_t middle = 1;
 /// Failures that are believed, after all multiples were tried in vain.
 constexpr int patience = 6;
 /// Of a weight that drowned the stiffness: what it may have been at most.
@@ -79,7 +81,7 @@ bool TerminalWeights::try_another() {
     return false;
   }
   if (tried_ + 1 == multiples.size()) {
-    level_ = (level_ + 1) % multiples.size();  // where it began
+    level_ = middle;
     tried_ = 0;
     believed_ = patience;
     return false;

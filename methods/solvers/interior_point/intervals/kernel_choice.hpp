@@ -1,0 +1,29 @@
+// Included by segment_kernel.cpp alone, see lanes.hpp.
+
+template <class S>
+std::size_t numbers_of_workspace(const EliminationPlan& plan) {
+  return static_cast<std::size_t>(Workspace<S>::size(plan, shape_of<S>(plan))) * lane_count;
+}
+
+template <class S>
+constexpr SegmentKernel kernel_of() {
+  return {numbers_of_workspace<S>, sweep_backward<S>, sweep_forward<S>};
+}
+
+/// The first of the fixed shapes that fits, or the kernel for any.
+template <class First, class... Rest>
+SegmentKernel choose(const Shape& shape) {
+  if (First::fits(shape)) return kernel_of<First>();
+  if constexpr (sizeof...(Rest) > 0) {
+    return choose<Rest...>(shape);
+  } else {
+    return kernel_of<Shape>();
+  }
+}
+
+inline SegmentKernel choose_kernel(const Shape& shape) {
+  // n = m = 1 and 2, DMOC and collocation, with a fixed horizon: midpoint.
+  return choose<FixedShape<2, 2, 0, 1, 2>, FixedShape<4, 0, 0, 1, 4>,  //
+                FixedShape<2, 2, 0, 2, 2>, FixedShape<4, 0, 0, 2, 4>,  //
+                FixedShape<1, 1, 0, 1, 1>, FixedShape<2, 0, 0, 1, 2>>(shape);
+}

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/interior_point/pattern_runs.hpp"
+
+namespace dmocbench::interior_point {
+
+/// What a step leaves of a Newton system,
+///
+///   slope + (H + diag(d)) δx + Jᵀ δλ   and   rows + J δx - diag(e) δλ,
+///
+/// with zero for fixed variables, whose equation is δx = 0.
+class NewtonResidual {
+ public:
+  explicit NewtonResidual(const NonlinearProgram& program);
+
+  void compute(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+               const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step);
+
+  [[nodiscard]] const Eigen::VectorXd& slope() const noexcept { return slope_; }  ///< one entry per variable
+  [[nodiscard]] const Eigen::VectorXd& rows() const noexcept { return rows_; }    ///< one entry per row
+
+  /// How much larger what is left is than what it may be: `accuracy` times the largest entry of the right-hand side, or
+  /// the rounding of the sums that it is left of; slopes and rows each by their own. Infinite if a number is not
+  /// finite.
+  [[nodiscard]] double excess(double accuracy) const;
+
+ private:
+  std::vector<PatternRun> hessian_runs_;
+  std::vector<PatternRun> jacobian_runs_;
+  std::vector<Eigen::Index> fixed_;
+  Eigen::VectorXd slope_;
+  Eigen::VectorXd rows_;
+  double largest_slope_ = 0.0;  // of the right-hand side
+  double largest_row_ = 0.0;
+  double rounding_of_slope_ = 0.0;
+  double rounding_of_rows_ = 0.0;
+};
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,60 @@
+#include "methods/solvers/interior_point/refined_kkt.hpp"
+
+#include <utility>
+
+#include "methods/solvers/interior_point/sparse_kkt.hpp"
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+constexpr int most_refinements = 5;
+/// What a refinement leaves of the error, at most, to be worth another one.
+constexpr double worthwhile = 0.3;
+/// How much larger than wanted an error may stay: Newton's method still gains a digit in an iteration.
+constexpr double tolerable = 1e5;
+
+}  // namespace
+
+RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy)
+    : program_(program), fast_(std::move(fast)), residual_(program), accuracy_(accuracy) {}
+
+Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                          Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  const Verdict verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
+  if (verdict == Verdict::wrong_inertia) return verdict;
+  if (verdict == Verdict::solved && refine(matrix, slope, rows, primal_step, multiplier_step)) return verdict;
+  if (!robust_) robust_ = std::make_unique<SparseKkt>(program_);
+  ++fallbacks_;
+  return robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
+}
+
+/// False if the step stays worse than tolerable.
+bool RefinedKkt::refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                        Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
+  double excess = residual_.excess(accuracy_);
+  for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
+    primal_correction_.resizeLike(primal_step);
+    multiplier_correction_.resizeLike(multiplier_step);
+    ++refinements_;
+    if (fast_->solve(matrix, residual_.slope(), residual_.rows(), primal_correction_, multiplier_correction_) !=
+        Verdict::solved) {
+      break;
+    }
+    primal_step += primal_correction_;
+    multiplier_step += multiplier_correction_;
+    residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
+    const double before = excess;
+    excess = residual_.excess(accuracy_);
+    if (!(excess <= before)) {
+      primal_step -= primal_correction_;
+      multiplier_step -= multiplier_correction_;
+      excess = before;
+    }
+    if (!(excess <= worthwhile * before)) break;
+  }
+  return excess <= tolerable;
+}
+
+}  // namespace dmocbench::interior_point

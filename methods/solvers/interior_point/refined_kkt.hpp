@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/interior_point/newton_residual.hpp"
+
+namespace dmocbench::interior_point {
+
+/// A fast way to solve Newton systems, made safe: what its steps leave of the system is computed, and solved for again
+/// (iterative refinement), and where that does not help a sparse factorisation with pivoting (sparse_kkt.hpp) solves
+/// the system instead.
+class RefinedKkt : public KktSystem {
+ public:
+  /// A step is good enough if it leaves `accuracy` of the right-hand side, or rounding.
+  RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = 1e-6);
+
+  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+
+  [[nodiscard]] int refinements() const noexcept { return refinements_; }
+  [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }
+
+ private:
+  [[nodiscard]] bool refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                            Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step);
+
+  const NonlinearProgram& program_;
+  std::unique_ptr<KktSystem> fast_;
+  std::unique_ptr<KktSystem> robust_;  // once it is needed
+  NewtonResidual residual_;
+  double accuracy_;
+  Eigen::VectorXd primal_correction_;
+  Eigen::VectorXd multiplier_correction_;
+  int refinements_ = 0;
+  int fallbacks_ = 0;
+};
+
+}  // namespace dmocbench::interior_point
