@@ -48,8 +48,8 @@ std::vector<Line> lines(const std::string& widest) {
     }
   }
   for (const char* quantity : {"hessian", "residual", "jacobian"}) {
-    all.push_back(
-        {fmt::format("program {}, {}", quantity, widest), fmt::format("program/{}/", quantity), "/" + widest});
+    all.push_back({fmt::format("program {}, {}", quantity, widest), fmt::format("program/{}/", quantity),
+                   "/dmoc/gauss_1/" + widest});
   }
   for (const char* quantity : {"hessian", "residual", "jacobian"}) {
     all.push_back({fmt::format("replay {}", quantity), fmt::format("replay/{}/", quantity), ""});
@@ -86,7 +86,7 @@ std::string summary(const Measurements& measurements, const std::vector<std::str
     });
   }
   text += line("program / tape", problems, [&](const std::string& problem) {
-    return ratio(measurements.median("program/hessian/" + problem + "/" + widest),
+    return ratio(measurements.median("program/hessian/" + problem + "/dmoc/gauss_1/" + widest),
                  measurements.median(hessian_tape(problem)));
   });
 
