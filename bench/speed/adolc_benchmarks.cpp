@@ -10,7 +10,7 @@ namespace {
 void register_hessian(const std::string& quantity, short tag, const Subject& subject, std::size_t intervals) {
   const Schedule lagrangian = lagrangian_of(subject.functions());
   const auto adolc = std::make_shared<AdolcHessian>(tag, lagrangian, subject.functions().inputs, intervals);
-  require_agreement(subject, "ADOL-C", [&](std::size_t interval) {
+  require_agreement(subject, subject.functions().hessian.schedule, "ADOL-C", [&](std::size_t interval) {
     if (interval % intervals == 0) adolc->evaluate(subject, interval);
     const LocalMatrix& hessian = subject.functions().hessian;
     std::vector<double> entries;

@@ -25,6 +25,10 @@ void register_replay_benchmarks(const Subjects& subjects);
 /// ("hessian_block"). Nothing where ADOL-C is missing.
 void register_adolc_benchmarks(const Subjects& subjects);
 
+/// hand/...: the paper's problems written by hand, see kernels.hpp, on every instruction set there is. Throws `Error`
+/// if a subject is another problem.
+void register_hand_benchmarks(const Subjects& subjects);
+
 /// program/...: the assembled program's evaluations, one by one and one after the other ("separate"), for every method,
 /// Gauss with 1 to 3 stages, the paper's problems and chains of 2 to 8 links. A program is made when the first
 /// benchmark wants it.

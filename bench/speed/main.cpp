@@ -29,6 +29,7 @@ void run() {
   }
   register_tape_benchmarks(subjects);
   register_program_benchmarks();
+  register_hand_benchmarks(subjects);
   register_replay_benchmarks(subjects);
   register_adolc_benchmarks(subjects);
 

@@ -25,7 +25,7 @@ void register_replay(const std::string& quantity, const Subject& subject, const 
 void register_replay_benchmarks(const Subjects& subjects) {
   for (const auto& subject : subjects) {
     const IntervalFunctions& functions = subject->functions();
-    require_agreement(*subject, "replay", [&](std::size_t interval) {
+    require_agreement(*subject, functions.hessian.schedule, "replay", [&](std::size_t interval) {
       return replay<double>(functions.hessian.schedule, subject->inputs_of(interval));
     });
     register_replay("residual", *subject, functions.rows.schedule);
