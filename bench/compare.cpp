@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,16 +18,17 @@ namespace dmocbench {
 namespace {
 
 struct CompareOptions {
-  std::filesystem::path before;
-  std::filesystem::path after;
+  std::string before;
+  std::string after;
   ComparisonOptions comparison;
   std::filesystem::path csv;
   bool fails_if_slower = false;
 };
 
 void declare_options(CLI::App& app, CompareOptions& options) {
-  app.add_option("before", options.before, "JSON file of a run (--benchmark_out)")->required();
-  app.add_option("after", options.after, "JSON file of a later run")->required();
+  app.add_option("before", options.before, "JSON file of a run (--benchmark_out), or several runs: FILE,FILE,...")
+      ->required();
+  app.add_option("after", options.after, "the same of what is compared with it")->required();
   app.add_option("--counter", options.comparison.counter,
                  "what is compared: cpu_time, real_time or a counter; more is slower, unless it ends with per_second")
       ->capture_default_str();
@@ -40,17 +44,24 @@ void declare_options(CLI::App& app, CompareOptions& options) {
   app.add_flag("--fail-if-slower", options.fails_if_slower, "exit with 1 if a benchmark became slower");
 }
 
+/// FILE,FILE,...
+std::vector<std::filesystem::path> files_of(const std::string& list) {
+  std::vector<std::filesystem::path> files;
+  std::istringstream stream(list);
+  for (std::string file; std::getline(stream, file, ',');) files.emplace_back(file);
+  return files;
+}
+
 int compare_files(const CompareOptions& options) {
   const std::string& counter = options.comparison.counter;
-  const BenchmarkSamples before = read_samples(options.before, counter);
-  const BenchmarkSamples after = read_samples(options.after, counter);
+  const BenchmarkSamples before = read_samples(files_of(options.before), counter);
+  const BenchmarkSamples after = read_samples(files_of(options.after), counter);
   const auto comparisons = compare(before, after, options.comparison);
   if (!options.csv.empty()) {
     if (options.csv.has_parent_path()) prepare_folder(options.csv.parent_path());
     write_file(options.csv, comparison_table(comparisons).csv());
   }
-  fmt::print("{}: {} against {}\n{}", counter, options.before.string(), options.after.string(),
-             comparison_text(comparisons));
+  fmt::print("{}\n{}", counter, comparison_text(comparisons));
   const std::size_t in_one_only = before.size() + after.size() - 2 * comparisons.size();
   if (in_one_only > 0) fmt::print("{} benchmarks are in one of the files only\n", in_one_only);
   const bool slower = std::any_of(comparisons.begin(), comparisons.end(),

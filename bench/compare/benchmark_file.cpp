@@ -1,5 +1,6 @@
 #include "bench/compare/benchmark_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -85,6 +86,22 @@ BenchmarkSamples read_samples(const std::filesystem::path& file, std::string_vie
   } catch (const json::exception&) {  // something is missing or of another type
     throw Error(fmt::format("{} is JSON, but not of Google Benchmark; write one with --benchmark_out", file.string()));
   }
+}
+
+BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter) {
+  if (files.empty()) throw Error("no file of a run is named; write one with --benchmark_out");
+  if (files.size() == 1) return read_samples(files.front(), counter);
+  BenchmarkSamples samples;
+  for (const std::filesystem::path& file : files) {
+    for (const auto& [name, values] : read_samples(file, counter)) samples[name].push_back(median_of(values));
+  }
+  return samples;
+}
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
 }
 
 }  // namespace dmocbench

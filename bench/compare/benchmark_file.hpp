@@ -18,4 +18,12 @@ using BenchmarkSamples = std::map<std::string, std::vector<double>>;
 /// with this counter (the sentence lists what there is), or a value is not above zero.
 [[nodiscard]] BenchmarkSamples read_samples(const std::filesystem::path& file, std::string_view counter);
 
+/// The same of several runs of one program, each of which counts as one repetition, its median: what lasts for a whole
+/// run, such as the place of arrays in memory, is noise too. A single file gives all its repetitions. Throws `Error` if
+/// there is no file.
+[[nodiscard]] BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter);
+
+/// The middle one, or the mean of the two in the middle.
+[[nodiscard]] double median_of(std::vector<double> values);
+
 }  // namespace dmocbench

@@ -12,12 +12,6 @@ namespace dmocbench {
 
 namespace {
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
-}
-
 bool is_rate(std::string_view counter) { return counter.ends_with("per_second"); }
 
 SpeedVerdict verdict_on(const SpeedComparison& what, const ComparisonOptions& options) {

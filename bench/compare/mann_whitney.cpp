@@ -57,8 +57,9 @@ double exact_probability(const std::vector<std::size_t>& ranks, std::size_t chos
 
 double normal_probability(const std::vector<std::size_t>& ranks, std::size_t chosen, std::size_t sum) {
   const auto count = static_cast<double>(ranks.size());
-  double mean = 0.0;
-  for (const std::size_t rank : ranks) mean += static_cast<double>(rank) / count;
+  std::size_t all = 0;
+  for (const std::size_t rank : ranks) all += rank;
+  const double mean = static_cast<double>(all) / count;
   double variance = 0.0;
   for (const std::size_t rank : ranks) variance += std::pow(static_cast<double>(rank) - mean, 2) / (count - 1.0);
   if (variance == 0.0) return 1.0;

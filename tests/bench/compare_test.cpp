@@ -100,14 +100,14 @@ class CompareFiles : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::filesystem::path file(const std::string& content) const {
-    const std::filesystem::path path = folder_ / "run.json";
+  [[nodiscard]] std::filesystem::path file(const std::string& content, const std::string& name = "run.json") const {
+    const std::filesystem::path path = folder_ / name;
     std::ofstream(path) << content;
     return path;
   }
   /// Of the entries of "benchmarks", separated by commas.
-  [[nodiscard]] std::filesystem::path run(const std::string& entries) const {
-    return file(R"({"context": {"num_cpus": 2}, "benchmarks": [)" + entries + "]}");
+  [[nodiscard]] std::filesystem::path run(const std::string& entries, const std::string& name = "run.json") const {
+    return file(R"({"context": {"num_cpus": 2}, "benchmarks": [)" + entries + "]}", name);
   }
   static std::string repetition(double time, const std::string& unit = "ns", const std::string& more = "") {
     return fmt::format(
@@ -140,6 +140,14 @@ TEST_F(CompareFiles, GiveNoAggregatesAndNoFailures) {
             (BenchmarkSamples{{"f", {1.5}}}));
 }
 
+TEST_F(CompareFiles, CountAsOneRepetitionEachWhereThereAreSeveral) {
+  const auto first = run(repetition(1.0) + "," + repetition(9.0) + "," + repetition(2.0), "first.json");
+  const auto second = run(repetition(5.0) + "," + repetition(4.0), "second.json");
+  const std::vector both{first, second};
+  EXPECT_EQ(read_samples(both, "cpu_time"), (BenchmarkSamples{{"f", {2.0, 4.5}}}));
+  EXPECT_EQ(read_samples(std::vector{first}, "cpu_time"), (BenchmarkSamples{{"f", {1.0, 9.0, 2.0}}}));
+}
+
 TEST_F(CompareFiles, ShowNoDifferenceToThemselves) {
   std::string entries;
   for (const double time : some_times) entries += (entries.empty() ? "" : ",") + repetition(time);
@@ -162,6 +170,7 @@ TEST_F(CompareFiles, AreRefusedByNameWhereTheyAreNone) {
 
 TEST_F(CompareFiles, AreRefusedWhereThereIsNone) {
   expect_error_naming({"none.json"}, [] { (void)read_samples("none.json", "cpu_time"); });
+  expect_error_naming({"no file"}, [] { (void)read_samples(std::vector<std::filesystem::path>{}, "cpu_time"); });
 }
 
 TEST_F(CompareFiles, AreRefusedWithoutRepetitions) {
