@@ -1,7 +1,9 @@
 #include "bench/compare/benchmark_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,9 +23,38 @@ using nlohmann::json;
 const std::set<std::string, std::less<>> descriptions{"family_index", "per_family_instance_index", "repetitions",
                                                       "repetition_index", "threads"};
 
+constexpr std::array<std::string_view, 4> unknown_numbers{"NaN", "-NaN", "Infinity", "-Infinity"};
+
+/// The text with null in place of NaN and Infinity, which Google Benchmark writes, for instance of a counter that is 0
+/// in all repetitions, and JSON does not know.
+std::string with_known_numbers(const std::string& text) {
+  std::string known;
+  known.reserve(text.size());
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    if (in_string && rest.starts_with('\\')) {
+      known += rest.substr(0, 2);
+      ++i;
+      continue;
+    }
+    if (text[i] == '"') in_string = !in_string;
+    const auto unknown = std::find_if(unknown_numbers.begin(), unknown_numbers.end(),
+                                      [&](std::string_view word) { return !in_string && rest.starts_with(word); });
+    if (unknown == unknown_numbers.end()) {
+      known += text[i];
+    } else {
+      known += "null";
+      i += unknown->size() - 1;
+    }
+  }
+  return known;
+}
+
 json parsed(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
   try {
-    return json::parse(read_file(file));
+    return json::parse(with_known_numbers(text));
   } catch (const json::exception&) {
     throw Error(fmt::format("{} is not JSON; write one with --benchmark_out={}", file.string(), file.string()));
   }
@@ -59,7 +90,8 @@ BenchmarkSamples samples_of(const json& runs, std::string_view counter, const st
     if (found == run.end()) continue;
     const std::string name = run.contains("run_name") ? run.at("run_name") : run.at("name");
     const bool is_time = counter == "cpu_time" || counter == "real_time";
-    const double value = found->get<double>() * (is_time ? nanoseconds_of(run, file) : 1.0);
+    const double told = found->is_null() ? std::numeric_limits<double>::quiet_NaN() : found->get<double>();
+    const double value = told * (is_time ? nanoseconds_of(run, file) : 1.0);
     if (!std::isfinite(value) || value <= 0.0) {
       throw Error(fmt::format("{} of {} in {} is {}, of which there are no ratios; choose another --counter", counter,
                               name, file.string(), value));

@@ -43,8 +43,9 @@ double exact_probability(const std::vector<std::size_t>& ranks, std::size_t chos
   }
   // The mean of the sums is all · chosen / count; both sides times count are whole.
   const auto distance = [&](std::size_t s) {
-    const auto scaled = static_cast<long long>(s * ranks.size());
-    return std::abs(scaled - static_cast<long long>(all * chosen));
+    const std::size_t here = s * ranks.size();
+    const std::size_t balanced = all * chosen;
+    return here > balanced ? here - balanced : balanced - here;
   };
   double far = 0.0;
   double total = 0.0;

@@ -70,7 +70,7 @@ inline void count_intervals(benchmark::State& state, const Work& work) {
   state.counters[ns_per_interval] =
       Counter(intervals * seconds_per_ns, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters[operations_per_interval] = Counter(static_cast<double>(work.operations));
-  state.counters[bytes_per_interval] = Counter(work.bytes);
+  if (work.bytes > 0.0) state.counters[bytes_per_interval] = Counter(work.bytes);
 }
 
 }  // namespace dmocbench::speed

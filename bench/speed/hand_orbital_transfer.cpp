@@ -126,8 +126,6 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
 
 namespace DMOCBENCH_KERNELS {
 
-HandFunctions orbital_transfer();
-
 HandFunctions orbital_transfer() { return {.residual = residual, .jacobian = jacobian, .hessian = hessian}; }
 
 }  // namespace DMOCBENCH_KERNELS

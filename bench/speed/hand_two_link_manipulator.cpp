@@ -217,8 +217,6 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
 
 namespace DMOCBENCH_KERNELS {
 
-HandFunctions two_link_manipulator();
-
 HandFunctions two_link_manipulator() { return {.residual = residual, .jacobian = jacobian, .hessian = hessian}; }
 
 }  // namespace DMOCBENCH_KERNELS

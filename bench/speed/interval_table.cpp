@@ -97,18 +97,18 @@ Table machine_table(const Measurements& measurements) {
 std::string roofline(const Table& intervals) {
   std::string text;
   for (const Row& row : intervals.rows()) {
-    const auto share = row.number("roof_share");
-    if (!share) continue;
+    if (!row.number("roof_share")) continue;
+    const auto number = [&](const char* column) { return row.number(column).value_or(0.0); };
     const BenchmarkName name{.way = row.text("way"),
                              .quantity = row.text("quantity"),
                              .problem = row.text("problem") + (row.number("links") ? "_" + row.text("links") : ""),
                              .method = row.text("way") == "program" ? row.text("method") : "",
-                             .stages = static_cast<int>(row.number("stages").value_or(1.0)),
+                             .stages = static_cast<int>(number("stages")),
                              .instruction_set = row.text("instruction_set")};
-    text += fmt::format("{:<62}{:>8.0f}{:>8.0f}{:>8.2f}{:>10.2f} {:<12}{:>8.2f}{:>8.0f} %\n", name.text(),
-                        *row.number("operations"), *row.number("bytes"), *row.number("operations_per_byte"),
-                        *row.number("roof_nanoseconds"), row.text("roof_limit"), *row.number("nanoseconds"),
-                        100.0 * *share);
+    text +=
+        fmt::format("{:<62}{:>8.0f}{:>8.0f}{:>8.2f}{:>10.2f} {:<12}{:>8.2f}{:>8.0f} %\n", name.text(),
+                    number("operations"), number("bytes"), number("operations_per_byte"), number("roof_nanoseconds"),
+                    row.text("roof_limit"), number("nanoseconds"), 100.0 * number("roof_share"));
   }
   if (text.empty()) return text;
   return fmt::format("\nroofline, per interval\n{:<62}{:>8}{:>8}{:>8}{:>10} {:<12}{:>8}{:>10}\n", "", "op", "bytes",

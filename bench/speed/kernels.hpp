@@ -59,4 +59,12 @@ struct Kernels {
 /// Throws `Error` if there are none for this set.
 [[nodiscard]] Kernels kernels_of(InstructionSet set);
 
+#ifdef DMOCBENCH_KERNELS
+namespace DMOCBENCH_KERNELS {
+[[nodiscard]] HandFunctions orbital_transfer();
+[[nodiscard]] HandFunctions two_link_manipulator();
+[[nodiscard]] Kernels all();
+}  // namespace DMOCBENCH_KERNELS
+#endif
+
 }  // namespace dmocbench::speed

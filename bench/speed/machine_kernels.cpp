@@ -18,7 +18,7 @@ constexpr std::size_t chains = 12;
 double arithmetic(std::size_t turns) {
   const Vector factor(0.999);
   const Vector summand(0.001);
-  std::array<Vector, chains> sums;
+  std::array<Vector, chains> sums{};
   for (std::size_t i = 0; i < chains; ++i) sums[i] = Vector(1.0 + 0.01 * static_cast<double>(i));
   for (std::size_t turn = 0; turn < turns; ++turn) {
 #pragma GCC unroll 12
@@ -37,10 +37,6 @@ void triad(std::size_t size, double* a, const double* b, const double* c, double
 }  // namespace
 
 namespace DMOCBENCH_KERNELS {
-
-HandFunctions orbital_transfer();
-HandFunctions two_link_manipulator();
-Kernels all();
 
 Kernels all() {
   return {.orbital_transfer = orbital_transfer(),

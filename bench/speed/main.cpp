@@ -17,6 +17,7 @@
 #include "bench/speed/measurements.hpp"
 #include "bench/speed/start_benchmarks.hpp"
 #include "bench/speed/summary.hpp"
+#include "methods/error.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -25,6 +26,15 @@ namespace {
 
 /// What a run without flags leaves out, so that it takes a minute: several stages, and the chains of links.
 constexpr const char* default_filter = "--benchmark_filter=-gauss_[2-9]|link_chain";
+
+/// Finds out before anything is timed whether the tables can be written. Throws `Error` if not.
+void prepare(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
+  if (std::filesystem::is_directory(file)) {
+    throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", file.string()));
+  }
+}
 
 /// FILE.csv and FILE_machine.csv.
 void write_tables(const std::filesystem::path& file, const Table& intervals, const Table& machine) {
@@ -75,9 +85,15 @@ int start(int argc, char** argv) {
     return 2;
   }
   std::vector<char*> pointers;
+  pointers.reserve(flags.size());
   for (std::string& flag : flags) pointers.push_back(flag.data());
   if (!initialize(*argv, pointers, {default_filter})) return 2;
-  if (csv.has_parent_path()) prepare_folder(csv.parent_path());
+  try {
+    prepare(csv);
+  } catch (const Error& error) {
+    fmt::print(stderr, "speed: {}\n", error.what());
+    return 2;
+  }
   run(csv);
   return 0;
 }

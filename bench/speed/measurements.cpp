@@ -12,6 +12,7 @@ void Measurements::add(const std::string& name, const std::string& counter, doub
 
 std::vector<std::string> Measurements::names() const {
   std::vector<std::string> all;
+  all.reserve(by_name_.size());
   for (const auto& [name, counters] : by_name_) all.push_back(name);
   return all;
 }
