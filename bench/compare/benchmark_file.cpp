@@ -39,8 +39,9 @@ std::string with_known_numbers(const std::string& text) {
       continue;
     }
     if (text[i] == '"') in_string = !in_string;
-    const auto unknown = std::find_if(unknown_numbers.begin(), unknown_numbers.end(),
-                                      [&](std::string_view word) { return !in_string && rest.starts_with(word); });
+    const auto* const unknown =
+        std::find_if(unknown_numbers.begin(), unknown_numbers.end(),
+                     [&](std::string_view word) { return !in_string && rest.starts_with(word); });
     if (unknown == unknown_numbers.end()) {
       known += text[i];
     } else {
