@@ -43,6 +43,10 @@ std::string_view name_of(SpeedVerdict verdict) noexcept {
 
 std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const BenchmarkSamples& after,
                                      const ComparisonOptions& options) {
+  if (!(options.threshold >= 1.0) || !(options.significance >= 0.0 && options.significance <= 1.0)) {  // true for NaN
+    throw Error(fmt::format("a threshold is at least 1 and a significance between 0 and 1, not {} and {}",
+                            options.threshold, options.significance));
+  }
   std::vector<SpeedComparison> comparisons;
   for (const auto& [name, earlier] : before) {
     const auto found = after.find(name);

@@ -43,7 +43,7 @@ struct SpeedComparison {
 };
 
 /// The benchmarks that both have, by name. More of a counter is slower, unless it is a rate (its name ends with
-/// "per_second"). Throws `Error` if they have none in common.
+/// "per_second"). Throws `Error` if they have none in common or an option is out of its range.
 [[nodiscard]] std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const BenchmarkSamples& after,
                                                    const ComparisonOptions& options);
 

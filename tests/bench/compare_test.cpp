@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -79,6 +80,16 @@ TEST(Compare, RefusesFilesWithNothingInCommon) {
   expect_error_naming({"in common", "a", "b"}, [] {
     (void)compare({{"a", some_times}}, {{"b", some_times}}, ComparisonOptions{});
   });
+}
+
+TEST(Compare, RefusesOptionsOutOfRange) {
+  for (const double wrong : {0.9, -1.0, std::nan("")}) {
+    expect_error_naming({"threshold"}, [&] { (void)comparison_of(some_times, some_times, {.threshold = wrong}); });
+  }
+  for (const double wrong : {1.1, -0.1, std::nan("")}) {
+    expect_error_naming({"significance"},
+                        [&] { (void)comparison_of(some_times, some_times, {.significance = wrong}); });
+  }
 }
 
 TEST(Compare, TellsTheSameInTextAndTable) {
