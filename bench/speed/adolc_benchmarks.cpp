@@ -1,5 +1,6 @@
 #include "bench/speed/adolc_hessian.hpp"
 #include "bench/speed/agreement.hpp"
+#include "bench/speed/benchmark_name.hpp"
 #include "bench/speed/benchmarks.hpp"
 
 namespace dmocbench::speed {
@@ -9,7 +10,7 @@ namespace {
 void register_hessian(const std::string& quantity, short tag, const Subject& subject, std::size_t intervals) {
   const Schedule lagrangian = lagrangian_of(subject.functions());
   const auto adolc = std::make_shared<AdolcHessian>(tag, lagrangian, subject.functions().inputs, intervals);
-  require_agreement(subject, "ADOL-C", [&](std::size_t interval) {
+  require_agreement(subject, subject.functions().hessian.schedule, "ADOL-C", [&](std::size_t interval) {
     if (interval % intervals == 0) adolc->evaluate(subject, interval);
     const LocalMatrix& hessian = subject.functions().hessian;
     std::vector<double> entries;
@@ -18,16 +19,16 @@ void register_hessian(const std::string& quantity, short tag, const Subject& sub
     }
     return entries;
   });
-  const std::string name = "adolc/" + quantity + "/" + subject.problem();
+  const BenchmarkName name{.way = "adolc", .quantity = quantity, .problem = subject.problem()};
   const std::size_t operations = lagrangian.operation_count();
-  benchmark::RegisterBenchmark(name.c_str(), [&subject, adolc, operations](benchmark::State& state) {
+  benchmark::RegisterBenchmark(name.text().c_str(), [&subject, adolc, operations](benchmark::State& state) {
     for ([[maybe_unused]] auto turn : state) {
       for (std::size_t k = 0; k < Subject::intervals; k += adolc->intervals()) {
         adolc->evaluate(subject, k);
         benchmark::ClobberMemory();
       }
     }
-    count_intervals(state, operations);
+    count_intervals(state, {.operations = operations});
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,24 +10,24 @@
 
 namespace dmocbench::speed {
 
-/// The repetitions of every benchmark that ran.
+/// The counters of every repetition of every benchmark that ran.
 class Measurements {
  public:
-  void add(const std::string& name, double ns_per_interval, double operations);
+  void add(const std::string& name, const std::string& counter, double value);
 
   [[nodiscard]] bool empty() const noexcept { return by_name_.empty(); }
-  // Nothing if no benchmark of that name ran.
-  [[nodiscard]] std::optional<double> median(const std::string& name) const;
-  [[nodiscard]] std::optional<double> smallest(const std::string& name) const;
-  [[nodiscard]] std::optional<double> operations(const std::string& name) const;
+  /// Of the benchmarks that ran, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> names() const;
+  // Nothing if no benchmark of that name ran or it has no such counter.
+  [[nodiscard]] std::optional<double> median(const std::string& name, const std::string& counter) const;
+  [[nodiscard]] std::optional<double> smallest(const std::string& name, const std::string& counter) const;
+  /// 0 if it did not run.
+  [[nodiscard]] std::size_t repetitions(const std::string& name) const;
 
  private:
-  struct Measured {
-    std::vector<double> ns_per_interval;
-    double operations = 0.0;
-  };
-  [[nodiscard]] const Measured* find(const std::string& name) const;
-  std::map<std::string, Measured> by_name_;
+  using Counters = std::map<std::string, std::vector<double>>;
+  [[nodiscard]] const std::vector<double>* find(const std::string& name, const std::string& counter) const;
+  std::map<std::string, Counters> by_name_;
 };
 
 /// Prints one line per benchmark, its median, and keeps all repetitions.

@@ -1,4 +1,5 @@
 #include "bench/speed/agreement.hpp"
+#include "bench/speed/benchmark_name.hpp"
 #include "bench/speed/benchmarks.hpp"
 #include "methods/expression/replay.hpp"
 
@@ -7,15 +8,15 @@ namespace dmocbench::speed {
 namespace {
 
 void register_replay(const std::string& quantity, const Subject& subject, const Schedule& schedule) {
-  const std::string name = "replay/" + quantity + "/" + subject.problem();
-  benchmark::RegisterBenchmark(name.c_str(), [&subject, &schedule](benchmark::State& state) {
+  const BenchmarkName name{.way = "replay", .quantity = quantity, .problem = subject.problem()};
+  benchmark::RegisterBenchmark(name.text().c_str(), [&subject, &schedule](benchmark::State& state) {
     for ([[maybe_unused]] auto turn : state) {
       for (std::size_t k = 0; k < Subject::intervals; ++k) {
         // The two vectors that a replay allocates are timed with it: it has no other form.
         benchmark::DoNotOptimize(replay<double>(schedule, subject.inputs_of(k)));
       }
     }
-    count_intervals(state, schedule.operation_count());
+    count_intervals(state, {.operations = schedule.operation_count()});
   });
 }
 
@@ -24,7 +25,7 @@ void register_replay(const std::string& quantity, const Subject& subject, const 
 void register_replay_benchmarks(const Subjects& subjects) {
   for (const auto& subject : subjects) {
     const IntervalFunctions& functions = subject->functions();
-    require_agreement(*subject, "replay", [&](std::size_t interval) {
+    require_agreement(*subject, functions.hessian.schedule, "replay", [&](std::size_t interval) {
       return replay<double>(functions.hessian.schedule, subject->inputs_of(interval));
     });
     register_replay("residual", *subject, functions.rows.schedule);

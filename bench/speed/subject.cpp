@@ -1,6 +1,7 @@
 #include "bench/speed/subject.hpp"
 
-#include <iterator>
+#include <algorithm>
+#include <functional>
 #include <random>
 
 #include "methods/expression/replay.hpp"
@@ -35,6 +36,12 @@ Grid uneven_grid() {
   return Grid::from_nodes(nodes / length);
 }
 
+std::unique_ptr<Problem> problem_of(const Formulas& formulas) {
+  auto problem = make_problem(formulas.problem);
+  if (formulas.links > 0) problem->set_parameter("links", formulas.links);
+  return problem;
+}
+
 /// The outputs of a schedule as formulas of this thread's graph, where equal ones are shared.
 std::vector<Expression> formulas(const Schedule& schedule) {
   std::vector<Expression> inputs;
@@ -44,8 +51,11 @@ std::vector<Expression> formulas(const Schedule& schedule) {
 
 }  // namespace
 
-Subject::Subject(const std::string& problem)
-    : problem_(problem), program_(*make_problem(problem), *make_element("dmoc"), gauss_tableau(1), uneven_grid()) {
+std::string Formulas::label() const { return links == 0 ? problem : problem + "_" + std::to_string(links); }
+
+Subject::Subject(const Formulas& formulas)
+    : problem_(formulas.label()),
+      program_(*problem_of(formulas), *make_element(formulas.method), gauss_tableau(formulas.stages), uneven_grid()) {
   Numbers numbers;
   x_ = numbers.vector(program_.variable_count());
   multipliers_ = numbers.vector(program_.constraint_count());
@@ -54,6 +64,18 @@ Subject::Subject(const std::string& problem)
   for (std::size_t k = 0; k < intervals; ++k) {
     for (const Tape::Input& input : columns_) by_interval_.push_back(input.data[input.same_for_all ? 0 : k]);
   }
+}
+
+std::size_t arrays_read(const Schedule& schedule, std::span<const Tape::Input> columns) {
+  std::vector<const double*> begins;
+  for (const Schedule::Step& step : schedule.steps()) {
+    if (step.operation != Operation::input || columns[step.input_index].same_for_all) continue;
+    begins.push_back(columns[step.input_index].data);
+  }
+  std::sort(begins.begin(), begins.end(), std::less<>());
+  // Left and right ends stand in one array, an entry apart.
+  const auto is_neighbour = [](const double* left, const double* right) { return right - left <= 1; };
+  return static_cast<std::size_t>(std::unique(begins.begin(), begins.end(), is_neighbour) - begins.begin());
 }
 
 Schedule lagrangian_of(const IntervalFunctions& functions) {

@@ -13,7 +13,18 @@
 
 namespace dmocbench::speed {
 
-/// What is timed: a problem by DMOC with the midpoint rule on a grid of uneven steps, at a random point.
+/// Which formulas are timed.
+struct Formulas {
+  std::string problem;          ///< a name of the registry
+  int links = 0;                ///< of the problem `link_chain`; 0 for all others
+  std::string method = "dmoc";  ///< a family of elements
+  int stages = 1;               ///< of the Gauss tableau
+
+  /// The problem and, where there are any, its links: "link_chain_3".
+  [[nodiscard]] std::string label() const;
+};
+
+/// What is timed: a problem by a method on a grid of uneven steps, at a random point.
 ///
 /// The time of an evaluation depends on the formulas, not on the numbers; random ones keep any step of the check before
 /// the timing from being trivially right.
@@ -21,8 +32,9 @@ class Subject {
  public:
   static constexpr std::size_t intervals = 1024;
 
-  explicit Subject(const std::string& problem);
+  explicit Subject(const Formulas& formulas);
 
+  /// `Formulas::label`.
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   [[nodiscard]] Transcription& program() noexcept { return program_; }
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return program_.functions(); }
@@ -47,6 +59,10 @@ class Subject {
   std::vector<Tape::Input> columns_;
   std::vector<double> by_interval_;
 };
+
+/// Columns of doubles that a schedule reads. What neighbouring intervals share (the right end of one is the left end of
+/// the next) stands in one array and counts once; what is the same for all intervals does not count.
+[[nodiscard]] std::size_t arrays_read(const Schedule& schedule, std::span<const Tape::Input> columns);
 
 /// An interval's share of the Lagrangian, ℓ = factor · cost + multipliers · rows, with common subexpressions shared.
 [[nodiscard]] Schedule lagrangian_of(const IntervalFunctions& functions);

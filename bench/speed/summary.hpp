@@ -7,7 +7,7 @@
 
 namespace dmocbench::speed {
 
-/// The tables behind a run: times per interval, ratios within the run, and what the bare tape is meant to take. What
+/// The tables behind a run: times per interval, ratios within the run, and what they are meant to be. What
 /// did not run is a dash. A target that is missed is said, and is no failure: the machine may be shared.
 [[nodiscard]] std::string summary(const Measurements& measurements, const std::vector<std::string>& problems);
 

@@ -1,4 +1,5 @@
 #include "bench/speed/agreement.hpp"
+#include "bench/speed/benchmark_name.hpp"
 #include "bench/speed/benchmarks.hpp"
 #include "bench/speed/tape_run.hpp"
 
@@ -6,29 +7,34 @@ namespace dmocbench::speed {
 
 namespace {
 
-/// Tapes carried out one after the other.
-using Passes = std::vector<std::shared_ptr<TapeRun>>;
+/// Tapes carried out one after the other, and the work of all.
+struct Passes {
+  std::vector<std::shared_ptr<TapeRun>> tapes;
+  Work work;
+};
+
+Passes after(Passes first, const Passes& second) {
+  first.tapes.insert(first.tapes.end(), second.tapes.begin(), second.tapes.end());
+  first.work += second.work;
+  return first;
+}
 
 void register_passes(const std::string& quantity, const Subject& subject, InstructionSet set, const Passes& passes) {
-  const std::string name = "tape/" + quantity + "/" + subject.problem() + "/" + std::string(name_of(set));
-  benchmark::RegisterBenchmark(name.c_str(), [&subject, passes](benchmark::State& state) {
+  const BenchmarkName name{
+      .way = "tape", .quantity = quantity, .problem = subject.problem(), .instruction_set = std::string(name_of(set))};
+  benchmark::RegisterBenchmark(name.text().c_str(), [&subject, passes](benchmark::State& state) {
     for ([[maybe_unused]] auto turn : state) {
-      for (const auto& pass : passes) pass->evaluate(subject.columns());
+      for (const auto& tape : passes.tapes) tape->evaluate(subject.columns());
       benchmark::ClobberMemory();
     }
-    std::size_t operations = 0;
-    for (const auto& pass : passes) operations += pass->tape().operation_count();
-    count_intervals(state, operations);
+    count_intervals(state, passes.work);
   });
 }
 
 void require_hessian(const Subject& subject, InstructionSet set, TapeRun& hessian) {
   hessian.evaluate(subject.columns());
-  require_agreement(subject, "the tape on " + std::string(name_of(set)), [&](std::size_t interval) {
-    std::vector<double> entries;
-    for (std::size_t e = 0; e < hessian.tape().output_count(); ++e) entries.push_back(hessian.value(interval, e));
-    return entries;
-  });
+  require_agreement(subject, subject.functions().hessian.schedule, "the tape on " + std::string(name_of(set)),
+                    [&](std::size_t interval) { return hessian.outputs().row(interval); });
 }
 
 }  // namespace
@@ -37,18 +43,18 @@ void register_tape_benchmarks(const Subjects& subjects) {
   for (const auto& subject : subjects) {
     const IntervalFunctions& functions = subject->functions();
     for (const InstructionSet set : available_instruction_sets()) {
-      const auto make = [&](const Schedule& schedule) {
-        return std::make_shared<TapeRun>(schedule, set, Subject::intervals);
+      const auto pass = [&](const Schedule& schedule) {
+        return Passes{{std::make_shared<TapeRun>(schedule, set, Subject::intervals)}, work_of(schedule, *subject)};
       };
-      const auto residual = make(functions.rows.schedule);
-      const auto jacobian = make(functions.jacobian.schedule);
-      const auto hessian = make(functions.hessian.schedule);
-      require_hessian(*subject, set, *hessian);
-      register_passes("residual", *subject, set, {residual});
-      register_passes("jacobian", *subject, set, {jacobian});
-      register_passes("hessian", *subject, set, {hessian});
-      register_passes("separate", *subject, set, {residual, jacobian, hessian});
-      register_passes("fused", *subject, set, {make(fused(functions))});
+      const Passes residual = pass(functions.rows.schedule);
+      const Passes jacobian = pass(functions.jacobian.schedule);
+      const Passes hessian = pass(functions.hessian.schedule);
+      require_hessian(*subject, set, *hessian.tapes.front());
+      register_passes("residual", *subject, set, residual);
+      register_passes("jacobian", *subject, set, jacobian);
+      register_passes("hessian", *subject, set, hessian);
+      register_passes("separate", *subject, set, after(after(residual, jacobian), hessian));
+      register_passes("fused", *subject, set, pass(fused(functions)));
     }
   }
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/compare/benchmark_file.hpp"
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench {
+
+enum class SpeedVerdict : std::uint8_t {
+  faster,               ///< beyond noise and by the smallest ratio at least
+  slower,               ///< beyond noise and by the smallest ratio at least
+  same,                 ///< neither
+  too_few_repetitions,  ///< one of the two has less than `fewest_repetitions`
+};
+
+/// Two samples of less have no verdict: even wholly apart they would be so by chance in one of 35 cases (4 and 4).
+inline constexpr std::size_t fewest_repetitions = 5;
+
+/// "faster", "slower", "same within noise" or "too few repetitions".
+[[nodiscard]] std::string_view name_of(SpeedVerdict verdict) noexcept;
+
+struct ComparisonOptions {
+  std::string counter = "cpu_time";
+  double threshold = 1.05;     ///< smallest ratio of medians that is worth a verdict, at least 1
+  double significance = 0.01;  ///< largest probability of chance (`mann_whitney`) that counts as a difference
+};
+
+/// One benchmark before and after.
+struct SpeedComparison {
+  std::string name;
+  std::size_t repetitions_before = 0;
+  std::size_t repetitions_after = 0;
+  double median_before = 0.0;
+  double median_after = 0.0;
+  double ratio = 0.0;        ///< median after / median before
+  double probability = 0.0;  ///< of chance
+  SpeedVerdict verdict = SpeedVerdict::same;
+};
+
+/// The benchmarks that both have, by name. More of a counter is slower, unless it is a rate (its name ends with
+/// "per_second"). Throws `Error` if they have none in common or an option is out of its range.
+[[nodiscard]] std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const BenchmarkSamples& after,
+                                                   const ComparisonOptions& options);
+
+[[nodiscard]] Table comparison_table(const std::vector<SpeedComparison>& comparisons);
+
+/// A line per benchmark, and one that counts the verdicts.
+[[nodiscard]] std::string comparison_text(const std::vector<SpeedComparison>& comparisons);
+
+}  // namespace dmocbench

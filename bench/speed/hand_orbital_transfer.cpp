@@ -1,0 +1,133 @@
+// Compiled once per instruction set, see kernels.hpp.
+// q = (r, φ), L = ½(V² + R²W²) + 1/R, f = (0, R u), C = u²
+#include <array>
+#include <cstddef>
+
+#include "bench/speed/kernels.hpp"
+
+namespace dmocbench::speed {
+
+namespace {
+
+void residual(std::size_t intervals, const HandColumns& columns) {
+  const double* r_left = columns.in[0];
+  const double* phi_left = columns.in[1];
+  const double* r_right = columns.in[2];
+  const double* phi_right = columns.in[3];
+  const double* u = columns.in[4];
+  const double* step = columns.in[5];
+  const std::array<double*, 4> out = outputs<4>(columns);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const double h = step[k];
+    const double rate = 1.0 / h;
+    const double R = 0.5 * (r_left[k] + r_right[k]);
+    const double V = (r_right[k] - r_left[k]) * rate;
+    const double W = (phi_right[k] - phi_left[k]) * rate;
+    const double force_r = 0.5 * h * (R * W * W - 1.0 / (R * R));
+    const double force_phi = 0.5 * h * R * u[k];
+    const double momentum = R * R * W;
+    out[0][k] = force_r - V;
+    out[1][k] = force_phi - momentum;
+    out[2][k] = force_r + V;
+    out[3][k] = force_phi + momentum;
+  }
+}
+
+void jacobian(std::size_t intervals, const HandColumns& columns) {
+  const double* r_left = columns.in[0];
+  const double* phi_left = columns.in[1];
+  const double* r_right = columns.in[2];
+  const double* phi_right = columns.in[3];
+  const double* u = columns.in[4];
+  const double* step = columns.in[5];
+  const std::array<double*, 18> out = outputs<18>(columns);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const double h = step[k];
+    const double rate = 1.0 / h;
+    const double R = 0.5 * (r_left[k] + r_right[k]);
+    const double W = (phi_right[k] - phi_left[k]) * rate;
+    const double inverse = 1.0 / R;
+    const double force_r = 0.25 * h * (W * W + 2.0 * inverse * inverse * inverse);  // ½ ∂(h/2 G_r)/∂R
+    const double force_phi = R * W;                                                 // 1/h ∂(h/2 G_r)/∂W
+    const double turn = 0.25 * h * u[k];                                            // ½ ∂(h/2 R u)/∂R
+    const double by_r = R * W;                                                      // ½ ∂(R²W)/∂R
+    const double by_phi = R * R * rate;                                             // 1/h ∂(R²W)/∂W
+    const double by_u = 0.5 * h * R;
+    // Left row of r, by r_left, φ_left, r_right, φ_right.
+    out[0][k] = force_r + rate;
+    out[1][k] = -force_phi;
+    out[2][k] = force_r - rate;
+    out[3][k] = force_phi;
+    // Left row of φ, and by u.
+    out[4][k] = turn - by_r;
+    out[5][k] = by_phi;
+    out[6][k] = turn - by_r;
+    out[7][k] = -by_phi;
+    out[8][k] = by_u;
+    // Right row of r.
+    out[9][k] = force_r - rate;
+    out[10][k] = -force_phi;
+    out[11][k] = force_r + rate;
+    out[12][k] = force_phi;
+    // Right row of φ, and by u.
+    out[13][k] = turn + by_r;
+    out[14][k] = -by_phi;
+    out[15][k] = turn + by_r;
+    out[16][k] = by_phi;
+    out[17][k] = by_u;
+  }
+}
+
+void hessian(std::size_t intervals, const HandColumns& columns) {
+  const double* r_left = columns.in[0];
+  const double* phi_left = columns.in[1];
+  const double* r_right = columns.in[2];
+  const double* phi_right = columns.in[3];
+  const double* step = columns.in[5];
+  const double* lambda_left_r = columns.in[8];
+  const double* lambda_left_phi = columns.in[9];
+  const double* lambda_right_r = columns.in[10];
+  const double* lambda_right_phi = columns.in[11];
+  const double factor = columns.factor;
+  const std::array<double*, 13> out = outputs<13>(columns);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const double h = step[k];
+    const double rate = 1.0 / h;
+    const double R = 0.5 * (r_left[k] + r_right[k]);
+    const double W = (phi_right[k] - phi_left[k]) * rate;
+    const double inverse = 1.0 / R;
+    const double inverse_2 = inverse * inverse;
+    const double alpha = 0.5 * h * (lambda_left_r[k] + lambda_right_r[k]);
+    const double delta = lambda_right_phi[k] - lambda_left_phi[k];
+    const double by_r_r = 0.5 * (delta * W - 3.0 * alpha * inverse_2 * inverse_2);  // ¼ ℓ_RR
+    const double by_r_phi = (alpha * W + delta * R) * rate;                         // ½ ℓ_RW / h
+    const double by_phi_phi = 2.0 * alpha * R * rate * rate;                        // ℓ_WW / h²
+    const double by_r_u = 0.25 * h * (lambda_left_phi[k] + lambda_right_phi[k]);    // ½ ℓ_Ru
+    out[0][k] = by_r_r;
+    out[1][k] = -by_r_phi;
+    out[2][k] = by_phi_phi;
+    out[3][k] = by_r_r;
+    out[4][k] = -by_r_phi;
+    out[5][k] = by_r_r;
+    out[6][k] = by_r_phi;
+    out[7][k] = -by_phi_phi;
+    out[8][k] = by_r_phi;
+    out[9][k] = by_phi_phi;
+    out[10][k] = by_r_u;
+    out[11][k] = by_r_u;
+    out[12][k] = 2.0 * factor * h;
+  }
+}
+
+}  // namespace
+
+namespace DMOCBENCH_KERNELS {
+
+HandFunctions orbital_transfer() { return {.residual = residual, .jacobian = jacobian, .hessian = hessian}; }
+
+}  // namespace DMOCBENCH_KERNELS
+
+}  // namespace dmocbench::speed
