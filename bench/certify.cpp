@@ -53,11 +53,11 @@ class Certify final : public Experiment {
     options.problems = {"all"};
     options.methods = {"dmoc"};
   }
-  void add_options(CLI::App& app) override {
-    app.add_option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
-        ->delimiter(',')
-        ->capture_default_str();
-    app.add_flag("!--no-indirect", with_indirect_, "leave the indirect method out");
+  void add_options(CommandLine& line) override {
+    line.option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
+        .comma_separated()
+        .shows_default();
+    line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
   [[nodiscard]] bool problems_are_independent() const override { return true; }
   [[nodiscard]] std::vector<std::string> own_columns() const override {

@@ -55,12 +55,12 @@ void print(const std::vector<Claim>& claims) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) try {
-  CLI::App app(
+  dmocbench::CommandLine line(
       "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.",
       "claims");
   std::filesystem::path out = "results";
-  app.add_option("--out", out, "the results folder")->capture_default_str();
-  return dmocbench::run_program(app, argc, argv, [&] {
+  line.option("--out", out, "the results folder").shows_default();
+  return dmocbench::run_program(line, argc, argv, [&] {
     const auto claims = dmocbench::judge_claims(dmocbench::ResultTables::read(out));
     dmocbench::write_file(out / "claims.csv", dmocbench::claim_table(claims).csv());
     dmocbench::write_file(out / "claims.md", dmocbench::markdown(claims));

@@ -139,7 +139,7 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Ta
 
 int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CLI::App app(
+  CommandLine line(
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact "
       "ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
@@ -149,12 +149,11 @@ int main(int argc, char** argv) try {
   std::vector<std::string> settings;
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
   std::filesystem::path out = "results";
-  app.add_option("--problem", problems, "problems (default: all)")->delimiter(',');
-  app.add_option("--set", settings, "parameter=value of a problem");
-  app.add_option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling")
-      ->capture_default_str();
-  app.add_option("--out", out, "folder for the results")->capture_default_str();
-  return run_program(app, argc, argv, [&] {
+  line.option("--problem", problems, "problems (default: all)").comma_separated();
+  line.option("--set", settings, "parameter=value of a problem");
+  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling").shows_default();
+  line.option("--out", out, "folder for the results").shows_default();
+  return run_program(line, argc, argv, [&] {
     const std::vector<long long> steps = parse_intervals("--intervals", intervals);
     const auto selected = selected_problems(problems, settings);
     prepare_folder(out);
@@ -162,9 +161,7 @@ int main(int argc, char** argv) try {
     for (const auto& problem : selected) measure(*problem, steps, tables);
     write_file(out / "consistency_order.csv", tables.errors.csv());
     write_file(out / "consistency_order_slopes.csv", tables.slopes.csv());
-    nlohmann::ordered_json metadata = describe_run(std::vector<std::string>(argv, argv + argc));
-    metadata["complete"] = true;
-    write_file(out / "consistency_order.json", metadata.dump(2) + "\n");
+    write_complete_run(out / "consistency_order.json", std::vector<std::string>(argv, argv + argc));
     fmt::print("consistency_order: {} rows: {}\n", tables.errors.rows().size(),
                (out / "consistency_order.csv").string());
     return 0;

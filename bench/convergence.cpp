@@ -5,6 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/indirect_reference.hpp"
@@ -59,15 +60,14 @@ class Convergence final : public Experiment {
             "stage_costate_p_error"};
   }
   [[nodiscard]] bool polishes() const override { return polishes_; }
-  void add_options(CLI::App& app) override {
-    app.add_option(
-        "--reference", reference_text_,
-        "what errors are measured against: N of a grid of the same method (default: the finest one of each "
-        "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
-        "kept in the output folder");
-    app.add_flag("--polish,!--no-polish", polishes_,
-                 "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
-    app.add_option(
+  void add_options(CommandLine& line) override {
+    line.option("--reference", reference_text_,
+                "what errors are measured against: N of a grid of the same method (default: the finest one of each "
+                "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
+                "kept in the output folder");
+    line.flag("--polish,!--no-polish", polishes_,
+              "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
+    line.option(
         "--fit", fit_,
         "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
         "the reference, or to the finest grid against the indirect solution");

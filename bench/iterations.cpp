@@ -38,11 +38,11 @@ class Iterations final : public Experiment {
     return {"crash",        "phase1_minors",   "phase2_minors", "predicted_minors",
             "kkt_nonzeros", "factor_nonzeros", "evaluations",   "replay_error"};
   }
-  void add_options(CLI::App& app) override {
-    app.add_option("--crash", crashes_,
-                   "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)")
-        ->delimiter(',')
-        ->capture_default_str();
+  void add_options(CommandLine& line) override {
+    line.option("--crash", crashes_,
+                "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)")
+        .comma_separated()
+        .shows_default();
   }
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {

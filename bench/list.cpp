@@ -153,13 +153,13 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
 }  // namespace dmocbench
 
 int main(int argc, char** argv) try {
-  CLI::App app("What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.",
-               "list");
+  dmocbench::CommandLine line(
+      "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", "list");
   std::vector<std::string> problems;
   std::vector<std::string> settings;
-  app.add_option("--problem", problems, "only these problems")->delimiter(',');
-  app.add_option("--set", settings, "parameter=value of a problem; may be repeated");
-  return dmocbench::run_program(app, argc, argv, [&] { return dmocbench::print_all(problems, settings); });
+  line.option("--problem", problems, "only these problems").comma_separated();
+  line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  return dmocbench::run_program(line, argc, argv, [&] { return dmocbench::print_all(problems, settings); });
 } catch (const std::exception& error) {  // what is set up before run_program can guard it
   std::fputs(error.what(), stderr);
   return 2;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/independent_checks.hpp"
@@ -34,16 +35,16 @@ class LocalMinima final : public Experiment {
     columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
     return columns;
   }
-  void add_options(CLI::App& app) override {
-    app.add_option("--starts", starts_, "starts per case: the guess, and perturbed ones")
-        ->check(CLI::Range(1LL, most_starts))
-        ->capture_default_str();
-    app.add_option("--seed", seed_, "of the random curves; the same seed gives the same starts")
-        ->check(CLI::Range(0LL, largest_seed))
-        ->capture_default_str();
-    app.add_option("--amplitude", amplitude_, "of the random curves, relative to the range of each coordinate")
-        ->check(CLI::Range(0.0, largest_amplitude))
-        ->capture_default_str();
+  void add_options(CommandLine& line) override {
+    line.option("--starts", starts_, "starts per case: the guess, and perturbed ones")
+        .range(1LL, most_starts)
+        .shows_default();
+    line.option("--seed", seed_, "of the random curves; the same seed gives the same starts")
+        .range(0LL, largest_seed)
+        .shows_default();
+    line.option("--amplitude", amplitude_, "of the random curves, relative to the range of each coordinate")
+        .range(0.0, largest_amplitude)
+        .shows_default();
   }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> all;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/independent_checks.hpp"
@@ -38,14 +39,14 @@ class Profile final : public Experiment {
     columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
     return columns;
   }
-  void add_options(CLI::App& app) override {
-    app.add_option("--objective-tolerance", objective_tolerance_,
-                   "largest difference of the cost from the reference, relative, that counts as a success")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
-    app.add_option("--seconds", most_seconds_, "time after which a solve has failed")
-        ->check(CLI::Range(0.0, longest_time))
-        ->capture_default_str();
+  void add_options(CommandLine& line) override {
+    line.option("--objective-tolerance", objective_tolerance_,
+                "largest difference of the cost from the reference, relative, that counts as a success")
+        .range(0.0, 1.0)
+        .shows_default();
+    line.option("--seconds", most_seconds_, "time after which a solve has failed")
+        .range(0.0, longest_time)
+        .shows_default();
   }
   [[nodiscard]] SolverOptions options_for(const Case& /*what*/, SolverOptions common) override {
     common.most_seconds = most_seconds_;

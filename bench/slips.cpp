@@ -121,11 +121,12 @@ Table slip_table(const std::vector<Slip>& slips) {
 
 int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CLI::App app("Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-               "slips");
+  CommandLine line(
+      "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
+      "slips");
   std::filesystem::path out = "results";
-  app.add_option("--out", out, "folder for the results")->capture_default_str();
-  return run_program(app, argc, argv, [&] {
+  line.option("--out", out, "folder for the results").shows_default();
+  return run_program(line, argc, argv, [&] {
     prepare_folder(out);
     const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
     const Trajectory motion = transfer(orbit);

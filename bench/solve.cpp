@@ -1,5 +1,6 @@
 // One or more solutions, written out as motions: nodes, stages and what a picture shows.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/independent_checks.hpp"
@@ -22,8 +23,8 @@ class Solve final : public Experiment {
   }
   [[nodiscard]] std::string default_intervals() const override { return "128"; }
   [[nodiscard]] std::vector<std::string> own_columns() const override { return independent_check_columns(); }
-  void add_options(CLI::App& app) override {
-    app.add_option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
+  void add_options(CommandLine& line) override {
+    line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
   }
   void check(const std::vector<Case>& cases) override {
     single_ = cases.size() == 1;

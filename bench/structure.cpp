@@ -140,7 +140,7 @@ Table transfer_table(Table& slopes) {
 
 int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CLI::App app(
+  CommandLine line(
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
       "(structure_energy.csv, structure_energy_behaviour.csv) and along the optimal orbital transfer "
@@ -150,15 +150,11 @@ int main(int argc, char** argv) try {
   int steps = 400;
   int steps_per_period = 64;
   long long periods = 10000;
-  app.add_option("--out", out, "folder for the results")->capture_default_str();
-  app.add_option("--steps", steps, "steps of the forced maps")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--steps-per-period", steps_per_period, "steps per period of the orbit")
-      ->check(CLI::Range(8, 100000))
-      ->capture_default_str();
-  app.add_option("--periods", periods, "periods of the orbit")
-      ->check(CLI::Range(3LL, 10000000LL))
-      ->capture_default_str();
-  return run_program(app, argc, argv, [&] {
+  line.option("--out", out, "folder for the results").shows_default();
+  line.option("--steps", steps, "steps of the forced maps").range(1, 1000000).shows_default();
+  line.option("--steps-per-period", steps_per_period, "steps per period of the orbit").range(8, 100000).shows_default();
+  line.option("--periods", periods, "periods of the orbit").range(3LL, 10000000LL).shows_default();
+  return run_program(line, argc, argv, [&] {
     prepare_folder(out);
     const auto write = [&](const std::string& name, const Table& table) {
       write_file(out / (name + ".csv"), table.csv());
@@ -171,9 +167,7 @@ int main(int argc, char** argv) try {
     write("structure_energy", energy.periods);
     write("structure_energy_behaviour", energy.behaviour);
     write("structure_energy_slopes", energy.slopes);
-    nlohmann::ordered_json metadata = describe_run(std::vector<std::string>(argv, argv + argc));
-    metadata["complete"] = true;
-    write_file(out / "structure.json", metadata.dump(2) + "\n");
+    write_complete_run(out / "structure.json", std::vector<std::string>(argv, argv + argc));
     return 0;
   });
 } catch (const std::exception& error) {  // what is set up before run_program can guard it

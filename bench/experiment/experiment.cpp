@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"
@@ -21,19 +22,8 @@ namespace {
 
 constexpr int exit_solved = 0;
 constexpr int exit_some_failed = 1;
-constexpr int exit_bad_input = 2;
 constexpr int exit_interrupted = 130;
 constexpr int most_jobs = 256;
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-int report_error(const CLI::App& app, const std::string& sentence) {
-  fmt::print(stderr, "{}: {}\n", app.get_name(), one_line(sentence));
-  return exit_bad_input;
-}
 
 /// The first case behind `first` that is not on its curve.
 std::size_t end_of_curve(const std::vector<Case>& cases, std::size_t first) {
@@ -220,32 +210,20 @@ std::vector<std::size_t> Experiment::solving_order(const std::vector<Case>& curv
   return order;
 }
 
-int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
-  try {
-    app.parse(argc, argv);
-    return body();
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help
-    return report_error(app, std::string(error.what()) + "; --help lists the options");
-  } catch (const std::exception& error) {
-    return report_error(app, error.what());
-  }
-}
-
 int run_experiment(Experiment& experiment, int argc, char** argv) {
-  CLI::App app(experiment.description(), experiment.name());
+  CommandLine line(experiment.description(), experiment.name());
   ExperimentOptions options;
   options.intervals = experiment.default_intervals();
   options.name = experiment.name();
   experiment.set_defaults(options);
-  add_options(app, options);
+  add_options(line, options);
   if (experiment.problems_are_independent()) {
-    app.add_option("--jobs", options.jobs, "problems worked on at the same time, each in a process of its own")
-        ->check(CLI::Range(1, most_jobs))
-        ->capture_default_str();
+    line.option("--jobs", options.jobs, "problems worked on at the same time, each in a process of its own")
+        .range(1, most_jobs)
+        .shows_default();
   }
-  experiment.add_options(app);
-  return run_program(app, argc, argv, [&] {
+  experiment.add_options(line);
+  return run_program(line, argc, argv, [&] {
     Run run(experiment, options, std::vector<std::string>(argv, argv + argc));
     const int code = run.run();
     fmt::print("{}: {}\n", experiment.name(), run.summary());

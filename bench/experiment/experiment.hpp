@@ -1,13 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/solve_case.hpp"
 
@@ -36,7 +35,7 @@ class Experiment {
   [[nodiscard]] virtual std::vector<std::string> own_columns() const = 0;
 
   /// Options behind the common ones.
-  virtual void add_options(CLI::App& /*app*/) {}
+  virtual void add_options(CommandLine& /*line*/) {}
   /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
@@ -70,8 +69,5 @@ class Experiment {
 /// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
 /// (finished rows are kept).
 int run_experiment(Experiment& experiment, int argc, char** argv);
-
-/// Parses a command line and runs `body`; every error becomes one line on standard error and exit code 2.
-int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
 }  // namespace dmocbench

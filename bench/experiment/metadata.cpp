@@ -6,14 +6,16 @@
 #include <fstream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <boost/version.hpp>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "bench/experiment/result_file.hpp"
 #include "methods/expression/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"
 
@@ -76,6 +78,12 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
     description["solvers"][name] = make_solver(name)->description();
   }
   return description;
+}
+
+void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line) {
+  nlohmann::ordered_json description = describe_run(command_line);
+  description["complete"] = true;
+  write_file(file, description.dump(2) + "\n");
 }
 
 }  // namespace dmocbench

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace dmocbench {
 
 /// What a reader needs to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries,
 /// commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);
+
+/// Writes the same of a run that has come to its end.
+void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line);
 
 }  // namespace dmocbench

@@ -88,46 +88,43 @@ std::vector<int> sorted_stages(std::vector<int> stages, const std::string& table
 
 }  // namespace
 
-void add_options(CLI::App& app, ExperimentOptions& options) {
-  app.add_option("--problem", options.problems, "problems, as `list` names them; all: every one")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all")->delimiter(',');
-  app.add_option("--tableau", options.tableaus, "families of Butcher tableaus")->delimiter(',')->capture_default_str();
-  app.add_option(
-         "--controls", options.controls,
-         "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
-         "the tables then call lobatto_shared")
-      ->capture_default_str();
-  app.add_option("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--solver", options.solvers, "solvers, as `list` names them")->delimiter(',')->capture_default_str();
-  app.add_option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--intervals", options.intervals,
-                 "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed")
-      ->capture_default_str();
-  app.add_option("--grid", options.grid_file,
-                 "file with relative node times from 0 to 1, one per line; replaces --intervals");
-  app.add_option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
-  app.add_option("--form", options.form,
-                 "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)")
-      ->capture_default_str();
-  app.add_option(
-         "--start", options.start,
-         "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
-         "X_nodes.csv written by solve")
-      ->capture_default_str();
-  app.add_option("--tolerance", options.tolerance, "for the KKT residual of the scaled program")->capture_default_str();
-  app.add_option("--iterations", options.most_iterations, "largest number of iterations of a solver")
-      ->capture_default_str();
-  app.add_option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
-  app.add_option("--repeats", options.repeats, "solves per row; times are medians")->capture_default_str();
-  app.add_option("--out", options.out, "folder for the results")->capture_default_str();
-  app.add_option("--name", options.name, "name of the table and the files beside it")->capture_default_str();
-  app.add_flag("--verbose", options.verbose, "show the solver's own output");
+void add_options(CommandLine& line, ExperimentOptions& options) {
+  line.option("--problem", options.problems, "problems, as `list` names them; all: every one")
+      .comma_separated()
+      .shows_default();
+  line.option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all").comma_separated();
+  line.option("--tableau", options.tableaus, "families of Butcher tableaus").comma_separated().shows_default();
+  line.option("--controls", options.controls,
+              "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
+              "the tables then call lobatto_shared")
+      .shows_default();
+  line.option("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with")
+      .comma_separated()
+      .shows_default();
+  line.option("--solver", options.solvers, "solvers, as `list` names them").comma_separated().shows_default();
+  line.option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
+      .comma_separated()
+      .shows_default();
+  line.option("--intervals", options.intervals,
+              "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed")
+      .shows_default();
+  line.option("--grid", options.grid_file,
+              "file with relative node times from 0 to 1, one per line; replaces --intervals");
+  line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  line.option("--form", options.form,
+              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)")
+      .shows_default();
+  line.option("--start", options.start,
+              "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
+              "X_nodes.csv written by solve")
+      .shows_default();
+  line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program").shows_default();
+  line.option("--iterations", options.most_iterations, "largest number of iterations of a solver").shows_default();
+  line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
+  line.option("--repeats", options.repeats, "solves per row; times are medians").shows_default();
+  line.option("--out", options.out, "folder for the results").shows_default();
+  line.option("--name", options.name, "name of the table and the files beside it").shows_default();
+  line.flag("--verbose", options.verbose, "show the solver's own output");
 }
 
 SolverOptions solver_options(const ExperimentOptions& options) {

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "bench/experiment/case.hpp"
+#include "bench/experiment/command_line.hpp"
 #include "methods/solvers/solver.hpp"
 #include "problems/registry.hpp"
 
@@ -37,7 +36,7 @@ struct ExperimentOptions {
 };
 
 /// Registers the options with their help.
-void add_options(CLI::App& app, ExperimentOptions& options);
+void add_options(CommandLine& line, ExperimentOptions& options);
 
 /// The solver options among them. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
