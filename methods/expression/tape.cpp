@@ -146,10 +146,10 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
 
 Tape::Workspace::Workspace(const Tape& tape)
     : serial_(tape.serial_),
-      slots_((tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()) * block_width),
+      slots_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()),
       columns_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size() + tape.output_count_) {
   for (std::size_t i = 0; i < tape.slot_count_ + tape.constants_.size(); ++i) {
-    columns_[i] = slots_.data() + i * block_width;
+    columns_[i] = slots_[i].numbers.data();
   }
   for (std::size_t i = 0; i < tape.constants_.size(); ++i) {
     std::fill_n(columns_[tape.slot_count_ + i], block_width, tape.constants_[i]);
@@ -169,7 +169,7 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
   // Inputs that are the same for all intervals are spread over a column of the workspace once.
   for (const ReadInput& input : read_inputs_) {
     if (!inputs[input.index].same_for_all) continue;
-    double* spread = workspace.slots_.data() + input.column * block_width;
+    double* spread = workspace.slots_[input.column].numbers.data();
     std::fill_n(spread, block_width, *inputs[input.index].data);
     workspace.columns_[input.column] = spread;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,8 +42,13 @@ class Tape {
 
    private:
     friend class Tape;
+    // On a boundary of a cache line, which the widest registers are as long as: across one, loads and stores take
+    // twice.
+    struct alignas(64) Column {
+      std::array<double, block_width> numbers{};
+    };
     std::uint64_t serial_;  // of the tape
-    std::vector<double> slots_;
+    std::vector<Column> slots_;
     std::vector<double*> columns_;
   };
 

@@ -41,8 +41,9 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program)
       hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())) {
   for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
   const Eigen::VectorXd& lower = program.constraint_lower();
+  const Eigen::VectorXd& upper = program.constraint_upper();
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    if (lower[i] != program.constraint_upper()[i]) inequalities_.push_back(i);
+    if (lower[i] != upper[i]) inequalities_.push_back(i);
   }
 }
 

@@ -43,8 +43,10 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, co
       tolerance_(options.tolerance),
       begin_(Clock::now()) {
   point_ = program_.interior(start);
+  const Eigen::VectorXd& lower = program.variable_lower();
+  const Eigen::VectorXd& upper = program.variable_upper();
   for (Eigen::Index i = 0; i < start.size(); ++i) {
-    if (program.variable_lower()[i] == program.variable_upper()[i]) fixed_.push_back(i);
+    if (lower[i] == upper[i]) fixed_.push_back(i);
   }
   rows_.resize(point_.s.size());
   trial_rows_.resize(point_.s.size());

@@ -25,10 +25,11 @@ class NewtonResidual {
   [[nodiscard]] const Eigen::VectorXd& slope() const noexcept { return slope_; }  ///< one entry per variable
   [[nodiscard]] const Eigen::VectorXd& rows() const noexcept { return rows_; }    ///< one entry per row
 
-  /// How much larger what is left is than what it may be: `accuracy` times the largest entry of the right-hand side, or
-  /// the rounding of the sums that it is left of; slopes and rows each by their own. Infinite if a number is not
-  /// finite.
-  [[nodiscard]] double excess(double accuracy) const;
+  /// How much larger what is left is than what it may be: `accuracy` times the largest entry of the right-hand side,
+  /// and the rounding of the sums that it is left of; slopes and rows each by their own. Infinite if a number is not
+  /// finite. Arguments as in `compute` before.
+  [[nodiscard]] double excess(const KktMatrix& matrix, const Eigen::VectorXd& primal_step,
+                              const Eigen::VectorXd& multiplier_step, double accuracy) const;
 
  private:
   std::vector<PatternRun> hessian_runs_;
@@ -38,8 +39,6 @@ class NewtonResidual {
   Eigen::VectorXd rows_;
   double largest_slope_ = 0.0;  // of the right-hand side
   double largest_row_ = 0.0;
-  double rounding_of_slope_ = 0.0;
-  double rounding_of_rows_ = 0.0;
 };
 
 }  // namespace dmocbench::interior_point

@@ -13,6 +13,9 @@ constexpr int most_refinements = 5;
 constexpr double worthwhile = 0.3;
 /// How much larger than wanted an error may stay: Newton's method still gains a digit in an iteration.
 constexpr double tolerable = 1e5;
+/// An error this much smaller than wanted lets the next steps pass, so many of them.
+constexpr double to_spare = 1e-2;
+constexpr int steps_to_pass = 3;
 
 }  // namespace
 
@@ -23,6 +26,10 @@ Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   const Verdict verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
   if (verdict == Verdict::wrong_inertia) return verdict;
+  if (verdict == Verdict::solved && unlooked_ > 0) {
+    --unlooked_;
+    return verdict;
+  }
   if (verdict == Verdict::solved && refine(matrix, slope, rows, primal_step, multiplier_step)) return verdict;
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_);
   ++fallbacks_;
@@ -33,7 +40,8 @@ Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
 bool RefinedKkt::refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                         Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
-  double excess = residual_.excess(accuracy_);
+  double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
+  if (excess <= to_spare) unlooked_ = steps_to_pass;
   for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
     primal_correction_.resizeLike(primal_step);
     multiplier_correction_.resizeLike(multiplier_step);
@@ -46,7 +54,7 @@ bool RefinedKkt::refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, c
     multiplier_step += multiplier_correction_;
     residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
     const double before = excess;
-    excess = residual_.excess(accuracy_);
+    excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
     if (!(excess <= before)) {
       primal_step -= primal_correction_;
       multiplier_step -= multiplier_correction_;

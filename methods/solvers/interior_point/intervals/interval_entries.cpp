@@ -63,7 +63,12 @@ struct Columns {
 
 class Sorter {
  public:
-  explicit Sorter(const NonlinearProgram& program) : program_(program) {
+  explicit Sorter(const NonlinearProgram& program)
+      : program_(program),
+        variable_lower_(program.variable_lower()),
+        variable_upper_(program.variable_upper()),
+        constraint_lower_(program.constraint_lower()),
+        constraint_upper_(program.constraint_upper()) {
     if (program.interval_structure() == nullptr) throw Irregular{"it tells no interval structure"};
     if (program.interval_structure()->intervals == 0) throw Irregular{"it has no intervals"};
   }
@@ -149,11 +154,11 @@ class Sorter {
 
   [[nodiscard]] bool is_soft(std::size_t row) const {
     const auto i = static_cast<Eigen::Index>(row);
-    return program_.constraint_lower()[i] != program_.constraint_upper()[i];
+    return constraint_lower_[i] != constraint_upper_[i];
   }
   [[nodiscard]] bool is_fixed(std::size_t unknown) const {
     const auto i = static_cast<Eigen::Index>(unknown);
-    return program_.variable_lower()[i] == program_.variable_upper()[i];
+    return variable_lower_[i] == variable_upper_[i];
   }
 
   void require_free_between_ends() {
@@ -344,6 +349,10 @@ class Sorter {
   }
 
   const NonlinearProgram& program_;
+  const Eigen::VectorXd& variable_lower_;
+  const Eigen::VectorXd& variable_upper_;
+  const Eigen::VectorXd& constraint_lower_;
+  const Eigen::VectorXd& constraint_upper_;
   IntervalEntries result_;
   std::vector<Member> unknowns_;
   std::vector<Member> rows_;
