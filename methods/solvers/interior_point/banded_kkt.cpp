@@ -30,10 +30,12 @@ std::unique_ptr<BandedKkt> BandedKkt::make(const NonlinearProgram& program, std:
 }
 
 BandedKkt::BandedKkt(const NonlinearProgram& program, NodeOrder order)
-    : program_(program), order_(std::move(order)), is_free_(free_variables(program)) {
+    : program_(program),
+      order_(std::move(order)),
+      is_free_(free_variables(program)),
+      leading_(3 * order_.half_bandwidth + 1) {
   const auto size = static_cast<Eigen::Index>(order_.band_size);
   const auto border = static_cast<Eigen::Index>(order_.border_size);
-  leading_ = 3 * order_.half_bandwidth + 1;
   band_.resize(leading_ * order_.band_size);
   exchanged_.resize(order_.band_size);
   border_.resize(size, border);
@@ -49,9 +51,9 @@ BandedKkt::BandedKkt(const NonlinearProgram& program, NodeOrder order)
 
 /// LAPACK stores entry (i, j) of a band at row kl + ku + i - j of column j; the first kl rows are for what exchanging
 /// rows fills in. Null in the lower left: of the border and its mirror image one is kept.
-double* BandedKkt::place_of(std::size_t row, std::size_t column) {
-  const NodeOrder::Line i = order_.lines[row];
-  const NodeOrder::Line j = order_.lines[column];
+double* BandedKkt::place_of(std::size_t line, std::size_t other_line) {
+  const NodeOrder::Line i = order_.lines[line];
+  const NodeOrder::Line j = order_.lines[other_line];
   if (!i.in_border && !j.in_border) return &band_[2 * order_.half_bandwidth + i.at - j.at + j.at * leading_];
   if (i.in_border && !j.in_border) return nullptr;
   Eigen::MatrixXd& block = i.in_border ? corner_ : border_;

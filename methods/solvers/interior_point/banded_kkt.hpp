@@ -50,7 +50,7 @@ class BandedKkt final : public KktSystem {
   };
 
   void find_targets();
-  [[nodiscard]] double* place_of(std::size_t row, std::size_t column);
+  [[nodiscard]] double* place_of(std::size_t line, std::size_t other_line);
   [[nodiscard]] Target target_of(std::size_t entry, std::size_t row, std::size_t column);
   void assemble(const KktMatrix& matrix);
   [[nodiscard]] bool factorise();
@@ -65,7 +65,7 @@ class BandedKkt final : public KktSystem {
   const NonlinearProgram& program_;
   NodeOrder order_;
   std::vector<bool> is_free_;
-  std::size_t leading_ = 0;  // of the band in LAPACK's storage: 2 kl + ku + 1
+  std::size_t leading_;  // of the band in LAPACK's storage: 2 kl + ku + 1
   std::vector<double> band_;
   std::vector<int> exchanged_;    // rows, as LAPACK tells them
   Eigen::MatrixXd border_;        // band_size x border_size

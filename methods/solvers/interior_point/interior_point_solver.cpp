@@ -19,11 +19,10 @@ namespace {
 
 enum class Factorisation : unsigned char { intervals, recombined, banded, sparse };
 
-const std::map<std::string, Factorisation> factorisations{
-    {"intervals", Factorisation::intervals},
-    {"recombined", Factorisation::recombined},
-    {"banded", Factorisation::banded},
-    {"sparse", Factorisation::sparse}};
+const std::map<std::string, Factorisation> factorisations{{"intervals", Factorisation::intervals},
+                                                          {"recombined", Factorisation::recombined},
+                                                          {"banded", Factorisation::banded},
+                                                          {"sparse", Factorisation::sparse}};
 
 Factorisation factorisation_of(const std::map<std::string, std::string>& passed_on) {
   Factorisation choice = Factorisation::intervals;
@@ -33,7 +32,8 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
     }
     const auto found = factorisations.find(value);
     if (found == factorisations.end()) {
-      throw Error("the solver interior_point: factorisation must be intervals, recombined, banded or sparse, not " + value);
+      throw Error("the solver interior_point: factorisation must be intervals, recombined, banded or sparse, not " +
+                  value);
     }
     choice = found->second;
   }

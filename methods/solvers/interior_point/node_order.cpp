@@ -31,17 +31,17 @@ Key key_of(const Place& place, bool is_row) {
 void bring_home_rows_of_one_place(const NonlinearProgram& program, std::vector<Key>& keys) {
   const std::size_t unknowns = program.variable_count();
   const SparsityPattern& jacobian = program.jacobian_structure();
-  std::vector<std::optional<std::size_t>> place(program.constraint_count());
+  constexpr std::size_t unseen = Key::border - 1;
+  std::vector<std::size_t> place(program.constraint_count(), unseen);
   for (std::size_t e = 0; e < jacobian.size(); ++e) {
     const auto row = static_cast<std::size_t>(jacobian.rows[e]);
     if (!keys[unknowns + row].in_border()) continue;
     const std::size_t read = keys[static_cast<std::size_t>(jacobian.columns[e])].place;
-    place[row] = !place[row] || *place[row] == read ? read : Key::border;
+    place[row] = place[row] == unseen || place[row] == read ? read : Key::border;
   }
   for (std::size_t row = 0; row < place.size(); ++row) {
-    if (keys[unknowns + row].in_border() && place[row] && *place[row] != Key::border) {
-      keys[unknowns + row] = {*place[row], 0};
-    }
+    if (!keys[unknowns + row].in_border() || place[row] == unseen || place[row] == Key::border) continue;
+    keys[unknowns + row] = {place[row], 0};
   }
 }
 
@@ -63,6 +63,7 @@ std::optional<NodeOrder> node_order(const NonlinearProgram& program, std::string
     return std::nullopt;
   }
   std::vector<Key> keys;
+  keys.reserve(structure->unknowns.size() + structure->rows.size());
   for (const Place& place : structure->unknowns) keys.push_back(key_of(place, false));
   for (const Place& place : structure->rows) keys.push_back(key_of(place, true));
   bring_home_rows_of_one_place(program, keys);

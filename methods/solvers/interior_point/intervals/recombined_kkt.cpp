@@ -97,6 +97,15 @@ void RecombinedKkt::combine_jacobian(const Eigen::VectorXd& jacobian) {
   jacobian_.tail(jacobian_.size() - recombined_.first_kept_entry()) = jacobian(recombined_.kept_entries());
 }
 
+double RecombinedKkt::combination_operations() const {
+  constexpr double of_coefficients = 7.0;  // per pair: two products, a division, four products
+  double count = of_coefficients * static_cast<double>(pairs_.size());
+  for (const RecombinedTerm& term : recombined_.terms()) {
+    for (const std::size_t entry : term.entries) count += entry == MomentumPair::none ? 0.0 : 1.0;
+  }
+  return count;
+}
+
 void RecombinedKkt::combine_rows(const Eigen::VectorXd& rows) {
   rows_.head(recombined_.first_kept_row()).setZero();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {

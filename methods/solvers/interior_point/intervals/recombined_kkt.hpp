@@ -38,6 +38,8 @@ class RecombinedKkt final : public KktSystem {
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                               Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
 
+  /// Multiplications and divisions per interval that combining the matrix takes, before it is eliminated.
+  [[nodiscard]] double combination_operations() const;
   /// Of what is eliminated.
   [[nodiscard]] const Shape& shape() const noexcept { return system_->shape(); }
 
