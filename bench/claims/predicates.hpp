@@ -42,6 +42,8 @@ namespace dmocbench {
 [[nodiscard]] Claim agreement_claim(const ResultTables& tables, const std::string& problem);
 /// The same ratio where the first basis is chosen for free.
 [[nodiscard]] Claim crash_claim(const ResultTables& tables, const std::string& problem);
+/// That collocation costs more whatever solver is used.
+[[nodiscard]] Claim advantage_claim(const ResultTables& tables, const std::string& problem);
 /// Derivatives by automatic differentiation against finite differences.
 [[nodiscard]] Claim derivatives_claim(const ResultTables& tables, const std::string& problem);
 /// The paper's own tool against central differences, by time.

@@ -22,8 +22,8 @@ constexpr double same_objective = 1e-6;
 constexpr double same_error = 1e-4;
 
 struct Quantity {
-  const char* name;
-  const char* column;
+  const char* name = "";
+  const char* column = "";
   bool is_per_interval = false;  ///< in the table
 };
 
@@ -31,8 +31,10 @@ constexpr std::array quantities{
     Quantity{"seconds", "seconds"},
     Quantity{"seconds_per_iteration", "seconds_per_iteration"},
     Quantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
+    Quantity{"seconds_per_linear_system", "seconds_per_linear_system"},
     Quantity{"iterations", "major_iterations"},
     Quantity{"operations", "operations_per_interval", true},
+    Quantity{"elimination_operations", "elimination_operations_per_interval", true},
 };
 
 std::optional<double> cost_of(const Row& row, const Quantity& quantity) {
@@ -49,6 +51,7 @@ struct Line {
 
 std::vector<std::string> key_of(const Row& row, const std::vector<const char*>& columns) {
   std::vector<std::string> key;
+  key.reserve(columns.size());
   for (const char* column : columns) key.push_back(row.text(column));
   return key;
 }

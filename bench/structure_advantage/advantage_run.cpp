@@ -30,6 +30,7 @@ const std::vector<std::string> own_columns{"factorisation",
                                            "smallest_seconds",
                                            "seconds_per_iteration",
                                            "linear_algebra_per_iteration",
+                                           "seconds_per_linear_system",
                                            "operations_per_interval",
                                            "elimination_operations_per_interval",
                                            "half_bandwidth",
@@ -90,7 +91,7 @@ AdvantageRun::AdvantageRun(const ExperimentOptions& options, const std::vector<s
   if (cases.empty())
     throw Error("nothing is left to solve: factorisation=recombined is of the method hamiltonian only");
   starts_.check(cases);
-  for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}});
+  for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}, {}});
   solver_options_.stop_requested = interrupt_requested;
 }
 
@@ -117,13 +118,23 @@ void AdvantageRun::solve_once(Subject& subject, const Progress& progress) {
   try {
     const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
     progress.show(what.label());
-    SolvedCase solved = solve_case(what, start, options_for(what), 1);
+    SolvedCase solved = solve_case(what, start, options_for(what), repeats_of(subject));
     subject.seconds.push_back(solved.solution.seconds);
     subject.evaluation_seconds.push_back(solved.solution.evaluation_seconds);
+    if (solved.solution.linear_seconds) subject.linear_seconds.push_back(*solved.solution.linear_seconds);
     if (!subject.solved) subject.solved = std::move(solved);
   } catch (const NoStart& reason) {
     subject.solved = unsolved_case(what, reason.what());
   }
+}
+
+/// How often a solve is repeated within a round, of which the median counts: short ones often, so that an interruption
+/// by something else is an outlier; never in the first round, which tells how long one takes.
+int AdvantageRun::repeats_of(const Subject& subject) {
+  constexpr double seconds_of_a_round = 0.02;
+  constexpr double most = 40.0;
+  if (subject.seconds.empty()) return 1;
+  return static_cast<int>(std::clamp(seconds_of_a_round / subject.seconds.front(), 1.0, most));
 }
 
 void AdvantageRun::solve_group(const std::vector<std::size_t>& group, Progress& progress) {
@@ -166,6 +177,10 @@ void AdvantageRun::complete(Subject& subject) {
   if (iterations > 0) {
     row.set("seconds_per_iteration", seconds / iterations);
     row.set("linear_algebra_per_iteration", (seconds - evaluation_seconds) / iterations);
+  }
+  const int systems = solved.solution.linear_systems.value_or(0);
+  if (!subject.linear_seconds.empty() && systems > 0) {
+    row.set("seconds_per_linear_system", median(subject.linear_seconds) / systems);
   }
   const Case& what = solved.what;
   Transcription program(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid);

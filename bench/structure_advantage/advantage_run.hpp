@@ -40,10 +40,12 @@ class AdvantageRun {
     std::optional<SolvedCase> solved;
     std::vector<double> seconds;
     std::vector<double> evaluation_seconds;
+    std::vector<double> linear_seconds;
   };
 
   [[nodiscard]] std::vector<std::vector<std::size_t>> groups() const;
   [[nodiscard]] SolverOptions options_for(const Case& what) const;
+  [[nodiscard]] static int repeats_of(const Subject& subject);
   void solve_group(const std::vector<std::size_t>& group, Progress& progress);
   void solve_once(Subject& subject, const Progress& progress);
   void complete(Subject& subject);

@@ -33,6 +33,8 @@ struct Solution {
 
   double seconds = 0.0;             ///< wall clock of the solver call alone
   double evaluation_seconds = 0.0;  ///< the part of it spent in the program's evaluations
+  /// The part of it spent in linear systems, without finding their structure; none where a solver does not tell.
+  std::optional<double> linear_seconds;
 };
 
 }  // namespace dmocbench

@@ -11,16 +11,14 @@ namespace {
 
 Eigen::Index at(std::size_t number) { return static_cast<Eigen::Index>(number); }
 
-/// What column `entries` of a pair's rows is in the combination of both, one number per interval.
-template <class Combination>
-Eigen::ArrayXd combined(const Combination& combination, const Eigen::VectorXd& values,
-                        const std::array<std::size_t, 2>& entries, Eigen::Index intervals) {
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(intervals);
+/// Adds what column `entries` of a pair's rows is in the combination of both, one number per interval.
+template <class Combination, class Target>
+void add_combined(const Combination& combination, const Eigen::VectorXd& values,
+                  const std::array<std::size_t, 2>& entries, Target&& target) {
   for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
     if (entries[row] == MomentumPair::none) continue;
-    sum += combination[row] * values.segment(at(entries[row]), intervals).array();
+    target += combination[row] * values.segment(at(entries[row]), target.size()).array();
   }
-  return sum;
 }
 
 }  // namespace
@@ -66,7 +64,7 @@ RecombinedKkt::RecombinedKkt(const NonlinearProgram& program, std::vector<Moment
 }
 
 /// With ∂(row 1, row 2)/∂p_k = (α_1, α_2) and ∂/∂p_{k+1} = (β_1, β_2): (β_2, -β_1) has p_k alone, (-α_2, α_1) p_{k+1}
-/// alone, each once divided by α_1 β_2 - α_2 β_1.
+/// alone, each once divided by α_1 β_2 - α_2 β_1. The right one is taken with -p_{k+1}, as the row of its node has it.
 bool RecombinedKkt::find_combinations(const Eigen::VectorXd& jacobian) {
   const auto derivative = [&](std::size_t first) { return jacobian.segment(at(first), intervals_).array(); };
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -74,10 +72,13 @@ bool RecombinedKkt::find_combinations(const Eigen::VectorXd& jacobian) {
     const auto alpha_2 = derivative(pairs_[i].at_left[1]);
     const auto beta_1 = derivative(pairs_[i].at_right[0]);
     const auto beta_2 = derivative(pairs_[i].at_right[1]);
-    const Eigen::ArrayXd scale = (alpha_1 * beta_2 - alpha_2 * beta_1).inverse();
-    if (!((scale * 0.0).sum() == 0.0)) return false;
-    combinations_[i].left = {scale * beta_2, -scale * beta_1};
-    combinations_[i].right = {-scale * alpha_2, scale * alpha_1};
+    scratch_ = (alpha_1 * beta_2 - alpha_2 * beta_1).inverse();
+    if (!((scratch_ * 0.0).sum() == 0.0)) return false;
+    Combinations& to = combinations_[i];
+    to.left[0] = scratch_ * beta_2;
+    to.left[1] = -scratch_ * beta_1;
+    to.right[0] = scratch_ * alpha_2;
+    to.right[1] = -scratch_ * alpha_1;
   }
   return true;
 }
@@ -87,12 +88,8 @@ void RecombinedKkt::combine_jacobian(const Eigen::VectorXd& jacobian) {
   for (const RecombinedTerm& term : recombined_.terms()) jacobian_.segment(at(term.first), intervals_).setZero();
   for (const RecombinedTerm& term : recombined_.terms()) {
     const Combinations& combinations = combinations_[term.pair];
-    auto target = jacobian_.segment(at(term.first), intervals_).array();
-    if (term.of_right_node) {
-      target -= combined(combinations.right, jacobian, term.entries, intervals_);
-    } else {
-      target += combined(combinations.left, jacobian, term.entries, intervals_);
-    }
+    const Combination& combination = term.of_right_node ? combinations.right : combinations.left;
+    add_combined(combination, jacobian, term.entries, jacobian_.segment(at(term.first), intervals_).array());
   }
   jacobian_.tail(jacobian_.size() - recombined_.first_kept_entry()) = jacobian(recombined_.kept_entries());
 }
@@ -110,8 +107,8 @@ void RecombinedKkt::combine_rows(const Eigen::VectorXd& rows) {
   rows_.head(recombined_.first_kept_row()).setZero();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     auto of_nodes = rows_.segment(at(i) * (intervals_ + 1), intervals_ + 1).array();
-    of_nodes.head(intervals_) += combined(combinations_[i].left, rows, pairs_[i].rows, intervals_);
-    of_nodes.tail(intervals_) -= combined(combinations_[i].right, rows, pairs_[i].rows, intervals_);
+    add_combined(combinations_[i].left, rows, pairs_[i].rows, of_nodes.head(intervals_));
+    add_combined(combinations_[i].right, rows, pairs_[i].rows, of_nodes.tail(intervals_));
   }
   rows_.tail(rows_.size() - recombined_.first_kept_row()) = rows(recombined_.kept_rows());
 }
@@ -133,26 +130,30 @@ void RecombinedKkt::move_slope(const KktMatrix& matrix, const Eigen::VectorXd& s
 
 /// From the row with p_k alone, which the steps of all else leave with a residual.
 void RecombinedKkt::read_momenta(const Eigen::VectorXd& jacobian, const Eigen::VectorXd& rows,
-                                 Eigen::VectorXd& primal_step) const {
+                                 Eigen::VectorXd& primal_step) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const MomentumPair& pair = pairs_[i];
-    Eigen::ArrayXd residual = combined(combinations_[i].left, rows, pair.rows, intervals_);
+    scratch_.setZero(intervals_);
+    add_combined(combinations_[i].left, rows, pair.rows, scratch_);
     for (const MomentumPair::Column& column : pair.columns) {
-      const Eigen::ArrayXd derivative = combined(combinations_[i].left, jacobian, column.entries, intervals_);
-      residual += derivative * primal_step.segment(at(column.unknown), intervals_).array();
+      for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
+        if (column.entries[row] == MomentumPair::none) continue;
+        scratch_ += combinations_[i].left[row] * jacobian.segment(at(column.entries[row]), intervals_).array() *
+                    primal_step.segment(at(column.unknown), intervals_).array();
+      }
     }
-    primal_step.segment(at(pair.momentum) + 1, intervals_ - 1) = -residual.tail(intervals_ - 1);
+    primal_step.segment(at(pair.momentum) + 1, intervals_ - 1) = -scratch_.tail(intervals_ - 1);
   }
 }
 
-void RecombinedKkt::read_multipliers(const Eigen::VectorXd& slope, Eigen::VectorXd& multiplier_step) const {
+void RecombinedKkt::read_multipliers(const Eigen::VectorXd& slope, Eigen::VectorXd& multiplier_step) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const auto of_nodes = multiplier_step_.segment(at(i) * (intervals_ + 1), intervals_ + 1).array();
-    Eigen::ArrayXd of_left = of_nodes.head(intervals_);
-    of_left.tail(intervals_ - 1) -= slope.segment(at(pairs_[i].momentum) + 1, intervals_ - 1).array();
+    scratch_ = of_nodes.head(intervals_);
+    scratch_.tail(intervals_ - 1) -= slope.segment(at(pairs_[i].momentum) + 1, intervals_ - 1).array();
     for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
       multiplier_step.segment(at(pairs_[i].rows[row]), intervals_) =
-          combinations_[i].left[row] * of_left - combinations_[i].right[row] * of_nodes.tail(intervals_);
+          combinations_[i].left[row] * scratch_ + combinations_[i].right[row] * of_nodes.tail(intervals_);
     }
   }
   const auto& kept = recombined_.kept_rows();

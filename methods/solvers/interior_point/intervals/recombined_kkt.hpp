@@ -44,7 +44,7 @@ class RecombinedKkt final : public KktSystem {
   [[nodiscard]] const Shape& shape() const noexcept { return system_->shape(); }
 
  private:
-  /// Per interval, how the rows of a pair combine to one that has the momentum of a node alone: its left or right one.
+  /// Per interval, how the rows of a pair combine to one that has a single momentum: p_k (left) or -p_{k+1} (right).
   using Combination = std::array<Eigen::ArrayXd, 2>;
   struct Combinations {
     Combination left;
@@ -55,8 +55,8 @@ class RecombinedKkt final : public KktSystem {
   void combine_jacobian(const Eigen::VectorXd& jacobian);
   void combine_rows(const Eigen::VectorXd& rows);
   void move_slope(const KktMatrix& matrix, const Eigen::VectorXd& slope);
-  void read_momenta(const Eigen::VectorXd& jacobian, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step) const;
-  void read_multipliers(const Eigen::VectorXd& slope, Eigen::VectorXd& multiplier_step) const;
+  void read_momenta(const Eigen::VectorXd& jacobian, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step);
+  void read_multipliers(const Eigen::VectorXd& slope, Eigen::VectorXd& multiplier_step);
 
   std::vector<MomentumPair> pairs_;
   RecombinedProgram recombined_;
@@ -64,6 +64,8 @@ class RecombinedKkt final : public KktSystem {
   std::vector<PatternRun> jacobian_runs_;
   Eigen::Index intervals_;
   std::vector<Combinations> combinations_;  // one per pair
+
+  Eigen::ArrayXd scratch_;  // one number per interval
 
   // The system that is solved instead.
   Eigen::VectorXd jacobian_;
