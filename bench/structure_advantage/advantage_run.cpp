@@ -109,6 +109,7 @@ std::vector<std::vector<std::size_t>> AdvantageRun::groups() const {
     groups[{what.problem->name(), what.tableau, what.stages, what.intervals()}].push_back(i);
   }
   std::vector<std::vector<std::size_t>> result;
+  result.reserve(groups.size());
   for (auto& [unused, members] : groups) result.push_back(std::move(members));
   return result;
 }
@@ -187,7 +188,7 @@ void AdvantageRun::complete(Subject& subject) {
   const OperationCount count = count_operations(program, solved.solution, what.variant);
   const auto intervals = static_cast<double>(what.intervals());
   if (count.elimination) {
-    row.set("operations_per_interval", *count.total() / intervals);
+    row.set("operations_per_interval", (*count.elimination + count.combination) / intervals);
     row.set("elimination_operations_per_interval", *count.elimination / intervals);
   }
   row.set("half_bandwidth", count.half_bandwidth);

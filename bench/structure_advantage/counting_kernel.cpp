@@ -5,9 +5,7 @@
 
 #define DMOCBENCH_INLINE inline
 
-namespace dmocbench::interior_point {
-
-namespace counting {
+namespace dmocbench::interior_point::counting {
 
 namespace uncounted {
 #include "methods/solvers/interior_point/intervals/lanes.hpp"
@@ -52,7 +50,9 @@ Lanes least_so_far(const Lanes& so_far, const Lanes& value) {
   return {uncounted::least_so_far({so_far.v}, {value.v}).v};
 }
 Lanes magnitude(const Lanes& a) { return larger(a, -a); }
-void transpose(Lanes::Vector (&rows)[8]) { uncounted::transpose(rows); }
+void transpose(Lanes::Vector (&rows)[8]) {  // NOLINT(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
+  uncounted::transpose(rows);
+}
 
 #include "methods/solvers/interior_point/intervals/collect.hpp"
 //
@@ -76,9 +76,7 @@ void counted_backward(const EliminationPlan& plan, const NewtonArrays& arrays, S
                 .additions = per_interval(counts.additions)};
 }
 
-}  // namespace counting
-
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench::interior_point::counting
 
 namespace dmocbench {
 

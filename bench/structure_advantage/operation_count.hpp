@@ -16,10 +16,6 @@ struct OperationCount {
   double combination = 0.0;
   /// Of a band: the largest distance of an entry from the diagonal.
   std::optional<long long> half_bandwidth;
-
-  [[nodiscard]] std::optional<double> total() const {
-    return elimination ? std::optional(*elimination + combination) : std::nullopt;
-  }
 };
 
 /// Factorises the KKT matrix at a solution, without bounds' terms, by one of `interior_point`'s ways and counts:

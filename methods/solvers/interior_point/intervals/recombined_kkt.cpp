@@ -11,13 +11,19 @@ namespace {
 
 Eigen::Index at(std::size_t number) { return static_cast<Eigen::Index>(number); }
 
-/// Adds what column `entries` of a pair's rows is in the combination of both, one number per interval.
-template <class Combination, class Target>
-void add_combined(const Combination& combination, const Eigen::VectorXd& values,
-                  const std::array<std::size_t, 2>& entries, Target&& target) {
-  for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
-    if (entries[row] == MomentumPair::none) continue;
-    target += combination[row] * values.segment(at(entries[row]), target.size()).array();
+/// Calls `use` with what column `entries` of a pair's rows is in a combination of both, one number per interval.
+template <class Combination, class Use>
+void with_combined(const Combination& combination, const Eigen::VectorXd& values,
+                   const std::array<std::size_t, 2>& entries, const Use& use) {
+  const auto part = [&](std::size_t row) {
+    return combination[row] * values.segment(at(entries[row]), combination[row].size()).array();
+  };
+  if (entries[0] == MomentumPair::none) {
+    use(part(1));
+  } else if (entries[1] == MomentumPair::none) {
+    use(part(0));
+  } else {
+    use(part(0) + part(1));
   }
 }
 
@@ -44,7 +50,9 @@ RecombinedKkt::RecombinedKkt(const NonlinearProgram& program, std::vector<Moment
                              SegmentKernelChoice choose)
     : pairs_(std::move(pairs)),
       recombined_(program, pairs_),
-      jacobian_runs_(pattern_runs(program.jacobian_structure())),
+      unknowns_(recombined_.unknowns()),
+      kept_rows_(recombined_.kept_rows()),
+      kept_entries_(recombined_.kept_entries()),
       intervals_(at(program.interval_structure()->intervals)),
       combinations_(pairs_.size()) {
   std::string why;
@@ -60,7 +68,11 @@ RecombinedKkt::RecombinedKkt(const NonlinearProgram& program, std::vector<Moment
   rows_.setZero(rows);
   multiplier_step_.setZero(rows);
   primal_step_.setZero(unknowns);
-  momentum_multipliers_.setZero(at(program.constraint_count()));
+  diagonal_.setZero(unknowns);
+  slope_.setZero(unknowns);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    combinations_[i].left_columns.setZero(intervals_, at(pairs_[i].columns.size()));
+  }
 }
 
 /// With ∂(row 1, row 2)/∂p_k = (α_1, α_2) and ∂/∂p_{k+1} = (β_1, β_2): (β_2, -β_1) has p_k alone, (-α_2, α_1) p_{k+1}
@@ -84,63 +96,76 @@ bool RecombinedKkt::find_combinations(const Eigen::VectorXd& jacobian) {
 }
 
 void RecombinedKkt::combine_jacobian(const Eigen::VectorXd& jacobian) {
-  // First zeros: on the diagonal a row at a left node and one at a right node add to the same entries.
-  for (const RecombinedTerm& term : recombined_.terms()) jacobian_.segment(at(term.first), intervals_).setZero();
   for (const RecombinedTerm& term : recombined_.terms()) {
-    const Combinations& combinations = combinations_[term.pair];
-    const Combination& combination = term.of_right_node ? combinations.right : combinations.left;
-    add_combined(combination, jacobian, term.entries, jacobian_.segment(at(term.first), intervals_).array());
+    Combinations& combinations = combinations_[term.pair];
+    const auto& entries = pairs_[term.pair].columns[term.column].entries;
+    auto target = jacobian_.segment(at(term.first), intervals_).array();
+    // The entry of an end that the first term of a diagonal left out.
+    if (term.adds) target[term.of_right_node ? intervals_ - 1 : 0] = 0.0;
+    const auto put = [&](const auto& values) {
+      if (term.adds) {
+        target += values;
+      } else {
+        target = values;
+      }
+    };
+    if (term.of_right_node) {
+      with_combined(combinations.right, jacobian, entries, put);
+    } else {
+      auto left = combinations.left_columns.col(at(term.column));
+      with_combined(combinations.left, jacobian, entries, [&](const auto& values) { left = values; });
+      put(left);
+    }
   }
-  jacobian_.tail(jacobian_.size() - recombined_.first_kept_entry()) = jacobian(recombined_.kept_entries());
+  kept_entries_.take_from(jacobian, jacobian_.tail(kept_entries_.size()));
 }
 
 double RecombinedKkt::combination_operations() const {
   constexpr double of_coefficients = 7.0;  // per pair: two products, a division, four products
   double count = of_coefficients * static_cast<double>(pairs_.size());
   for (const RecombinedTerm& term : recombined_.terms()) {
-    for (const std::size_t entry : term.entries) count += entry == MomentumPair::none ? 0.0 : 1.0;
+    for (const std::size_t entry : pairs_[term.pair].columns[term.column].entries) {
+      count += entry == MomentumPair::none ? 0.0 : 1.0;
+    }
   }
   return count;
 }
 
 void RecombinedKkt::combine_rows(const Eigen::VectorXd& rows) {
-  rows_.head(recombined_.first_kept_row()).setZero();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     auto of_nodes = rows_.segment(at(i) * (intervals_ + 1), intervals_ + 1).array();
-    add_combined(combinations_[i].left, rows, pairs_[i].rows, of_nodes.head(intervals_));
-    add_combined(combinations_[i].right, rows, pairs_[i].rows, of_nodes.tail(intervals_));
+    of_nodes[intervals_] = 0.0;
+    with_combined(combinations_[i].left, rows, pairs_[i].rows,
+                  [&](const auto& values) { of_nodes.head(intervals_) = values; });
+    with_combined(combinations_[i].right, rows, pairs_[i].rows,
+                  [&](const auto& values) { of_nodes.tail(intervals_) += values; });
   }
-  rows_.tail(rows_.size() - recombined_.first_kept_row()) = rows(recombined_.kept_rows());
+  kept_rows_.take_from(rows, rows_.tail(kept_rows_.size()));
 }
 
 /// The slope along a momentum p_k that drops out is balanced by a multiplier of the row with p_k alone, -slope, whose
 /// own slope along the other unknowns is added to theirs.
-void RecombinedKkt::move_slope(const KktMatrix& matrix, const Eigen::VectorXd& slope) {
+void RecombinedKkt::move_slope(const Eigen::VectorXd& slope) {
+  const Eigen::Index between = intervals_ - 1;
+  all_slopes_ = slope;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto of_momenta = slope.segment(at(pairs_[i].momentum) + 1, intervals_ - 1).array();
-    for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
-      momentum_multipliers_.segment(at(pairs_[i].rows[row]) + 1, intervals_ - 1) =
-          -combinations_[i].left[row].tail(intervals_ - 1) * of_momenta;
+    const auto of_momenta = slope.segment(at(pairs_[i].momentum) + 1, between).array();
+    for (std::size_t column = 0; column < pairs_[i].columns.size(); ++column) {
+      all_slopes_.segment(at(pairs_[i].columns[column].unknown) + 1, between).array() -=
+          combinations_[i].left_columns.col(at(column)).tail(between) * of_momenta;
     }
   }
-  all_slopes_ = slope;
-  add_transposed_product(jacobian_runs_, matrix.jacobian, momentum_multipliers_, all_slopes_);
-  slope_ = all_slopes_(recombined_.unknowns());
+  unknowns_.take_from(all_slopes_, slope_);
 }
 
 /// From the row with p_k alone, which the steps of all else leave with a residual.
-void RecombinedKkt::read_momenta(const Eigen::VectorXd& jacobian, const Eigen::VectorXd& rows,
-                                 Eigen::VectorXd& primal_step) {
+void RecombinedKkt::read_momenta(const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const MomentumPair& pair = pairs_[i];
-    scratch_.setZero(intervals_);
-    add_combined(combinations_[i].left, rows, pair.rows, scratch_);
-    for (const MomentumPair::Column& column : pair.columns) {
-      for (const std::size_t row : {std::size_t{0}, std::size_t{1}}) {
-        if (column.entries[row] == MomentumPair::none) continue;
-        scratch_ += combinations_[i].left[row] * jacobian.segment(at(column.entries[row]), intervals_).array() *
-                    primal_step.segment(at(column.unknown), intervals_).array();
-      }
+    with_combined(combinations_[i].left, rows, pair.rows, [&](const auto& values) { scratch_ = values; });
+    for (std::size_t column = 0; column < pair.columns.size(); ++column) {
+      scratch_ += combinations_[i].left_columns.col(at(column)) *
+                  primal_step.segment(at(pair.columns[column].unknown), intervals_).array();
     }
     primal_step.segment(at(pair.momentum) + 1, intervals_ - 1) = -scratch_.tail(intervals_ - 1);
   }
@@ -156,8 +181,7 @@ void RecombinedKkt::read_multipliers(const Eigen::VectorXd& slope, Eigen::Vector
           combinations_[i].left[row] * scratch_ + combinations_[i].right[row] * of_nodes.tail(intervals_);
     }
   }
-  const auto& kept = recombined_.kept_rows();
-  multiplier_step(kept) = multiplier_step_.tail(at(kept.size()));
+  kept_rows_.put_into(multiplier_step, multiplier_step_.tail(kept_rows_.size()));
 }
 
 Verdict RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
@@ -165,14 +189,14 @@ Verdict RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slo
   if (!find_combinations(matrix.jacobian)) return Verdict::singular;
   combine_jacobian(matrix.jacobian);
   combine_rows(rows);
-  move_slope(matrix, slope);
-  diagonal_ = matrix.diagonal(recombined_.unknowns());
-  softness_.tail(at(recombined_.kept_rows().size())) = matrix.softness(recombined_.kept_rows());
+  move_slope(slope);
+  unknowns_.take_from(matrix.diagonal, diagonal_);
+  kept_rows_.take_from(matrix.softness, softness_.tail(kept_rows_.size()));
   const Verdict verdict =
       system_->solve({matrix.hessian, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step_, multiplier_step_);
   if (verdict != Verdict::solved) return verdict;
-  primal_step(recombined_.unknowns()) = primal_step_;
-  read_momenta(matrix.jacobian, rows, primal_step);
+  unknowns_.put_into(primal_step, primal_step_);
+  read_momenta(rows, primal_step);
   read_multipliers(slope, multiplier_step);
   return Verdict::solved;
 }

@@ -11,8 +11,8 @@
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
 #include "methods/solvers/interior_point/intervals/momentum_pairs.hpp"
 #include "methods/solvers/interior_point/intervals/recombined_program.hpp"
+#include "methods/solvers/interior_point/intervals/selection.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
-#include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -49,19 +49,22 @@ class RecombinedKkt final : public KktSystem {
   struct Combinations {
     Combination left;
     Combination right;
+    Eigen::ArrayXXd left_columns;  // of the pair, in the left combination; one row per interval
   };
 
   [[nodiscard]] bool find_combinations(const Eigen::VectorXd& jacobian);
   void combine_jacobian(const Eigen::VectorXd& jacobian);
   void combine_rows(const Eigen::VectorXd& rows);
-  void move_slope(const KktMatrix& matrix, const Eigen::VectorXd& slope);
-  void read_momenta(const Eigen::VectorXd& jacobian, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step);
+  void move_slope(const Eigen::VectorXd& slope);
+  void read_momenta(const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step);
   void read_multipliers(const Eigen::VectorXd& slope, Eigen::VectorXd& multiplier_step);
 
   std::vector<MomentumPair> pairs_;
   RecombinedProgram recombined_;
   std::unique_ptr<IntervalKkt> system_;
-  std::vector<PatternRun> jacobian_runs_;
+  Selection unknowns_;  // of the program: ours
+  Selection kept_rows_;
+  Selection kept_entries_;
   Eigen::Index intervals_;
   std::vector<Combinations> combinations_;  // one per pair
 
@@ -75,8 +78,7 @@ class RecombinedKkt final : public KktSystem {
   Eigen::VectorXd rows_;
   Eigen::VectorXd primal_step_;
   Eigen::VectorXd multiplier_step_;
-  Eigen::VectorXd all_slopes_;            // of the program's unknowns, with momenta taken out
-  Eigen::VectorXd momentum_multipliers_;  // of the program's rows: what takes them out
+  Eigen::VectorXd all_slopes_;  // of the program's unknowns, with momenta taken out
 };
 
 }  // namespace dmocbench::interior_point

@@ -88,32 +88,30 @@ void RecombinedProgram::append_column(std::size_t row, std::size_t unknown, std:
 void RecombinedProgram::append_pair(std::size_t number, const MomentumPair& pair) {
   const std::size_t N = original_.intervals;
   const std::size_t first_row = number * (N + 1);
-  const auto begin_term = [&](const MomentumPair::Column& column, bool of_right_node, std::size_t first) {
-    terms_.push_back({number, of_right_node, column.entries, first});
-  };
-  const auto is_of_first_node = [&](const MomentumPair::Column& column) {
-    return is_node(column.unknown) && original_.unknowns[column.unknown].index == 0;
+  const auto is_of_first_node = [&](std::size_t unknown) {
+    return is_node(unknown) && original_.unknowns[unknown].index == 0;
   };
   std::map<std::size_t, std::size_t> diagonals;  // the first entry of an unknown's, by its number at node 0
-  const auto diagonal_of = [&](std::size_t unknown) {
+  const auto begin_on_diagonal = [&](std::size_t column, bool of_right_node, std::size_t unknown) {
     const auto [found, is_new] = diagonals.try_emplace(unknown, jacobian_.size());
     if (is_new) append_column(first_row, unknown, N + 1);
-    return found->second;
+    terms_.push_back({number, column, of_right_node, !is_new, found->second + (of_right_node ? 1 : 0)});
   };
-  for (const MomentumPair::Column& column : pair.columns) {
-    if (!is_node(column.unknown)) {
-      begin_term(column, false, jacobian_.size());
-      append_column(first_row, column.unknown, N);
-      begin_term(column, true, jacobian_.size());
-      append_column(first_row + 1, column.unknown, N);
-    } else if (is_of_first_node(column)) {
-      begin_term(column, false, diagonal_of(column.unknown));
-      begin_term(column, true, jacobian_.size());
-      append_column(first_row + 1, column.unknown, N);
+  const auto begin_beside = [&](std::size_t column, bool of_right_node, std::size_t unknown) {
+    terms_.push_back({number, column, of_right_node, false, jacobian_.size()});
+    append_column(of_right_node ? first_row + 1 : first_row, unknown, N);
+  };
+  for (std::size_t column = 0; column < pair.columns.size(); ++column) {
+    const std::size_t unknown = pair.columns[column].unknown;
+    if (!is_node(unknown)) {
+      begin_beside(column, false, unknown);
+      begin_beside(column, true, unknown);
+    } else if (is_of_first_node(unknown)) {
+      begin_on_diagonal(column, false, unknown);
+      begin_beside(column, true, unknown);
     } else {
-      begin_term(column, true, diagonal_of(column.unknown - 1) + 1);
-      begin_term(column, false, jacobian_.size());
-      append_column(first_row, column.unknown, N);
+      begin_on_diagonal(column, true, unknown - 1);
+      begin_beside(column, false, unknown);
     }
   }
 }

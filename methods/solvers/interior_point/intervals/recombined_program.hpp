@@ -8,13 +8,13 @@
 
 namespace dmocbench::interior_point {
 
-/// What an entry of the recombined Jacobian is made of, interval by interval: entry `first` + k receives
-/// (c_1 J[entries[0] + k] + c_2 J[entries[1] + k]), with (c_1, c_2) the coefficients of pair `pair` for the row at the
-/// left node of interval k or, negative, at its right node.
+/// What entries of the recombined Jacobian are made of: entry `first` + k is, or is increased by, what column `column`
+/// of pair `pair` is in the combination of its rows for the left or for the right node of interval k.
 struct RecombinedTerm {
   std::size_t pair;
+  std::size_t column;
   bool of_right_node;
-  std::array<std::size_t, 2> entries;
+  bool adds;  ///< on the diagonal, where the row of a node reads it from both sides, the second one
   std::size_t first;
 };
 
