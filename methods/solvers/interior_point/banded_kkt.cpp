@@ -52,12 +52,16 @@ BandedKkt::BandedKkt(const NonlinearProgram& program, NodeOrder order)
 /// LAPACK stores entry (i, j) of a band at row kl + ku + i - j of column j; the first kl rows are for what exchanging
 /// rows fills in. Null in the lower left: of the border and its mirror image one is kept.
 double* BandedKkt::place_of(std::size_t line, std::size_t other_line) {
-  const NodeOrder::Line i = order_.lines[line];
-  const NodeOrder::Line j = order_.lines[other_line];
-  if (!i.in_border && !j.in_border) return &band_[2 * order_.half_bandwidth + i.at - j.at + j.at * leading_];
+  const NodeOrder::Line i = order_.place(line, other_line);
+  const NodeOrder::Line j = order_.place(other_line, line);
+  if (!i.in_border && !j.in_border) return band_entry(i.at, j.at);
   if (i.in_border && !j.in_border) return nullptr;
   Eigen::MatrixXd& block = i.in_border ? corner_ : border_;
   return &block(static_cast<Eigen::Index>(i.at), static_cast<Eigen::Index>(j.at));
+}
+
+double* BandedKkt::band_entry(std::size_t row, std::size_t column) {
+  return &band_[2 * order_.half_bandwidth + row - column + column * leading_];
 }
 
 BandedKkt::Target BandedKkt::target_of(std::size_t entry, std::size_t row, std::size_t column) {
@@ -81,6 +85,15 @@ void BandedKkt::find_targets() {
     jacobian_.push_back(target_of(e, unknowns + static_cast<std::size_t>(jacobian.rows[e]),
                                   static_cast<std::size_t>(jacobian.columns[e])));
   }
+  for (const NodeOrder::Copies& copies : order_.copies) {
+    for (std::size_t k = 0; k < copies.ties.size(); ++k) {
+      for (const std::size_t which : {k, k + 1}) {
+        const double value = which == k ? -1.0 : 1.0;
+        ties_.push_back({band_entry(copies.ties[k], copies.of_intervals[which]), value});
+        ties_.push_back({band_entry(copies.of_intervals[which], copies.ties[k]), value});
+      }
+    }
+  }
   for (std::size_t line = 0; line < order_.lines.size(); ++line) diagonal_.push_back(place_of(line, line));
 }
 
@@ -97,6 +110,7 @@ void BandedKkt::assemble(const KktMatrix& matrix) {
   };
   put(hessian_, matrix.hessian);
   put(jacobian_, matrix.jacobian);
+  for (const Tie& tie : ties_) *tie.at = tie.value;
   const std::size_t unknowns = is_free_.size();
   for (std::size_t i = 0; i < unknowns; ++i) {
     *diagonal_[i] += is_free_[i] ? matrix.diagonal[static_cast<Eigen::Index>(i)] : 1.0;
@@ -130,6 +144,7 @@ double BandedKkt::factorisation_operations() const {
 }
 
 void BandedKkt::write_right_hand_sides(const Eigen::VectorXd& slope, const Eigen::VectorXd& rows) {
+  sides_.leftCols(steps).setZero();
   sides_.rightCols(border_.cols()) = border_;
   const auto put = [&](std::size_t line, Eigen::Index side, double value) {
     const NodeOrder::Line to = order_.lines[line];

@@ -15,8 +15,8 @@ namespace dmocbench::interior_point {
 
 /// The KKT system of a program with an interval structure as a general band matrix, by LAPACK's LU factorisation with
 /// partial pivoting (dgbtrf): rows are exchanged across intervals as rounding wants it, which elimination by intervals
-/// cannot do, and the symmetry is given up for it. Lines that are dense (the horizon T, rows that couple both ends) are
-/// a border, eliminated by its Schur complement; where the band without them is singular, the verdict is `untrusted`.
+/// cannot do, and the symmetry is given up for it. Rows that couple both ends are a border, eliminated by its Schur
+/// complement; where the band without them is singular, the verdict is `untrusted`.
 ///
 /// LU knows no inertia. The verdict is that of an inertia-free test on curvature (Chiang and Zavala, Computational
 /// Optimization and Applications 64, 2016, the test for tangential steps): the step t that the slope alone asks for,
@@ -49,7 +49,14 @@ class BandedKkt final : public KktSystem {
     double* mirror;  ///< by symmetry; null on the diagonal
   };
 
+  /// An entry of a row that says that two copies of an unknown are equal.
+  struct Tie {
+    double* at;
+    double value;
+  };
+
   void find_targets();
+  [[nodiscard]] double* band_entry(std::size_t row, std::size_t column);
   [[nodiscard]] double* place_of(std::size_t line, std::size_t other_line);
   [[nodiscard]] Target target_of(std::size_t entry, std::size_t row, std::size_t column);
   void assemble(const KktMatrix& matrix);
@@ -74,6 +81,7 @@ class BandedKkt final : public KktSystem {
   Eigen::MatrixXd corner_sides_;  // border_size x (step, tangential step)
   std::vector<Target> hessian_;
   std::vector<Target> jacobian_;
+  std::vector<Tie> ties_;
   std::vector<double*> diagonal_;  // of all lines
   Eigen::VectorXd tangential_;
   Eigen::VectorXd tangential_multipliers_;
