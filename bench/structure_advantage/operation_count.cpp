@@ -24,11 +24,17 @@ class System {
     program.jacobian(solution.primal, jacobian_);
   }
 
+  /// With a unit shift where the Hessian needs one: counts of an elimination by intervals do not depend on numbers.
   [[nodiscard]] bool is_solved_by(interior_point::KktSystem& kkt) {
     Eigen::VectorXd primal_step(slope_.size());
     Eigen::VectorXd multiplier_step(rows_.size());
-    return kkt.solve({hessian_, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step, multiplier_step) ==
-           interior_point::Verdict::solved;
+    for (const double shift : {0.0, 1.0}) {
+      diagonal_.setConstant(shift);
+      const auto verdict =
+          kkt.solve({hessian_, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step, multiplier_step);
+      if (verdict == interior_point::Verdict::solved) return true;
+    }
+    return false;
   }
 
  private:

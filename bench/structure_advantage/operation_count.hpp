@@ -18,10 +18,10 @@ struct OperationCount {
   std::optional<long long> half_bandwidth;
 };
 
-/// Factorises the KKT matrix at a solution, without bounds' terms, by one of `interior_point`'s ways and counts:
-/// "intervals" and "recombined" by running the elimination on numbers that count, "banded" from the rows that LAPACK
-/// exchanged, "sparse" as MUMPS says. Empty for another name, and where the matrix cannot be factorised in that way.
-/// For the whole grid.
+/// Factorises the KKT matrix at a solution, without bounds' terms but with a unit shift if it needs one, by one of
+/// `interior_point`'s ways and counts: "intervals" and "recombined" by running the elimination on numbers that count,
+/// "banded" from the rows that LAPACK exchanged, "sparse" as MUMPS says. Empty for another name, and where the matrix
+/// cannot be factorised in that way. For the whole grid.
 [[nodiscard]] OperationCount count_operations(NonlinearProgram& program, const Solution& solution,
                                               const std::string& factorisation);
 

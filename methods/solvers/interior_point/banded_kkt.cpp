@@ -51,9 +51,9 @@ BandedKkt::BandedKkt(const NonlinearProgram& program, NodeOrder order)
 
 /// LAPACK stores entry (i, j) of a band at row kl + ku + i - j of column j; the first kl rows are for what exchanging
 /// rows fills in. Null in the lower left: of the border and its mirror image one is kept.
-double* BandedKkt::place_of(std::size_t line, std::size_t other_line) {
-  const NodeOrder::Line i = order_.place(line, other_line);
-  const NodeOrder::Line j = order_.place(other_line, line);
+double* BandedKkt::place_of(std::size_t first, std::size_t second) {
+  const NodeOrder::Line i = order_.place(first, second);
+  const NodeOrder::Line j = order_.place(second, first);
   if (!i.in_border && !j.in_border) return band_entry(i.at, j.at);
   if (i.in_border && !j.in_border) return nullptr;
   Eigen::MatrixXd& block = i.in_border ? corner_ : border_;

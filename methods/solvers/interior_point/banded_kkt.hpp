@@ -57,7 +57,7 @@ class BandedKkt final : public KktSystem {
 
   void find_targets();
   [[nodiscard]] double* band_entry(std::size_t row, std::size_t column);
-  [[nodiscard]] double* place_of(std::size_t line, std::size_t other_line);
+  [[nodiscard]] double* place_of(std::size_t first, std::size_t second);
   [[nodiscard]] Target target_of(std::size_t entry, std::size_t row, std::size_t column);
   void assemble(const KktMatrix& matrix);
   [[nodiscard]] bool factorise();
