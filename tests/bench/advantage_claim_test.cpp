@@ -1,5 +1,6 @@
 // Whether collocation is dearer by its size or by the solver, judged on doctored ratios.
 
+#include <initializer_list>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -23,39 +24,55 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
   return row;
 }
 
-/// Ratios of operations on the finer of two grids; on the coarser one all are 2.
-Claim judged(double banded, double by_intervals, double recombined) {
+ResultTables tables_of(std::initializer_list<Row> rows) {
   Table table({"problem"});
-  for (const char* way : {"banded", "intervals", "recombined"}) table.append(ratio(way, "operations", 64, 2.0));
-  table.append(ratio("banded", "operations", 128, banded));
-  table.append(ratio("intervals", "operations", 128, by_intervals));
-  table.append(ratio("recombined", "operations", 128, recombined));
-  table.append(ratio("recombined", "elimination_operations", 128, 1.0));
-  table.append(ratio("", "seconds_per_iteration", 128, 1.9));
+  for (const Row& row : rows) table.append(row);
   ResultTables tables;
   tables.add("structure_advantage_ratios", table);
-  return advantage_claim(tables, "orbital_transfer");
+  return tables;
 }
 
-TEST(AdvantageClaim, HoldsIfCollocationCostsMoreInEveryWay) {
-  EXPECT_EQ(judged(2.3, 1.3, 1.2).verdict, Verdict::reproduced);
+/// On the finer of two grids; on the coarser one all are 2.
+Claim judged_factorisation(double banded, double by_intervals, double recombined) {
+  const char* const quantity = "elimination_operations";
+  return factorisation_claim(
+      tables_of({ratio("banded", quantity, 64, 2.0), ratio("recombined", quantity, 64, 2.0),
+                 ratio("banded", quantity, 128, banded), ratio("intervals", quantity, 128, by_intervals),
+                 ratio("recombined", quantity, 128, recombined), ratio("recombined", "operations", 128, 1.09)}),
+      "orbital_transfer");
 }
 
-TEST(AdvantageClaim, DiffersIfOneWayMakesItNoDearer) {
-  const Claim claim = judged(2.3, 1.3, 1.05);
+TEST(FactorisationClaim, HoldsIfItTakesMoreOperationsInEveryWay) {
+  EXPECT_EQ(judged_factorisation(2.3, 1.3, 1.2).verdict, Verdict::reproduced);
+}
+
+TEST(FactorisationClaim, DiffersIfOneWayTakesNoMore) {
+  const Claim claim = judged_factorisation(2.3, 1.3, 1.0);
   EXPECT_EQ(claim.verdict, Verdict::differs);
-  for (const char* part : {"N = 128", "banded 2.30", "intervals 1.30", "recombined 1.05", "alone 1.00", "ipopt 1.90"}) {
+  for (const char* part : {"N = 128", "banded 2.30", "intervals 1.30", "recombined 1.00", "1.09 with"}) {
     EXPECT_NE(claim.measured.find(part), std::string::npos) << claim.measured;
   }
 }
 
-TEST(AdvantageClaim, IsNotJudgedWithoutTheRecombinedElimination) {
-  EXPECT_EQ(advantage_claim({}, "orbital_transfer").verdict, Verdict::not_yet);
-  Table table({"problem"});
-  table.append(ratio("intervals", "operations", 128, 1.3));
-  ResultTables tables;
-  tables.add("structure_advantage_ratios", table);
-  EXPECT_EQ(advantage_claim(tables, "orbital_transfer").verdict, Verdict::not_yet);
+TEST(FactorisationClaim, IsNotJudgedWithoutTheRecombinedElimination) {
+  EXPECT_EQ(factorisation_claim({}, "orbital_transfer").verdict, Verdict::not_yet);
+  EXPECT_EQ(factorisation_claim(tables_of({ratio("intervals", "elimination_operations", 128, 1.3)}), "orbital_transfer")
+                .verdict,
+            Verdict::not_yet);
+}
+
+TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
+  const auto judged = [](double ipopt, double recombined) {
+    return expense_claim(tables_of({ratio("", "seconds_per_iteration", 128, ipopt),
+                                    ratio("intervals", "seconds_per_linear_system", 128, 1.3),
+                                    ratio("recombined", "seconds_per_linear_system", 128, recombined)}),
+                         "orbital_transfer")
+        .verdict;
+  };
+  EXPECT_EQ(judged(1.9, 1.2), Verdict::reproduced);
+  EXPECT_EQ(judged(1.9, 1.0), Verdict::differs);
+  EXPECT_EQ(judged(0.9, 1.2), Verdict::differs);
+  EXPECT_EQ(expense_claim({}, "orbital_transfer").verdict, Verdict::not_yet);
 }
 
 }  // namespace
