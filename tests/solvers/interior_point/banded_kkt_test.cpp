@@ -152,7 +152,7 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   numbers.slope.setOnes(n);
   numbers.rows.setOnes(m);
   ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, numbers.slope, numbers.rows), Verdict::solved);
-  const double lines = static_cast<double>(n + m);
+  const auto lines = static_cast<double>(n + m);
   const auto width = static_cast<double>(kkt->order().half_bandwidth);
   EXPECT_GT(kkt->factorisation_operations(), 0.9 * lines * width * width);
   EXPECT_LT(kkt->factorisation_operations(), lines * width * (2.0 * width + 1.0));
