@@ -25,6 +25,8 @@ std::vector<Claim> judge_claims(const ResultTables& tables) {
     claims.push_back(minor_iterations_claim(tables, problem));
     claims.push_back(agreement_claim(tables, problem));
     claims.push_back(crash_claim(tables, problem));
+    claims.push_back(expense_claim(tables, problem));
+    claims.push_back(factorisation_claim(tables, problem));
     claims.push_back(derivatives_claim(tables, problem));
     claims.push_back(adolc_claim(tables, problem));
   }

@@ -42,6 +42,10 @@ namespace dmocbench {
 [[nodiscard]] Claim agreement_claim(const ResultTables& tables, const std::string& problem);
 /// The same ratio where the first basis is chosen for free.
 [[nodiscard]] Claim crash_claim(const ResultTables& tables, const std::string& problem);
+/// That collocation takes longer by every solver.
+[[nodiscard]] Claim expense_claim(const ResultTables& tables, const std::string& problem);
+/// That this is by its size: a factorisation takes more operations whatever solver is used.
+[[nodiscard]] Claim factorisation_claim(const ResultTables& tables, const std::string& problem);
 /// Derivatives by automatic differentiation against finite differences.
 [[nodiscard]] Claim derivatives_claim(const ResultTables& tables, const std::string& problem);
 /// The paper's own tool against central differences, by time.

@@ -31,14 +31,17 @@ Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& s
   Solution solution = solver->solve(transcription, start);
   std::vector<double> seconds{solution.seconds};
   std::vector<double> evaluation_seconds{solution.evaluation_seconds};
+  std::vector<double> linear_seconds{solution.linear_seconds.value_or(0.0)};
   for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
     const Solution again = solver->solve(transcription, start);
     if (again.status == Status::interrupted) break;
     seconds.push_back(again.seconds);
     evaluation_seconds.push_back(again.evaluation_seconds);
+    linear_seconds.push_back(again.linear_seconds.value_or(0.0));
   }
   solution.seconds = median(seconds);
   solution.evaluation_seconds = median(evaluation_seconds);
+  if (solution.linear_seconds) solution.linear_seconds = median(linear_seconds);
   return solution;
 }
 

@@ -29,9 +29,12 @@ struct Solution {
   std::optional<int> phase_one_minor_iterations;
   std::optional<int> phase_two_minor_iterations;
   std::optional<int> evaluations;
+  std::optional<int> linear_systems;  ///< factorisations, those that were repeated with a shifted Hessian included
 
   double seconds = 0.0;             ///< wall clock of the solver call alone
   double evaluation_seconds = 0.0;  ///< the part of it spent in the program's evaluations
+  /// The part of it spent in linear systems, without finding their structure; none where a solver does not tell.
+  std::optional<double> linear_seconds;
 };
 
 }  // namespace dmocbench

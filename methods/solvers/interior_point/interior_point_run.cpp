@@ -65,6 +65,8 @@ Solution InteriorPointRun::run() {
   solution.primal = point_.x;
   solution.multipliers = point_.multipliers;
   solution.major_iterations = iterations_;
+  solution.linear_systems = newton_.factorisations();
+  solution.linear_seconds = newton_.linear_seconds();
   solution.evaluations = program_.evaluations();
   solution.evaluation_seconds = program_.evaluation_seconds();
   solution.seconds = seconds_since(begin_);

@@ -1,13 +1,16 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "methods/error.hpp"
 #include "methods/solvers/clock.hpp"
 #include "methods/solvers/confirm.hpp"
+#include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/intervals/recombined_kkt.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
@@ -15,7 +18,12 @@ namespace dmocbench {
 
 namespace {
 
-enum class Factorisation : unsigned char { intervals, sparse };
+enum class Factorisation : unsigned char { intervals, recombined, banded, sparse };
+
+const std::map<std::string, Factorisation> factorisations{{"intervals", Factorisation::intervals},
+                                                          {"recombined", Factorisation::recombined},
+                                                          {"banded", Factorisation::banded},
+                                                          {"sparse", Factorisation::sparse}};
 
 Factorisation factorisation_of(const std::map<std::string, std::string>& passed_on) {
   Factorisation choice = Factorisation::intervals;
@@ -23,10 +31,12 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
     if (option != "factorisation") {
       throw Error("the solver interior_point has no option " + option + "; it has factorisation");
     }
-    if (value != "intervals" && value != "sparse") {
-      throw Error("the solver interior_point: factorisation must be intervals or sparse, not " + value);
+    const auto found = factorisations.find(value);
+    if (found == factorisations.end()) {
+      throw Error("the solver interior_point: factorisation must be intervals, recombined, banded or sparse, not " +
+                  value);
     }
-    choice = value == "sparse" ? Factorisation::sparse : Factorisation::intervals;
+    choice = found->second;
   }
   return choice;
 }
@@ -35,6 +45,8 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
 std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program, Factorisation choice,
                                                        std::string& why) {
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
+  if (choice == Factorisation::recombined) return interior_point::RecombinedKkt::make(program, why);
+  if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
   auto by_intervals = interior_point::IntervalKkt::make(program, why);
   if (!by_intervals) return nullptr;
   return std::make_unique<interior_point::RefinedKkt>(program, std::move(by_intervals));

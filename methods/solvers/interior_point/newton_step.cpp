@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/solvers/clock.hpp"
+
 namespace dmocbench::interior_point {
 
 bool InertiaShift::raise() noexcept {
@@ -52,8 +54,11 @@ Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd&
   direction.x.resize(slope_.size());
   direction.multipliers.resize(rows.size());
   ++factorisations_;
-  return kkt_.solve({hessian, program_.jacobian(), shifted_, softness_}, slope_, right_rows_, direction.x,
-                    direction.multipliers);
+  const Clock::time_point begin = Clock::now();
+  const Verdict verdict = kkt_.solve({hessian, program_.jacobian(), shifted_, softness_}, slope_, right_rows_,
+                                     direction.x, direction.multipliers);
+  linear_seconds_ += seconds_since(begin);
+  return verdict;
 }
 
 void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {

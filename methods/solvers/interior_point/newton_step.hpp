@@ -60,6 +60,8 @@ class NewtonStep {
   [[nodiscard]] double shift() const noexcept { return shift_.value(); }
   /// Systems solved so far.
   [[nodiscard]] int factorisations() const noexcept { return factorisations_; }
+  /// Time spent in them.
+  [[nodiscard]] double linear_seconds() const noexcept { return linear_seconds_; }
 
  private:
   void fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope);
@@ -78,6 +80,7 @@ class NewtonStep {
   Eigen::VectorXd right_rows_;
   Eigen::VectorXd no_hessian_;
   int factorisations_ = 0;
+  double linear_seconds_ = 0.0;
 };
 
 }  // namespace dmocbench::interior_point

@@ -18,6 +18,9 @@ class SparseKkt final : public KktSystem {
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                               Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
 
+  /// Of the last factorisation, each with an addition, as MUMPS counts them.
+  [[nodiscard]] double factorisation_operations() const { return 0.5 * factorisation_.floating_point_operations(); }
+
  private:
   [[nodiscard]] Eigen::SparseMatrix<double> lower_triangle(const KktMatrix& matrix) const;
 

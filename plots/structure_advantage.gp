@@ -1,0 +1,53 @@
+# What collocation costs beside DMOC, solver by solver: rem:savings, and how much of it belongs to the solver.
+#   gnuplot -e "results='results'" plots/structure_advantage.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+name = "structure_advantage_ratios"
+eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals")
+
+# Solvers in the order of the legend. Ipopt tells neither the time of its linear systems nor their operations: it is drawn
+# by its time per iteration without evaluations.
+orange = "#E69F00"
+ways = "ipopt sparse banded intervals recombined"
+way_labels = "'Ipopt (MUMPS), per iteration' 'MUMPS' 'band, LAPACK' 'by intervals' 'by intervals, Hamiltonian rows recombined'"
+colour(w) = w == 1 ? vermilion : w == 2 ? orange : w == 3 ? purple : w == 4 ? blue : green
+point(w) = word("9 11 5 7 13", w) + 0
+way_of(w) = w == 1 ? "solver=ipopt" : "solver=interior_point,factorisation=".word(ways, w)
+
+panels = "'time of a linear system' 'operations of a factorisation'"
+quantity_of(panel, w) = panel == 2 ? "operations" : w == 1 ? "linear_algebra_per_iteration" : "seconds_per_linear_system"
+
+ratio = "ratio_at_equal_intervals"
+do for [where in problems_of(name, ratio)] {
+  problem = entry(where, "problem")
+  conditions = where.",method=hamiltonian,tableau=gauss,stages=1"
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_structure_advantage", 1100, 640)
+    set multiplot layout 1, 2 title title_text(problem_label(problem).": what Hamiltonian collocation costs beside DMOC",\
+        "", "The same programs and answers by solvers that see more or less of their structure; at 1 DMOC saves nothing.")\
+        offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.87 spacing 0.1
+    do for [panel = 1:2] {
+      eval measure(name, conditions, "intervals", ratio)
+      eval intervals_axis
+      eval set_range("x", x_low, x_high, 1.25)
+      set logscale y 2
+      set ytics (0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 4, 6, 8); set format y '%g'; unset mytics
+      drawn = ""
+      do for [w = 1:words(ways)] {
+        selected = conditions.",".way_of(w).",quantity=".quantity_of(panel, w)
+        if (strlen(distinct(name, "quantity", selected, ratio)) > 0) { drawn = drawn." ".w }
+      }
+      set yrange [0.7:*]
+      set ylabel "Hamiltonian / DMOC, ".word(panels, panel)
+      if (panel == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
+      plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
+           for [w in "1 2 3 4 5"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
+             pointtype point(w + 0) pointsize 0.8 title word(way_labels, w + 0),\
+           for [w in drawn] rows(name, conditions.",".way_of(w + 0).",quantity=".quantity_of(panel, w + 0), ratio)\
+             using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(w + 0) linewidth 1.8\
+             dashtype 1 pointtype point(w + 0) pointsize 0.8 notitle
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_structure_advantage")
+  }
+}
