@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/compare/comparison.hpp"
-#include "bench/experiment/experiment.hpp"
+#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
 
 namespace dmocbench {
@@ -25,23 +25,23 @@ struct CompareOptions {
   bool fails_if_slower = false;
 };
 
-void declare_options(CLI::App& app, CompareOptions& options) {
-  app.add_option("before", options.before, "JSON file of a run (--benchmark_out), or several runs: FILE,FILE,...")
-      ->required();
-  app.add_option("after", options.after, "the same of what is compared with it")->required();
-  app.add_option("--counter", options.comparison.counter,
-                 "what is compared: cpu_time, real_time or a counter; more is slower, unless it ends with per_second")
-      ->capture_default_str();
+void declare_options(CommandLine& line, CompareOptions& options) {
+  line.option("before", options.before, "JSON file of a run (--benchmark_out), or several runs: FILE,FILE,...")
+      .required();
+  line.option("after", options.after, "the same of what is compared with it").required();
+  line.option("--counter", options.comparison.counter,
+              "what is compared: cpu_time, real_time or a counter; more is slower, unless it ends with per_second")
+      .shows_default();
   constexpr double largest = 1e6;
-  app.add_option("--threshold", options.comparison.threshold, "smallest ratio of medians that is worth a verdict")
-      ->check(CLI::Range(1.0, largest))
-      ->capture_default_str();
-  app.add_option("--significance", options.comparison.significance,
-                 "largest probability of chance that counts as a difference")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  app.add_option("--csv", options.csv, "write the table to FILE")->option_text("FILE");
-  app.add_flag("--fail-if-slower", options.fails_if_slower, "exit with 1 if a benchmark became slower");
+  line.option("--threshold", options.comparison.threshold, "smallest ratio of medians that is worth a verdict")
+      .range(1.0, largest)
+      .shows_default();
+  line.option("--significance", options.comparison.significance,
+              "largest probability of chance that counts as a difference")
+      .range(0.0, 1.0)
+      .shows_default();
+  line.option("--csv", options.csv, "write the table to this file");
+  line.flag("--fail-if-slower", options.fails_if_slower, "exit with 1 if a benchmark became slower");
 }
 
 /// FILE,FILE,...
@@ -74,15 +74,15 @@ int compare_files(const CompareOptions& options) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) try {
-  CLI::App app(
+  dmocbench::CommandLine line(
       "Compares two runs of a program of Google Benchmark with repetitions. A benchmark is faster or slower if the "
       "Mann-Whitney test finds the repetitions apart and the ratio of medians reaches the threshold; it takes 5 "
       "repetitions at least. Noise that lasts for a whole run, such as another program beside it, the test cannot "
       "know.",
       "compare");
   dmocbench::CompareOptions options;
-  dmocbench::declare_options(app, options);
-  return dmocbench::run_program(app, argc, argv, [&] { return dmocbench::compare_files(options); });
+  dmocbench::declare_options(line, options);
+  return dmocbench::run_program(line, argc, argv, [&] { return dmocbench::compare_files(options); });
 } catch (const std::exception& error) {  // what is set up before run_program can guard it
   std::fputs(error.what(), stderr);
   return 2;

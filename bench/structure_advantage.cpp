@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/structure_advantage/advantage_run.hpp"
 
 int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CLI::App app(
+  CommandLine line(
       "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by intervals, "
       "by "
       "intervals with Hamiltonian rows recombined, as a band, or as any sparse matrix: iterations, linear systems, "
@@ -23,12 +24,12 @@ int main(int argc, char** argv) try {
   options.name = "structure_advantage";
   constexpr int rounds = 7;
   options.repeats = rounds;
-  add_options(app, options);
+  add_options(line, options);
   std::vector<std::string> factorisations = factorisation_names();
-  app.add_option("--factorisation", factorisations, "how interior_point solves its linear systems")
-      ->delimiter(',')
-      ->capture_default_str();
-  return run_program(app, argc, argv, [&] {
+  line.option("--factorisation", factorisations, "how interior_point solves its linear systems")
+      .comma_separated()
+      .shows_default();
+  return run_program(line, argc, argv, [&] {
     AdvantageRun run(options, factorisations, std::vector<std::string>(argv, argv + argc));
     const int code = run.run();
     fmt::print("structure_advantage: {}\n", run.summary());

@@ -47,6 +47,11 @@ template CommandLine::Option& CommandLine::Option::range(int, int);
 template CommandLine::Option& CommandLine::Option::range(long long, long long);
 template CommandLine::Option& CommandLine::Option::range(double, double);
 
+CommandLine::Option& CommandLine::Option::required() {
+  option_.required();
+  return *this;
+}
+
 CommandLine::Option& CommandLine::Option::shows_default() {
   option_.capture_default_str();
   return *this;

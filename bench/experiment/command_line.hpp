@@ -32,6 +32,8 @@ class CommandLine {
     /// The least and the largest value; for int, long long and double.
     template <class Number>
     Option& range(Number least, Number largest);
+    /// It has to be given.
+    Option& required();
     /// `--help` shows the value as it is now.
     Option& shows_default();
 
