@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/solvers/clock.hpp"
+#include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -23,9 +24,6 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
     vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i]);
   }
 }
-
-/// Eigen's allFinite() looks at one number at a time.
-bool is_finite(const Eigen::VectorXd& vector) { return (vector.array() * 0.0).sum() == 0.0; }
 
 }  // namespace
 
@@ -92,7 +90,7 @@ bool BarrierProgram::evaluate_hessian(const Point& point) {
 }
 
 void BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
-  result = gradient_;
+  copy_to(result, gradient_);
   add_transposed_product(jacobian_runs_, jacobian_, multipliers, result);
 }
 

@@ -9,6 +9,7 @@
 
 #include "methods/solvers/clock.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
+#include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench::interior_point {
@@ -89,7 +90,7 @@ bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
 }
 
 void InteriorPointRun::measure() {
-  violation_ = rows_.lpNorm<1>();
+  violation_ = sum_of_magnitudes(rows_);
   function_ = objective_ + (program_.has_bounds() ? mu_ * program_.barrier(point_) : 0.0);
 }
 
@@ -109,9 +110,9 @@ bool InteriorPointRun::differentiate() {
 
 InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
   Residuals at;
-  at.violation = rows_.lpNorm<Eigen::Infinity>();
+  at.violation = largest_of(rows_);
   if (!program_.has_bounds()) {
-    at.stationarity = slope_.lpNorm<Eigen::Infinity>();
+    at.stationarity = largest_of(slope_);
     return at;
   }
   Eigen::VectorXd slope = slope_;
@@ -120,7 +121,7 @@ InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
   Eigen::VectorXd slack_slope = -point_.multipliers;
   subtract_multipliers(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
   subtract_multipliers(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
-  at.stationarity = slope.lpNorm<Eigen::Infinity>();
+  at.stationarity = largest_of(slope);
   for (const Eigen::Index i : program_.inequalities()) {
     at.stationarity = std::max(at.stationarity, std::abs(slack_slope[i]));
   }
@@ -134,7 +135,7 @@ InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
 double InteriorPointRun::barrier_error(const Residuals& at) const {
   const double sum_z = point_.x_lower.sum() + point_.x_upper.sum() + point_.s_lower.sum() + point_.s_upper.sum();
   const auto bounds = static_cast<double>(program_.bound_count());
-  const double sum = point_.multipliers.lpNorm<1>() + sum_z;
+  const double sum = sum_of_magnitudes(point_.multipliers) + sum_z;
   const double count = bounds + static_cast<double>(point_.multipliers.size());
   const double s_d = std::max(s_max, count > 0.0 ? sum / count : 0.0) / s_max;
   const double s_c = std::max(s_max, bounds > 0.0 ? sum_z / bounds : 0.0) / s_max;
@@ -144,7 +145,7 @@ double InteriorPointRun::barrier_error(const Residuals& at) const {
 bool InteriorPointRun::has_converged() const {
   const Residuals at = residuals(0.0);
   const double floor = plain_program_.rounding_floor();
-  const double largest = point_.multipliers.size() > 0 ? point_.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  const double largest = largest_of(point_.multipliers);
   const double excused_stationarity = floor * std::max(1.0, largest);
   Residuals left = at;
   if (at.stationarity <= excused_stationarity) left.stationarity = 0.0;
@@ -193,11 +194,11 @@ double InteriorPointRun::largest_bound_step(const Direction& direction, double s
 /// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper; with
 /// differences that are rounding counted as none.
 bool InteriorPointRun::try_point(const Direction& direction, double length, double slope, double reference_length) {
-  trial_.x = point_.x + length * direction.x;
-  trial_.s = point_.s + length * direction.s;
+  set_to_sum(trial_.x, point_.x, length, direction.x);
+  set_to_sum(trial_.s, point_.s, length, direction.s);
   if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) return false;
-  trial_rows_ -= trial_.s;
-  const double violation = trial_rows_.lpNorm<1>();
+  set_to_sum(trial_rows_, trial_rows_, -1.0, trial_.s);
+  const double violation = sum_of_magnitudes(trial_rows_);
   const double function = trial_objective_ + (program_.has_bounds() ? mu_ * program_.barrier(trial_) : 0.0);
   if (!std::isfinite(function)) return false;
   const double noise = noise_of_function();
@@ -276,12 +277,12 @@ bool InteriorPointRun::search(const Direction& direction) {
   double length = longest_step;
   for (bool is_first = true; is_first || length >= least; length *= 0.5) {
     bool accepted = try_point(direction, length, slope, length);
-    if (!accepted && is_first && trial_rows_.lpNorm<1>() >= violation_) {
+    if (!accepted && is_first && sum_of_magnitudes(trial_rows_) >= violation_) {
       accepted = correct_second_order(slope, length);
     }
     is_first = false;
     if (!accepted) continue;
-    point_.multipliers += length * direction.multipliers;
+    set_to_sum(point_.multipliers, point_.multipliers, length, direction.multipliers);
     move_bounds(direction, bound_step);
     measure();
     step_length_ = length;

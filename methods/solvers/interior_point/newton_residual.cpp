@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/solvers/interior_point/long_vectors.hpp"
+
 namespace dmocbench::interior_point {
 
 namespace {
 
 /// Where the right-hand side is next to nothing, its share says nothing: then this share of the largest terms does.
 constexpr double share_of_terms = 1e-6;
-
-double largest_of(const Eigen::VectorXd& vector) { return vector.size() > 0 ? vector.lpNorm<Eigen::Infinity>() : 0.0; }
 
 double largest_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return a.size() > 0 ? a.cwiseProduct(b).lpNorm<Eigen::Infinity>() : 0.0;
@@ -45,7 +45,7 @@ double NewtonResidual::excess(const KktMatrix& matrix, const Eigen::VectorXd& pr
                               const Eigen::VectorXd& multiplier_step, double accuracy) const {
   const double slope = largest_of(slope_);
   const double row = largest_of(rows_);
-  if (!std::isfinite(slope_.sum() + rows_.sum())) return std::numeric_limits<double>::infinity();
+  if (!is_finite(slope_) || !is_finite(rows_)) return std::numeric_limits<double>::infinity();
   // Usually the right-hand side allows more than is left, and the rest need not be computed.
   if (slope <= accuracy * largest_slope_ && row <= accuracy * largest_row_) {
     const double of_slope = slope > 0.0 ? slope / (accuracy * largest_slope_) : 0.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/solvers/clock.hpp"
+#include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -33,7 +34,7 @@ NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_
 }
 
 void NewtonStep::fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope) {
-  slope_ = slope;
+  copy_to(slope_, slope);
   if (!program_.has_bounds()) return;
   diagonal_.setZero();
   slack_.setZero();
@@ -45,8 +46,10 @@ void NewtonStep::fill_barrier(const Point& point, double mu, const Eigen::Vector
 }
 
 Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction) {
-  shifted_ = diagonal_.array() + shift_.value();
-  right_rows_ = rows;
+  for_stretches(diagonal_.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+    shifted_.segment(begin, length) = diagonal_.segment(begin, length).array() + shift_.value();
+  });
+  copy_to(right_rows_, rows);
   for (const Eigen::Index i : program_.inequalities()) {
     softness_[i] = 1.0 / (slack_[i] + shift_.value());
     right_rows_[i] += softness_[i] * slack_slope_[i];
@@ -62,7 +65,8 @@ Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd&
 }
 
 void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {
-  direction.s.setZero(point.s.size());
+  direction.s.resize(point.s.size());
+  set_zero(direction.s);
   if (!program_.has_bounds()) return;
   for (const Eigen::Index i : program_.inequalities()) {
     direction.s[i] = softness_[i] * (direction.multipliers[i] - slack_slope_[i]);
@@ -131,7 +135,7 @@ bool NewtonStep::estimate_multipliers(Point& point) {
 }
 
 double NewtonStep::slope_along(const Point& point, double mu, const Direction& direction) const {
-  double sum = program_.gradient().dot(direction.x);
+  double sum = dot_product(program_.gradient(), direction.x);
   if (!program_.has_bounds()) return sum;
   sum += mu * (barrier_slope(point.x, direction.x, program_.x_lower()) +
                barrier_slope(point.x, direction.x, program_.x_upper()) +

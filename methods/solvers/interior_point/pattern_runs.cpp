@@ -1,5 +1,7 @@
 #include "methods/solvers/interior_point/pattern_runs.hpp"
 
+#include "methods/solvers/interior_point/long_vectors.hpp"
+
 namespace dmocbench::interior_point {
 
 std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern) {
@@ -38,12 +40,21 @@ PatternRun transposed(const PatternRun& run) {
 
 void add_run(const PatternRun& run, const Eigen::VectorXd& values, const Eigen::VectorXd& x, Eigen::VectorXd& result) {
   const auto entries = values.segment(run.entry, run.length);
-  if (run.column_step == 0) {
-    result.segment(run.row, run.row_step == 0 ? 1 : run.length) += x[run.column] * entries;
+  if (run.row_step == 0 && run.column_step == 0) {
+    result[run.row] += entries[0] * x[run.column];
   } else if (run.row_step == 0) {
-    result[run.row] += entries.dot(x.segment(run.column, run.length));
+    result[run.row] += sum_of_stretches(run.length, [&](Eigen::Index begin, Eigen::Index length) {
+      return entries.segment(begin, length).dot(x.segment(run.column + begin, length));
+    });
   } else {
-    result.segment(run.row, run.length) += entries.cwiseProduct(x.segment(run.column, run.length));
+    for_stretches(run.length, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+      auto target = result.segment(run.row + begin, length);
+      if (run.column_step == 0) {
+        target += x[run.column] * entries.segment(begin, length);
+      } else {
+        target += entries.segment(begin, length).cwiseProduct(x.segment(run.column + begin, length));
+      }
+    });
   }
 }
 

@@ -11,6 +11,9 @@ namespace {
 /// Beyond this number of intervals, records of all of them no longer fit the second-level cache, and to eliminate once
 /// more is faster than to fetch them: measured, see README.md.
 constexpr std::size_t most_recorded = 12288;
+/// Intervals of a group of a long horizon: what they read still fits the second-level cache, and a column's eight
+/// segments a few pages of memory.
+constexpr std::size_t intervals_per_group = 1024;
 /// Steps whose records fit there easily, a multiple of eight.
 constexpr int steps_per_chunk = 16;
 
@@ -48,7 +51,7 @@ void GroupMemory::make_workspace(std::size_t numbers) {
 }
 
 std::vector<GroupMemory> cut_into_groups(const Shape& shape, std::size_t intervals) {
-  const std::size_t groups = part_count(intervals);
+  const std::size_t groups = intervals < intervals_per_part ? 1 : intervals / intervals_per_group;
   std::vector<GroupMemory> memory;
   memory.reserve(groups);
   for (std::size_t g = 0; g < groups; ++g) {

@@ -6,6 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/program/parallel.hpp"
+#include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -49,7 +50,10 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
   give(Source::padded, padded_);
   for (const PaddedColumn& column : entries_.padded) {
     const double* from = arrays.of(column.source) + column.entry;
-    std::copy_n(from, column.length, padded_.data() + column.padded_first + column.begin);
+    double* to = padded_.data() + column.padded_first + column.begin;
+    for_stretches(static_cast<Eigen::Index>(column.length), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+      std::copy_n(from + begin, length, to + begin);
+    });
   }
   return arrays;
 }
@@ -79,8 +83,7 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
   while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict != Verdict::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);
-  const bool is_finite = ((primal_step.array() * 0.0).sum() + (multiplier_step.array() * 0.0).sum()) == 0.0;
-  return is_finite ? Verdict::solved : Verdict::singular;
+  return is_finite(primal_step) && is_finite(multiplier_step) ? Verdict::solved : Verdict::singular;
 }
 
 Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
@@ -156,8 +159,8 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
     Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
         multipliers_.middleCols(first, lane_count).transpose();
   }
-  primal_step.setZero();
-  multiplier_step.setZero();
+  set_zero(primal_step);
+  set_zero(multiplier_step);
   for_each_part(groups_.size(), [&](std::size_t g) {
     kernel_.forward(plan_, arrays, groups_[g].group(), primal_step.data(), multiplier_step.data());
   });

@@ -10,7 +10,7 @@ namespace dmocbench::interior_point {
 class LaneArray {
  public:
   /// Makes room for at least `count` numbers. They are anything: memory is first touched by the thread that fills it.
-  void resize(std::size_t count) { lines_ = std::make_unique_for_overwrite<Line[]>(count / line_size + 1); }
+  void resize(std::size_t count) { lines_ = std::make_unique_for_overwrite<Lines>(count / line_size + 1); }
 
   [[nodiscard]] double* data() noexcept { return lines_ ? lines_[0].numbers.data() : nullptr; }
 
@@ -19,7 +19,9 @@ class LaneArray {
   struct alignas(line_size * sizeof(double)) Line {
     std::array<double, line_size> numbers;
   };
-  std::unique_ptr<Line[]> lines_;
+  using Lines =
+      Line[];  // NOLINT(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
+  std::unique_ptr<Lines> lines_;
 };
 
 }  // namespace dmocbench::interior_point

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/solvers/interior_point/long_vectors.hpp"
+
 namespace dmocbench::interior_point {
 
 namespace {
@@ -59,10 +61,14 @@ double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) c
   const double* added = arrays.of(Source::diagonal);
   for (const Diagonal& diagonal : diagonals_) {
     const double* hessian = diagonal.has_hessian ? arrays.of(diagonal.source) + diagonal.entry : nullptr;
-    for (std::size_t k = 0; k < intervals_; ++k) {
-      const double curvature = (hessian != nullptr ? hessian[k] : 0.0) + added[diagonal.first + k];
-      compliance += 1.0 / (std::abs(curvature) + smallest_curvature);
-    }
+    compliance += sum_of_stretches(static_cast<Eigen::Index>(intervals_), [&](Eigen::Index begin, Eigen::Index length) {
+      double sum = 0.0;
+      for (Eigen::Index k = begin; k < begin + length; ++k) {
+        const double curvature = (hessian != nullptr ? hessian[k] : 0.0) + (added + diagonal.first)[k];
+        sum += 1.0 / (std::abs(curvature) + smallest_curvature);
+      }
+      return sum;
+    });
   }
   const auto count = static_cast<double>(intervals_);
   return compliance > 0.0 ? count * count * static_cast<double>(diagonals_.size()) / compliance : 1.0;
