@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -164,8 +165,8 @@ TEST(Parallel, DoesAllPartsOfManyCallsFromManyThreads) {
       wrong += tally.is_once_each() ? 0 : 1;
     }
   };
-  std::vector<std::thread> callers;
-  for (int i = 0; i < 4; ++i) callers.emplace_back(call);
+  std::array<std::thread, 4> callers;
+  for (std::thread& caller : callers) caller = std::thread(call);
   for (std::thread& caller : callers) caller.join();
   EXPECT_EQ(wrong, 0);
 }
@@ -271,9 +272,9 @@ TEST(Parallel, LetsAChildExitThatHasNotUsedIt) {
 void read_number_of_threads(const char* text) {
   setenv("DMOCBENCH_THREADS", text, 1);  // NOLINT(concurrency-mt-unsafe): nothing else runs yet
   try {
-    std::fprintf(stderr, "threads: %zu\n", thread_count());
+    std::cerr << "threads: " << thread_count() << '\n';
   } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::cerr << error.what() << '\n';
     std::exit(3);  // NOLINT(concurrency-mt-unsafe)
   }
   std::exit(0);  // NOLINT(concurrency-mt-unsafe)
