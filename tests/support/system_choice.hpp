@@ -24,7 +24,7 @@ class SystemChoice {
     shape.controls = whole(1, 3);
     shape.soft = chance(0.6) ? 0 : whole(1, 3);
     shape.horizon = chance(0.3);
-    for (const int end : {0, 1}) {
+    for (const std::size_t end : {0U, 1U}) {
       shape.velocity[end] = chance(0.4);
       shape.fixed[end] = chance(0.6) ? shape.node : whole(0, shape.node);
     }

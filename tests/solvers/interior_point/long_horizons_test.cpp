@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "methods/error.hpp"
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
 #include "methods/solvers/interior_point/intervals/group_memory.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
@@ -121,12 +124,18 @@ TEST(LongHorizons, AreSolvedWithTheSameStepWhateverTheNumberOfThreadsWhereEveryt
   expect_nothing_to_correct(everything.problem(), {"dmoc", 1}, 12289 + 37);
 }
 
+template <class Thing>
+Thing that_is_there(std::optional<Thing> thing) {
+  if (!thing) throw Error("a program of these tests cannot be eliminated by intervals");
+  return *std::move(thing);
+}
+
 /// What the two sweeps over a group make of a system, with records of all steps or of a chunk.
 class GroupSweeps {
  public:
   GroupSweeps(const Transcription& program, const KktNumbers& numbers) : numbers_(numbers) {
     std::string why;
-    entries_ = interval_entries(program, why).value();
+    entries_ = that_is_there(interval_entries(program, why));
     padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
     const auto give = [&](Source source, const Eigen::VectorXd& values) {
       arrays_.arrays[static_cast<std::size_t>(source)] = values.data();
@@ -144,7 +153,7 @@ class GroupSweeps {
     }
     weights_.setConstant(state_size(entries_.shape), 1e3);
     arrays_.terminal_weights = weights_.data();
-    plan_ = elimination_plan(entries_, arrays_, entries_.intervals / 2).value();
+    plan_ = that_is_there(elimination_plan(entries_, arrays_, entries_.intervals / 2));
   }
 
   struct Result {
@@ -163,11 +172,11 @@ class GroupSweeps {
     kernel.backward(plan_, arrays_, group);
     EXPECT_TRUE(group.pivots_hold);
     Result result(numbers_);
-    const int X = state_size(plan_.shape);
+    const std::ptrdiff_t X = state_size(plan_.shape);
     result.value.assign(group.value, group.value + X * (2 * X + 1) * lane_count);
     result.value.insert(result.value.end(), group.reach, group.reach + X * (X + 1) * lane_count);
     tests::RandomPoints random;
-    for (int i = 0; i < X * lane_count; ++i) {
+    for (std::ptrdiff_t i = 0; i < X * lane_count; ++i) {
       group.state[i] = random.number();
       group.multiplier[i] = random.number();
     }
