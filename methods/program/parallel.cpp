@@ -129,8 +129,23 @@ struct Teams {
 };
 
 Teams& teams() {
-  static Teams all;
-  return all;
+  // Never destroyed: at the end of a child that made no team the parent's would be, and wait for threads of another
+  // process.
+  static auto* const all = new Teams;  // NOLINT(cppcoreguidelines-owning-memory)
+  return *all;
+}
+
+/// All parts, one after the other.
+void do_all(std::size_t parts, const PartWork& work) {
+  std::exception_ptr error;
+  for (std::size_t part = 0; part < parts; ++part) {
+    try {
+      work(part);
+    } catch (...) {
+      if (!error) error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace
@@ -163,7 +178,7 @@ void for_each_part(std::size_t parts, const PartWork& work) {
   // an experiment are made by a thread that solves nothing itself.
   std::unique_lock lock(teams().in_use, std::defer_lock);
   if (helpers == 0 || !lock.try_lock()) {
-    for (std::size_t part = 0; part < parts; ++part) work(part);
+    do_all(parts, work);
     return;
   }
   is_inside = true;

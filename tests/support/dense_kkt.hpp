@@ -110,6 +110,13 @@ class DenseKkt {
     return x.cast<double>();
   }
 
+  /// Of the matrix, in the Euclidean norm: the largest over the smallest magnitude of an eigenvalue.
+  [[nodiscard]] double condition() const {
+    const Eigen::VectorXd sizes =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix_, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
+    return sizes.maxCoeff() / sizes.minCoeff();
+  }
+
   /// The slope and the rows that the steps leave, so that a system with them has the correction as its solution.
   void residual_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, Eigen::VectorXd& slope,
                    Eigen::VectorXd& rows) const {

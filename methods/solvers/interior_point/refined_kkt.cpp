@@ -30,23 +30,26 @@ Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
     --unlooked_;
     return verdict;
   }
-  if (verdict == Verdict::solved && refine(matrix, slope, rows, primal_step, multiplier_step)) return verdict;
+  if (verdict == Verdict::solved && refine(*fast_, matrix, slope, rows, primal_step, multiplier_step)) return verdict;
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_);
   ++fallbacks_;
-  return robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
+  const Verdict robust = robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
+  if (robust != Verdict::solved) return robust;
+  // Rounding may hide from it that rows depend on each other, but then its step solves nothing.
+  return refine(*robust_, matrix, slope, rows, primal_step, multiplier_step) ? robust : Verdict::singular;
 }
 
 /// False if the step stays worse than tolerable.
-bool RefinedKkt::refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                        Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                        const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
   double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
-  if (excess <= to_spare) unlooked_ = steps_to_pass;
+  if (&kkt == fast_.get() && excess <= to_spare) unlooked_ = steps_to_pass;
   for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
     primal_correction_.resizeLike(primal_step);
     multiplier_correction_.resizeLike(multiplier_step);
     ++refinements_;
-    if (fast_->solve(matrix, residual_.slope(), residual_.rows(), primal_correction_, multiplier_correction_) !=
+    if (kkt.solve(matrix, residual_.slope(), residual_.rows(), primal_correction_, multiplier_correction_) !=
         Verdict::solved) {
       break;
     }

@@ -29,8 +29,9 @@ class RefinedKkt : public KktSystem {
   [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }
 
  private:
-  [[nodiscard]] bool refine(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                            Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step);
+  [[nodiscard]] bool refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                            const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                            Eigen::VectorXd& multiplier_step);
 
   const NonlinearProgram& program_;
   std::unique_ptr<KktSystem> fast_;

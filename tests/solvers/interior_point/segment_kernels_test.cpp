@@ -7,38 +7,17 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
-#include "tests/support/dense_kkt.hpp"
-#include "tests/support/random_points.hpp"
 #include "tests/support/restated_problems.hpp"
+#include "tests/support/shifted_system.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench::interior_point {
 namespace {
 
-/// A system of a program near a start, with a Hessian that is shifted to be definite.
-tests::KktNumbers shifted_numbers(Transcription& program, const Eigen::VectorXd& start) {
-  tests::RandomPoints random;
-  const auto m = static_cast<Eigen::Index>(program.constraint_count());
-  tests::KktNumbers numbers;
-  numbers.hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
-  numbers.jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  const Eigen::VectorXd x = start + random.vector(start.size(), -1e-2, 1e-2);
-  program.hessian(x, 1.0, random.vector(m, -1e-2, 1e-2), numbers.hessian);
-  program.jacobian(x, numbers.jacobian);
-  numbers.diagonal = random.vector(start.size(), 10.0, 11.0);
-  numbers.softness = random.vector(m, 0.1, 1.0);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.softness[i] = 0.0;
-  }
-  numbers.slope = random.vector(start.size());
-  numbers.rows = random.vector(m);
-  return numbers;
-}
-
 void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
   SCOPED_TRACE(problem.name() + ", " + scheme.label() + ", N = " + std::to_string(intervals));
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
-  const tests::KktNumbers numbers = shifted_numbers(program, sample(program, guessed_motion(problem)));
+  const tests::KktNumbers numbers = tests::shifted_system(program, sample(program, guessed_motion(problem)));
   const auto choices = available_segment_kernels();
   Eigen::VectorXd baseline;
   for (std::size_t i = 0; i < choices.size(); ++i) {

@@ -19,8 +19,8 @@ class LaneArray {
   struct alignas(line_size * sizeof(double)) Line {
     std::array<double, line_size> numbers;
   };
-  using Lines =
-      Line[];  // NOLINT(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
+  using Lines = Line[];
   std::unique_ptr<Lines> lines_;
 };
 
