@@ -214,7 +214,7 @@ TEST(NewtonResidual, ExceedsByHowMuchMoreItIsThanItMayBe) {
   NewtonResidual residual(program);
   const auto excess = [&](double accuracy) {
     residual.compute(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
-    return residual.excess(accuracy);
+    return residual.excess(numbers.matrix(), primal, multipliers, accuracy);
   };
   // No step leaves all of the right-hand side.
   EXPECT_NEAR(excess(1e-3), 1e3, 1e-6);
