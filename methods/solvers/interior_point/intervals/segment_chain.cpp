@@ -41,17 +41,10 @@ void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& termin
 }
 
 bool SegmentChain::join(const SegmentValue& segment) {
-  // Sizes that the compiler knows need no memory of the heap, which would take longer than the numbers.
-  switch (total_.P.rows()) {
-    case 2:
-      return join_sized<2>(segment);
-    case 4:
-      return join_sized<4>(segment);
-    case 6:
-      return join_sized<6>(segment);
-    default:
-      return join_sized<Eigen::Dynamic>(segment);
-  }
+  // A size that the compiler knows needs no memory of the heap, which would take longer than the numbers; every further
+  // one takes the compiler longer than the rest of the method.
+  constexpr int usual = 4;
+  return total_.P.rows() == usual ? join_sized<usual>(segment) : join_sized<Eigen::Dynamic>(segment);
 }
 
 template <int size>
