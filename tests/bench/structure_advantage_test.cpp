@@ -53,7 +53,7 @@ int operations_of_formulas(int n, int w) {
   int equalities = 2 * n;  // a reciprocal, and a comparison with the usual pivot
   for (int p = 0; p < n; ++p) equalities += (n - 1 - p) * (Z + X + 1 - p);
   equalities += N * sum_to(n);
-  const int next_state = N * n * Z;
+  const int next_state = N * n * n;  // momenta, from the increments of the configuration
   const int slopes = N * (w * n + X * X);
   const int pairs = sum_to(N) - 1;  // of the lower triangle, without the constant
   const int condensed = pairs * X + (pairs - sum_to(N) + sum_to(X + 1)) * n;
