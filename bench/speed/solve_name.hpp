@@ -13,6 +13,7 @@ struct SolveName {
   int intervals = 0;
   std::string solver;
   int threads = 1;
+  // NOLINTNEXTLINE(readability-implicit-bool-conversion): false alarm, bool values are compared
   friend auto operator<=>(const SolveName&, const SolveName&) = default;
 
   /// [library/]PROBLEM/METHOD/INTERVALS/SOLVER[/threads_COUNT]; one thread is not named.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -100,6 +99,21 @@ std::vector<SolveName> cases_of(const SolvesByName& solves) {
   return cases;
 }
 
+/// `name` is that of a curve: without a number of intervals.
+void append_exponent(Table& table, const SolveName& name, const std::vector<GridError>& points) {
+  const auto line = fit_order(points);
+  if (!line || line->points < fewest_grids_of_exponent) return;
+  Row row;
+  set_what(row, name);
+  set_how(row, name);
+  row.set("exponent", Cell(line->slope));
+  row.set("standard_error", Cell(line->standard_error));
+  row.set("grids", Cell(static_cast<long long>(line->points)));
+  row.set("coarsest", Cell(static_cast<long long>(line->finest)));  // the smallest abscissa: here N instead of a step
+  row.set("finest", Cell(static_cast<long long>(line->coarsest)));
+  table.append(row);
+}
+
 std::string exponents_as_text(const Table& exponents) {
   if (exponents.rows().empty()) return "";
   std::string text = fmt::format("\nexponent of the time per iteration over N\n");
@@ -160,41 +174,25 @@ Table solve_ratios(const SolvesByName& solves) {
 }
 
 Table solve_exponents(const SolvesByName& solves) {
-  using Curve = std::tuple<bool, std::string, std::string, std::string, int>;
-  std::map<Curve, std::vector<GridError>> curves;
+  std::map<SolveName, std::vector<GridError>> curves;  // without the number of intervals
   for (const auto& [name, of_name] : solves) {
     if (name.intervals < coarsest_of_exponent || !of_name.is_solved) continue;
-    curves[{name.is_of_library, name.problem, name.method, name.solver, name.threads}].push_back(
-        {static_cast<double>(name.intervals), of_name.median() / iterations_of(of_name)});
+    SolveName curve = name;
+    curve.intervals = 0;
+    curves[curve].push_back({static_cast<double>(name.intervals), of_name.median() / iterations_of(of_name)});
   }
   Table table({"problem", "method", "solver", "threads", "exponent", "standard_error", "grids", "coarsest", "finest"});
-  for (const auto& [curve, points] : curves) {
-    const auto line = fit_order(points);
-    if (!line || line->points < fewest_grids_of_exponent) continue;
-    const auto& [is_of_library, problem, method, solver, threads] = curve;
-    const SolveName name{is_of_library, problem, method, 0, solver, threads};
-    Row row;
-    set_what(row, name);
-    set_how(row, name);
-    row.set("exponent", Cell(line->slope));
-    row.set("standard_error", Cell(line->standard_error));
-    row.set("grids", Cell(static_cast<long long>(line->points)));
-    row.set("coarsest", Cell(static_cast<long long>(line->finest)));  // the smallest abscissa: here N instead of a step
-    row.set("finest", Cell(static_cast<long long>(line->coarsest)));
-    table.append(row);
-  }
+  for (const auto& [name, points] : curves) append_exponent(table, name, points);
   return table;
 }
 
 std::string solve_summary(const SolvesByName& solves) {
   // One width per column, whatever its type.
   constexpr const char* line = "{:<46}{:>26}{:>28}{:>22}{:>17}{:>12}{:>18}{:>16}{:>13}\n";
-  std::string text =
-      "\nms per solve on one thread: median (smallest) of the repetitions, in brackets the iterations; of "
-      "interior_point "
-      "also the rest\n";
-  text += fmt::format(fmt::runtime(line), "", fast_solver, slow_solver, "ipopt/interior_point", "one/two threads",
-                      "evaluation", "ns/(interval it)", "bytes/interval", "set-up [ms]");
+  std::string text = "\nms per solve on one thread: median (smallest) of the repetitions, in brackets the iterations\n";
+  text +=
+      fmt::format(fmt::runtime(line), "", fast_solver, slow_solver, "ipopt/interior_point", "one/two threads",
+                  "evaluation", "ns/(interval it)", "bytes/interval", "set-up [ms]");  // the last four: interior_point
   const Table ratios = solve_ratios(solves);
   for (const SolveName& what : cases_of(solves)) {
     const Solves* const fast = find(solves, by_solver(what, fast_solver));

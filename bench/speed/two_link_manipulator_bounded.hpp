@@ -7,8 +7,8 @@
 
 namespace dmocbench::speed {
 
-/// The paper's two-link manipulator with both torques between -16 and 16 N m. Without bounds they reach some 20, so
-/// that bounds are active, on either side; with them the swing-up still is possible.
+/// The paper's two-link manipulator with both torques between -16 and 16 N m, which is enough for the swing-up but less
+/// than it takes without bounds: the least cost rises from 80.38 to 80.65.
 class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
  public:
   static constexpr double largest_torque = 16.0;
