@@ -15,7 +15,7 @@ namespace dmocbench {
 ///   V = ½m₁gl₁sin θ₁ + m₂gl₁sin θ₁ + ½m₂gl₂sin θ₂   (the paper prints θ₂ for sin θ₂ in the last term),
 /// f = (τ₁ - τ₂, τ₂), C = ½(τ₁² + τ₂²), from hanging at rest to upright at rest. The paper gives no values; uniform
 /// rods of unit mass and length on the Earth are natural.
-class TwoLinkManipulator final : public Problem {
+class TwoLinkManipulator : public Problem {
  public:
   TwoLinkManipulator()
       : Problem({

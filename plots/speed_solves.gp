@@ -1,0 +1,116 @@
+# Times of whole solves over the number of intervals: by interior_point and by Ipopt, and their ratio.
+#   gnuplot -e "results='results'" plots/speed_solves.gp
+# Reads speed_solves.csv and speed_solves_ratios.csv (build/bench/speed/solves --csv results/speed_solves.csv); draws nothing
+# if they are not there, and of what was left out of that run.
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+if (!exists_table("speed_solves")) { exit }
+eval require("speed_solves", "problem,method,intervals,solver,threads,solved,ns_per_interval_iteration")
+eval require("speed_solves_ratios", "problem,method,intervals,quantity,ratio")
+
+on_grids = "orbital_transfer two_link_manipulator two_link_manipulator_bounded"
+methods = "dmoc hamiltonian tangent"
+solvers = "interior_point ipopt"
+solver_label(s) = word("'interior\\_point' Ipopt", s)
+colour(m) = word(blue." ".vermilion." ".green, m)
+marker(m, s) = int(word(s == 1 ? "7 5 9" : "6 4 8", m))  # filled: interior_point
+dashes(s) = word("'1' '(6, 4)'", s)
+times(problem, m, s) = sprintf("problem=%s,method=%s,solver=%s,threads=1", problem, word(methods, m), word(solvers, s))
+ratios(problem, m) = sprintf("problem=%s,method=%s,quantity=solver", problem, word(methods, m))
+here(name, where, need) = strlen(distinct(name, "problem", where, need)) > 0
+# A line style from text cannot stand in a plot with iteration.
+do for [m = 1:3] { do for [s = 1:2] {
+  eval sprintf("set linetype %d linecolor rgb '%s' linewidth %g dashtype %s pointtype %d pointsize %g",\
+      20 + 2 * m + s, colour(m), (m == 1 ? 2.4 : 1.4), dashes(s), marker(m, s), (m == 1 ? 1.0 : 0.8))
+} }
+# From 64 to a million; there is no room for the number of every grid.
+grids_axis = "set logscale x 2; unset mxtics; set format x '%g'; set xrange [45:1.5e6]; set xlabel 'number of intervals N';\
+    set xtics ('64' 64, '1024' 1024, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576) font ',13'"
+
+# Targets: nanoseconds with inequalities, how many times faster than Ipopt without; 0 where there is none.
+fastest(problem) = problem eq "two_link_manipulator_bounded" ? 400 : 0
+times_faster(problem) = problem eq "orbital_transfer" ? 80 : problem eq "two_link_manipulator" ? 45 : 0
+# To be evaluated: its label, where the axis ends with `x`, by a factor above its line.
+target_label(goal, unit, x, above) = goal == 0 ? "" : sprintf("set label 1 'target at 1024: %d%s' at %g, %g right font ',13'\
+    textcolor rgb grey front", goal, unit, 0.95 * x, above * goal)
+
+# --- Time per interval and iteration ---------------------------------------------------------------------------------
+drawn = ""
+do for [problem in on_grids] {
+  if (here("speed_solves", "problem=".problem.",threads=1", "solved")) { drawn = drawn." ".problem }
+}
+if (words(drawn) > 0) {
+  do for [kind in kinds] {
+    eval begin_figure(kind, "speed_solves", 150 + 400 * words(drawn), 600)
+    set multiplot layout 1, words(drawn) title title_text("Time of a solve per interval and iteration", "",\
+        "One thread, tolerance 10^{−10}, from the problem's own guess; what was not solved is left out. Smaller is better.")\
+        offset 0, -0.4 margins 0.08, 0.985, 0.25, 0.82 spacing 0.04
+    do for [p = 1:words(drawn)] {
+      problem = word(drawn, p)
+      unset logscale; set autoscale; unset label
+      eval power_axis("y")
+      set format y (p == 1 ? "%g" : "")
+      eval grids_axis
+      set yrange [50:200000]
+      set title problem_label(problem) font ",15"
+      set ylabel (p == 1 ? "time per interval and iteration [ns]" : "")
+      unset key
+      if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 2 width 2 }
+      goal = fastest(problem)
+      eval target_label(goal, " ns", 1.5e6, 1.25)
+      shown = ""
+      do for [c = 3:8] {
+        if (here("speed_solves", times(problem, (c - 1) / 2, (c - 1) % 2 + 1), "solved")) {
+          shown = shown.sprintf(" %d", c)
+        }
+      }
+      plot (goal > 0 ? goal : NaN) with lines linetype 8,\
+           for [c in shown] rows("speed_solves", times(problem, (int(c) - 1) / 2, (int(c) - 1) % 2 + 1), "solved")\
+               using (column("intervals")):(column("ns_per_interval_iteration"))\
+               with linespoints linetype 20 + int(c),\
+           for [m = 1:3] for [s = 1:2] keyentry with linespoints linetype 20 + 2 * m + s\
+               title method_label(word(methods, m)).", ".solver_label(s)
+    }
+    unset multiplot
+    eval end_figure(kind, "speed_solves")
+  }
+}
+
+# --- How many times faster than Ipopt --------------------------------------------------------------------------------
+drawn = ""
+do for [problem in on_grids] {
+  if (here("speed_solves_ratios", "problem=".problem.",quantity=solver", "ratio")) { drawn = drawn." ".problem }
+}
+if (words(drawn) == 0) { exit }
+do for [kind in kinds] {
+  eval begin_figure(kind, "speed_solves_ratio", 150 + 400 * words(drawn), 560)
+  set multiplot layout 1, words(drawn) title title_text("How many times longer Ipopt takes than interior\\_point", "",\
+      "Medians of whole solves, one thread; only where both solved and their costs agree to 10^{−9}.")\
+      offset 0, -0.4 margins 0.08, 0.985, 0.21, 0.82 spacing 0.04
+  do for [p = 1:words(drawn)] {
+    problem = word(drawn, p)
+    unset logscale; set autoscale; unset label
+    eval power_axis("y")
+    set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500)
+    set format y (p == 1 ? "%g" : "")
+    eval grids_axis
+    set xrange [45:24000]
+    set yrange [5:500]
+    set title problem_label(problem) font ",15"
+    set ylabel (p == 1 ? "seconds of Ipopt / seconds of interior\\_point" : "")
+    unset key
+    if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 1 width 2 }
+    goal = times_faster(problem)
+    eval target_label(goal, "", 24000, 1.13)
+    shown = ""
+    do for [m = 1:3] {
+      if (here("speed_solves_ratios", ratios(problem, m), "ratio")) { shown = shown.sprintf(" %d", m) }
+    }
+    plot (goal > 0 ? goal : NaN) with lines linetype 8,\
+         for [m in shown] rows("speed_solves_ratios", ratios(problem, int(m)), "ratio")\
+             using (column("intervals")):(column("ratio")) with linespoints linetype 21 + 2 * int(m),\
+         for [m = 1:3] keyentry with linespoints linetype 21 + 2 * m title method_label(word(methods, m))
+  }
+  unset multiplot
+  eval end_figure(kind, "speed_solves_ratio")
+}
