@@ -24,6 +24,9 @@ struct SolverOptions {
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.
   bool verbose = false;
+  /// λ of a program that is nearly the same, one per row: a warm start, for solvers that can use it (`interior_point`).
+  /// Empty for none.
+  Eigen::VectorXd start_multipliers;
   /// Options passed to the solver as they stand, by their names there; they win over what we set.
   std::map<std::string, std::string> passed_on;
   /// Asked once per iteration; true ends the solve with status "interrupted".

@@ -10,18 +10,17 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// Moves a number away from its bounds: by a hundredth of its size, at most a hundredth of their distance.
-double pushed_inside(double value, double lower, double upper) {
-  constexpr double share = 1e-2;
+/// Moves a number away from its bounds: by this share of their size, at most of their distance.
+double pushed_inside(double value, double lower, double upper, double share) {
   const double distance = upper - lower;  // infinite where a bound is missing
   if (std::isfinite(lower)) value = std::max(value, lower + share * std::min(std::max(1.0, std::abs(lower)), distance));
   if (std::isfinite(upper)) value = std::min(value, upper - share * std::min(std::max(1.0, std::abs(upper)), distance));
   return value;
 }
 
-void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double share) {
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
-    vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i]);
+    vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i], share);
   }
 }
 
@@ -52,19 +51,36 @@ void BarrierProgram::timed(const Evaluation& evaluation) {
   evaluation_seconds_ += seconds_since(begin);
 }
 
-Point BarrierProgram::interior(const Eigen::VectorXd& start) {
+Point BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
   Point point;
   point.x = start;
-  push_inside(point.x, program_.variable_lower(), program_.variable_upper());
+  push_inside(point.x, program_.variable_lower(), program_.variable_upper(), push);
   point.s.resize(static_cast<Eigen::Index>(program_.constraint_count()));
   program_.constraints(point.x, point.s);
-  push_inside(point.s, program_.constraint_lower(), program_.constraint_upper());
+  push_inside(point.s, program_.constraint_lower(), program_.constraint_upper(), push);
   point.multipliers.setZero(point.s.size());
   point.x_lower.setOnes(x_lower_.values.size());
   point.x_upper.setOnes(x_upper_.values.size());
   point.s_lower.setOnes(s_lower_.values.size());
   point.s_upper.setOnes(s_upper_.values.size());
   return point;
+}
+
+void BarrierProgram::balance_bounds(double mu, Point& point) const {
+  Eigen::VectorXd slope;
+  slope_of_lagrangian(point.multipliers, slope);
+  const auto balance = [mu](const Eigen::VectorXd& vector, const BoundList& bounds, double side,
+                            const Eigen::VectorXd& of_vector, Eigen::VectorXd& z) {
+    for (std::size_t b = 0; b < bounds.entries.size(); ++b) {
+      const double of_barrier = mu / bounds.distance(vector, side, b);
+      z[static_cast<Eigen::Index>(b)] = std::max(of_barrier, side * of_vector[bounds.entries[b]]);
+    }
+  };
+  const Eigen::VectorXd slack_slope = -point.multipliers;
+  balance(point.x, x_lower_, 1.0, slope, point.x_lower);
+  balance(point.x, x_upper_, -1.0, slope, point.x_upper);
+  balance(point.s, s_lower_, 1.0, slack_slope, point.s_lower);
+  balance(point.s, s_upper_, -1.0, slack_slope, point.s_upper);
 }
 
 bool BarrierProgram::evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows) {

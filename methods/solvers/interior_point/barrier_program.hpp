@@ -29,6 +29,8 @@ struct Point {
 /// with the derivatives at the last point that they were asked for.
 class BarrierProgram {
  public:
+  static constexpr double usual_push = 1e-2;
+
   explicit BarrierProgram(NonlinearProgram& program);
 
   [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
@@ -41,8 +43,11 @@ class BarrierProgram {
   /// The rows that are no equalities.
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
 
-  /// `start` and slacks a(start) pushed into the interior, multipliers of bounds 1, λ = 0.
-  [[nodiscard]] Point interior(const Eigen::VectorXd& start);
+  /// `start` and slacks a(start) pushed into the interior, by `push` of their size or of the bounds' distance;
+  /// multipliers of bounds 1, λ = 0.
+  [[nodiscard]] Point interior(const Eigen::VectorXd& start, double push = usual_push);
+  /// Multipliers of bounds that balance the slope of the Lagrangian where they can, at least those of the barrier.
+  void balance_bounds(double mu, Point& point) const;
 
   /// φ and a at x; false if a number is not finite.
   [[nodiscard]] bool evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows);

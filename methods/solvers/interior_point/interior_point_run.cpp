@@ -18,6 +18,8 @@ namespace {
 
 // Constants of Wächter and Biegler, with their names there.
 constexpr double first_mu = 0.1;
+constexpr double first_mu_of_warm_start = 1e-6;
+constexpr double push_of_warm_start = 1e-6;
 constexpr double kappa_epsilon = 10.0;
 constexpr double kappa_mu = 0.2;
 constexpr double theta_mu = 1.5;
@@ -43,7 +45,7 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, co
       newton_(program_, kkt),
       tolerance_(options.tolerance),
       begin_(Clock::now()) {
-  point_ = program_.interior(start);
+  point_ = is_warm() ? program_.interior(start, push_of_warm_start) : program_.interior(start);
   const Eigen::VectorXd& lower = program.variable_lower();
   const Eigen::VectorXd& upper = program.variable_upper();
   for (Eigen::Index i = 0; i < start.size(); ++i) {
@@ -75,11 +77,16 @@ Solution InteriorPointRun::run() {
 }
 
 bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
-  mu_ = program_.has_bounds() ? first_mu : 0.0;
+  if (program_.has_bounds()) mu_ = is_warm() ? first_mu_of_warm_start : first_mu;
   if (!program_.evaluate(start, objective_, rows_)) return false;
   rows_ -= point_.s;
   if (!program_.differentiate(start)) return false;
-  if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
+  if (is_warm()) {
+    point_.multipliers = options_.start_multipliers;
+    program_.balance_bounds(mu_, point_);
+  } else if (!newton_.estimate_multipliers(point_)) {
+    point_.multipliers.setZero();
+  }
   program_.slope_of_lagrangian(point_.multipliers, slope_);
   for (const Eigen::Index i : fixed_) slope_[i] = 0.0;
   measure();

@@ -33,6 +33,7 @@ class InteriorPointRun {
     double complementarity = 0.0;
   };
 
+  [[nodiscard]] bool is_warm() const noexcept { return options_.start_multipliers.size() > 0; }
   [[nodiscard]] std::optional<Status> iterate();
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool begin(const Eigen::VectorXd& start);

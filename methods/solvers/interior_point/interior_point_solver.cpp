@@ -65,6 +65,11 @@ std::string InteriorPointSolver::description() const {
 
 Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
   require_start(program, start);
+  const auto given = static_cast<std::size_t>(options_.start_multipliers.size());
+  if (given > 0 && given != program.constraint_count()) {
+    throw Error("the solver interior_point got " + std::to_string(given) + " start multipliers; the program has " +
+                std::to_string(program.constraint_count()) + " rows");
+  }
   const Clock::time_point begin = Clock::now();
   std::string why;
   const auto kkt = make_system(program, factorisation_of(options_.passed_on), why);

@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/error.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/brachistochrone.hpp"
+#include "problems/container_crane.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/random_points.hpp"
@@ -94,6 +96,35 @@ TEST(InteriorPoint, AgreesWithIpoptFromTheSameStartFarAway) {
     ASSERT_EQ(ipopt.status, Status::solved);
     expect_same_answer(solve_by_interior_point(program, start), ipopt);
   }
+}
+
+/// Started from its answer with multipliers, a neighbouring program is solved in fewer iterations than without them,
+/// and to the same answer.
+TEST(InteriorPoint, StartsWarmFromTheMultipliersOfANeighbour) {
+  const ContainerCrane problem;
+  for (const char* method : {"dmoc", "hamiltonian"}) {
+    SCOPED_TRACE(method);
+    Transcription program(problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(32));
+    const Solution cold = solve_by_interior_point(program, sample(program, guessed_motion(problem)));
+    ASSERT_EQ(cold.status, Status::solved);
+    constexpr double share = 1e-5;
+    tests::RandomPoints random;
+    const Eigen::VectorXd near = cold.primal + share * random.vector(cold.primal.size());
+    SolverOptions options;
+    options.start_multipliers = cold.multipliers;
+    const Solution warm = solve_by_interior_point(program, near, options);
+    expect_same_answer(warm, cold);
+    EXPECT_LE(warm.major_iterations.value(), cold.major_iterations.value() / 2);
+    EXPECT_LT(warm.major_iterations.value(), solve_by_interior_point(program, near).major_iterations.value());
+  }
+}
+
+TEST(InteriorPoint, RefusesStartMultipliersOfAnotherProgram) {
+  const OrbitalTransfer problem;
+  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(8));
+  SolverOptions options;
+  options.start_multipliers = Eigen::VectorXd::Ones(3);
+  EXPECT_THROW((void)solve_by_interior_point(program, sample(program, guessed_motion(problem)), options), Error);
 }
 
 TEST(InteriorPoint, AgreesWithIpoptWhereBoundsOnControlsAreActive) {
