@@ -174,10 +174,14 @@ std::size_t begin_of_part(std::size_t part, std::size_t parts, std::size_t count
 void for_each_part(std::size_t parts, const PartWork& work) {
   thread_local bool is_inside = false;
   const std::size_t helpers = parts > 1 && !is_inside ? thread_count() - 1 : 0;
+  if (helpers == 0) {
+    do_all(parts, work);
+    return;
+  }
   // A fork while another thread held the lock would leave it locked for ever; but nothing forks then: the processes of
   // an experiment are made by a thread that solves nothing itself.
   std::unique_lock lock(teams().in_use, std::defer_lock);
-  if (helpers == 0 || !lock.try_lock()) {
+  if (!lock.try_lock()) {
     do_all(parts, work);
     return;
   }

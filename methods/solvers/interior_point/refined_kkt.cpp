@@ -16,6 +16,9 @@ constexpr double tolerable = 1e5;
 /// An error this much smaller than wanted lets the next steps pass, so many of them.
 constexpr double to_spare = 1e-2;
 constexpr int steps_to_pass = 3;
+/// Shifts that are raised in vain before the sparse factorisation is asked: where the Hessian needs one, two or three
+/// usually do.
+constexpr int refusals_to_doubt = 4;
 
 }  // namespace
 
@@ -25,7 +28,10 @@ RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSyste
 Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   const Verdict verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
-  if (verdict == Verdict::wrong_inertia) return verdict;
+  // Usually a refusal is right, and a shift of the Hessian cheaper than to ask another; after several it is doubtful.
+  const bool is_refused = verdict == Verdict::wrong_inertia;
+  refusals_ = is_refused ? refusals_ + 1 : 0;
+  if (is_refused && refusals_ % refusals_to_doubt != 0) return verdict;
   if (verdict == Verdict::solved && unlooked_ > 0) {
     --unlooked_;
     return verdict;
@@ -45,6 +51,12 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::Ve
   residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
   double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
   if (&kkt == fast_.get() && excess <= to_spare) unlooked_ = steps_to_pass;
+  if (excess > tolerable) {
+    // The elimination by intervals learns from every system (its terminal weights): once more, from nothing.
+    if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != Verdict::solved) return false;
+    residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
+    excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
+  }
   for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
     primal_correction_.resizeLike(primal_step);
     multiplier_correction_.resizeLike(multiplier_step);

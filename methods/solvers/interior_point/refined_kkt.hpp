@@ -38,6 +38,7 @@ class RefinedKkt : public KktSystem {
   std::unique_ptr<KktSystem> robust_;  // once it is needed
   NewtonResidual residual_;
   double accuracy_;
+  int refusals_ = 0;  // one after the other
   int unlooked_ = 0;  // steps that need not be looked at
   Eigen::VectorXd primal_correction_;
   Eigen::VectorXd multiplier_correction_;

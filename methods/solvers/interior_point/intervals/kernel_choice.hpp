@@ -22,8 +22,10 @@ SegmentKernel choose(const Shape& shape) {
 }
 
 inline SegmentKernel choose_kernel(const Shape& shape) {
-  // n = m = 1 and 2, DMOC and collocation, with a fixed horizon: midpoint.
+  // The midpoint rule for n = 1 and 2 configurations, DMOC and collocation; for one control also with a free horizon.
+  // With n = 3 a step no longer fits the registers, and to know the sizes gains nothing.
   return choose<FixedShape<2, 2, 0, 1, 2>, FixedShape<4, 0, 0, 1, 4>,  //
                 FixedShape<2, 2, 0, 2, 2>, FixedShape<4, 0, 0, 2, 4>,  //
-                FixedShape<1, 1, 0, 1, 1>, FixedShape<2, 0, 0, 1, 2>>(shape);
+                FixedShape<1, 1, 0, 1, 1>, FixedShape<2, 0, 0, 1, 2>,  //
+                FixedShape<2, 2, 1, 1, 2>, FixedShape<4, 0, 1, 1, 4>>(shape);
 }
