@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <lapacke.h>
 
+#include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::interior_point {
@@ -18,9 +19,6 @@ constexpr Eigen::Index the_tangential_step = 1;
 constexpr Eigen::Index steps = 2;
 
 lapack_int lapack(std::size_t number) { return static_cast<lapack_int>(number); }
-
-/// Eigen's allFinite() looks at one number at a time.
-bool is_finite(const Eigen::VectorXd& vector) { return (vector.array() * 0.0).sum() == 0.0; }
 
 }  // namespace
 
