@@ -159,7 +159,7 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
   }
   EXPECT_GT(minima, 1400);
   EXPECT_LE(ill_conditioned, minima / 50);  // 15 to 17 of 1,621, by how an instruction set rounds
-  EXPECT_LE(fallbacks, 5);  // none, but for another processor's rounding
+  EXPECT_LE(fallbacks, 5);                  // none, but for another processor's rounding
 }
 
 /// How many shifts of the Hessian too many a solver would try that raises it until the system is solved, with one
