@@ -22,7 +22,6 @@ namespace dmocbench {
 namespace {
 
 constexpr std::size_t most_threads = 1024;
-constexpr std::size_t most_parts = 64;
 
 /// Threads that wait for work.
 class WorkerTeam {

@@ -10,9 +10,11 @@ namespace dmocbench {
 /// Throws `Error` unless 1 <= count <= 1024.
 void set_thread_count(std::size_t count);
 
-/// Fewer intervals than this are not worth waking another thread for: measured, a tape takes some 10 µs and a sweep of
-/// the interior-point method some 100 µs for them, waking one some 10 µs.
+/// Fewer intervals than this are one part: a tape takes 25 to 65 µs for them and a sweep of the interior-point method
+/// some 200 µs (measured), which should be well above what it takes to wake another thread (not measured).
 inline constexpr std::size_t intervals_per_part = 4096;
+/// More parts than this there never are.
+inline constexpr std::size_t most_parts = 64;
 /// Parts that a number of intervals is cut into. It does not depend on the number of threads, so that no result does.
 [[nodiscard]] std::size_t part_count(std::size_t intervals, std::size_t per_part = intervals_per_part) noexcept;
 /// Where part `part` of `parts` begins among `count` things; a multiple of `unit`, but for the end.

@@ -13,14 +13,13 @@ namespace dmocbench::interior_point {
 
 /// Entries of a vector that are worth a thread of their own.
 inline constexpr std::size_t entries_per_stretch = 65536;
-inline constexpr std::size_t most_stretches = 64;
 
 /// Calls `use(stretch, begin, length)` for stretches that cover 0 .. size - 1, those of a long vector by several
 /// threads. How many there are depends on the size alone.
 template <class Use>
 void for_stretches(Eigen::Index size, const Use& use) {
   const auto count = static_cast<std::size_t>(size);
-  const std::size_t stretches = std::min(part_count(count, entries_per_stretch), most_stretches);
+  const std::size_t stretches = part_count(count, entries_per_stretch);
   for_each_part(stretches, [&](std::size_t s) {
     const auto begin = static_cast<Eigen::Index>(begin_of_part(s, stretches, count));
     const auto end = static_cast<Eigen::Index>(begin_of_part(s + 1, stretches, count));
@@ -31,7 +30,7 @@ void for_stretches(Eigen::Index size, const Use& use) {
 /// The sum, in order, of what `part(begin, length)` is on stretches.
 template <class Part>
 double sum_of_stretches(Eigen::Index size, const Part& part) {
-  std::array<double, most_stretches> sums{};
+  std::array<double, most_parts> sums{};
   for_stretches(size, [&](std::size_t s, Eigen::Index begin, Eigen::Index length) { sums[s] = part(begin, length); });
   double sum = 0.0;
   for (const double term : sums) sum += term;
@@ -40,7 +39,7 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
 
 /// Largest magnitude, 0 of an empty vector; of no use where a number is not finite.
 inline double largest_of(const Eigen::VectorXd& vector) {
-  std::array<double, most_stretches> largest{};
+  std::array<double, most_parts> largest{};
   for_stretches(vector.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
     largest[s] = length > 0 ? vector.segment(begin, length).lpNorm<Eigen::Infinity>() : 0.0;
   });

@@ -29,9 +29,8 @@ Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   const Verdict verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
   // Usually a refusal is right, and a shift of the Hessian cheaper than to ask another; after several it is doubtful.
-  const bool is_refused = verdict == Verdict::wrong_inertia;
-  refusals_ = is_refused ? refusals_ + 1 : 0;
-  if (is_refused && refusals_ % refusals_to_doubt != 0) return verdict;
+  refusals_ = verdict == Verdict::wrong_inertia ? refusals_ + 1 : 0;
+  if (refusals_ % refusals_to_doubt != 0) return verdict;
   if (verdict == Verdict::solved && unlooked_ > 0) {
     --unlooked_;
     return verdict;
@@ -50,8 +49,9 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::Ve
                         const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
   double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
-  if (&kkt == fast_.get() && excess <= to_spare) unlooked_ = steps_to_pass;
-  if (excess > tolerable) {
+  const bool is_fast = &kkt == fast_.get();
+  if (is_fast && excess <= to_spare) unlooked_ = steps_to_pass;
+  if (is_fast && excess > tolerable) {
     // The elimination by intervals learns from every system (its terminal weights): once more, from nothing.
     if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != Verdict::solved) return false;
     residual_.compute(matrix, slope, rows, primal_step, multiplier_step);

@@ -12,7 +12,8 @@ namespace dmocbench::interior_point {
 
 /// A fast way to solve Newton systems, made safe: what its steps leave of the system is computed, and solved for again
 /// (iterative refinement), and where that does not help a sparse factorisation with pivoting (sparse_kkt.hpp) solves
-/// the system instead.
+/// the system instead. So it does where the fast one has refused several systems one after the other for their inertia:
+/// its test may be stricter than the truth.
 ///
 /// To compute what is left takes a quarter of the time of the elimination. After a step that was much better than it
 /// has to be the next few are not looked at: their matrices are little different, and Newton's method, whose right-hand
