@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #define DMOCBENCH_INLINE inline
+#define DMOCBENCH_ANY_SIZE 0
 
 namespace dmocbench::interior_point::counting {
 

@@ -10,6 +10,7 @@
 
 #include "bench/compare/comparison.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
@@ -101,18 +102,11 @@ TEST(Compare, TellsTheSameInTextAndTable) {
   EXPECT_NE(comparison_text(comparisons).find("1 slower"), std::string::npos);
 }
 
-/// JSON files as Google Benchmark writes them, in a folder that goes with the test.
-class CompareFiles : public testing::Test {
+/// JSON files as Google Benchmark writes them.
+class CompareFiles : public tests::InTemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "dmocbench.XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::filesystem::path file(const std::string& content, const std::string& name = "run.json") const {
-    std::filesystem::path path = folder_ / name;
+    std::filesystem::path path = folder() / name;
     std::ofstream(path) << content;
     return path;
   }
@@ -126,9 +120,6 @@ class CompareFiles : public testing::Test {
              "real_time": {}, "cpu_time": {}, "time_unit": "{}", "items_per_second": 3.5{}}})",
         2.0 * time, time, unit, more);
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 TEST_F(CompareFiles, GiveEveryRepetition) {

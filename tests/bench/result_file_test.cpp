@@ -10,25 +10,18 @@
 #include <sys/resource.h>
 
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
 
 using tests::expect_error_naming;
 
-/// An empty folder that goes with the test.
-class ResultFile : public testing::Test {
+class ResultFile : public tests::InTemporaryFolder {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "dmocbench.XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] long entries() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+    return std::distance(std::filesystem::directory_iterator(folder()), std::filesystem::directory_iterator());
   }
-  std::filesystem::path folder_;
 };
 
 /// While it lives, files cannot grow beyond a size: writing fails half way, as on a full disk.
@@ -54,56 +47,56 @@ class FullDisk {
 };
 
 TEST_F(ResultFile, ComesBackAsWritten) {
-  const std::string content("a,b\n1,\0\xff\r\n", 12);
-  write_file(folder_ / "table.csv", content);
-  EXPECT_EQ(read_file(folder_ / "table.csv"), content);
+  const std::string content("a,b\n1,\0\xff\r\n", 10);
+  write_file(folder() / "table.csv", content);
+  EXPECT_EQ(read_file(folder() / "table.csv"), content);
   EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(ResultFile, ReplacesAnOlderOne) {
-  write_file(folder_ / "table.csv", "a long first version\n");
-  write_file(folder_ / "table.csv", "short\n");
-  EXPECT_EQ(read_file(folder_ / "table.csv"), "short\n");
+  write_file(folder() / "table.csv", "a long first version\n");
+  write_file(folder() / "table.csv", "short\n");
+  EXPECT_EQ(read_file(folder() / "table.csv"), "short\n");
   EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(ResultFile, OnAFullDiskTheOlderOneStaysAndNothingElse) {
-  write_file(folder_ / "table.csv", "older\n");
+  write_file(folder() / "table.csv", "older\n");
   {
     const FullDisk disk(4096);
     expect_error_naming({"cannot write", "table.csv"},
-                        [&] { write_file(folder_ / "table.csv", std::string(1 << 20, 'x')); });
+                        [&] { write_file(folder() / "table.csv", std::string(1 << 20, 'x')); });
   }
-  EXPECT_EQ(read_file(folder_ / "table.csv"), "older\n");
+  EXPECT_EQ(read_file(folder() / "table.csv"), "older\n");
   EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(ResultFile, InAFolderThatIsNotThereIsRefused) {
-  expect_error_naming({"cannot write", "table.csv"}, [&] { write_file(folder_ / "none" / "table.csv", "a\n"); });
+  expect_error_naming({"cannot write", "table.csv"}, [&] { write_file(folder() / "none" / "table.csv", "a\n"); });
   EXPECT_EQ(entries(), 0);
 }
 
 TEST_F(ResultFile, OntoAFolderIsRefusedAndLeavesNothing) {
-  std::filesystem::create_directories(folder_ / "table.csv" / "inner");
-  expect_error_naming({"cannot write", "table.csv"}, [&] { write_file(folder_ / "table.csv", "a\n"); });
+  std::filesystem::create_directories(folder() / "table.csv" / "inner");
+  expect_error_naming({"cannot write", "table.csv"}, [&] { write_file(folder() / "table.csv", "a\n"); });
   EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(ResultFile, ThatIsNotThereOrIsAFolderCannotBeRead) {
-  expect_error_naming({"cannot read", "none.csv"}, [&] { static_cast<void>(read_file(folder_ / "none.csv")); });
-  expect_error_naming({"cannot read", folder_.string()}, [&] { static_cast<void>(read_file(folder_)); });
+  expect_error_naming({"cannot read", "none.csv"}, [&] { static_cast<void>(read_file(folder() / "none.csv")); });
+  expect_error_naming({"cannot read", folder().string()}, [&] { static_cast<void>(read_file(folder())); });
 }
 
 TEST_F(ResultFile, FoldersAreMadeWithTheirParents) {
-  prepare_folder(folder_ / "a" / "b");
-  prepare_folder(folder_ / "a" / "b");
-  EXPECT_TRUE(std::filesystem::is_directory(folder_ / "a" / "b"));
+  prepare_folder(folder() / "a" / "b");
+  prepare_folder(folder() / "a" / "b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder() / "a" / "b"));
 }
 
 TEST_F(ResultFile, AFileInTheWayOfAFolderIsNamed) {
-  write_file(folder_ / "results", "");
-  expect_error_naming({"results"}, [&] { prepare_folder(folder_ / "results"); });
-  expect_error_naming({"inner"}, [&] { prepare_folder(folder_ / "results" / "inner"); });
+  write_file(folder() / "results", "");
+  expect_error_naming({"results"}, [&] { prepare_folder(folder() / "results"); });
+  expect_error_naming({"inner"}, [&] { prepare_folder(folder() / "results" / "inner"); });
 }
 
 }  // namespace

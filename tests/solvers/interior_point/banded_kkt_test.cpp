@@ -15,15 +15,16 @@
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/system_choice.hpp"
 
 namespace dmocbench::interior_point {
 namespace {
 
 using tests::DenseKkt;
 using tests::KktNumbers;
-using tests::RandomPoints;
 using tests::RandomShape;
 using tests::RandomStructuredProgram;
+using tests::SystemChoice;
 
 /// A program of every kind of place, unknown and row, one after the other as the seed counts.
 RandomShape shape_of(unsigned seed) {
@@ -45,25 +46,6 @@ RandomShape shape_of(unsigned seed) {
   return shape;
 }
 
-KktNumbers numbers_of(RandomStructuredProgram& program, unsigned seed) {
-  RandomPoints random(seed);
-  const auto n = static_cast<Eigen::Index>(program.variable_count());
-  const auto m = static_cast<Eigen::Index>(program.constraint_count());
-  KktNumbers numbers;
-  numbers.hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
-  numbers.jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  program.hessian(Eigen::VectorXd::Zero(n), 1.0, Eigen::VectorXd::Zero(m), numbers.hessian);
-  program.jacobian(Eigen::VectorXd::Zero(n), numbers.jacobian);
-  numbers.diagonal = random.vector(n, 0.0, 0.5);
-  numbers.softness.setZero(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    if (program.constraint_lower()[i] != program.constraint_upper()[i]) numbers.softness[i] = random.number(0.1, 1.0);
-  }
-  numbers.slope = random.vector(n);
-  numbers.rows = random.vector(m);
-  return numbers;
-}
-
 TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
   int solved = 0;
   int with_border = 0;
@@ -72,7 +54,7 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     const RandomShape shape = shape_of(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    const KktNumbers numbers = numbers_of(program, seed);
+    const KktNumbers numbers = SystemChoice(seed).numbers(program, shape.hessian);
     const DenseKkt dense(program, numbers);
     const DenseKkt::Inertia inertia = dense.inertia();
     if (!(inertia.rank > 1e-9) || !(inertia.smallest > 1e-9 * inertia.largest)) continue;
@@ -106,7 +88,7 @@ TEST(BandedKkt, SeesCurvatureDownwardsWhereTheSlopePointsThere) {
   RandomShape shape;
   shape.intervals = 8;
   RandomStructuredProgram program(shape, 1);
-  KktNumbers numbers = numbers_of(program, 1);
+  KktNumbers numbers = SystemChoice(1).numbers(program, shape.hessian);
   std::string why;
   const auto kkt = BandedKkt::make(program, why);
   ASSERT_NE(kkt, nullptr) << why;
