@@ -68,7 +68,7 @@ Point BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
 
 void BarrierProgram::balance_bounds(double mu, Point& point) const {
   Eigen::VectorXd slope;
-  slope_of_lagrangian(point.multipliers, slope);
+  static_cast<void>(slope_of_lagrangian(point.multipliers, slope));  // whether it is finite is asked where it is used
   const auto balance = [mu](const Eigen::VectorXd& vector, const BoundList& bounds, double side,
                             const Eigen::VectorXd& of_vector, Eigen::VectorXd& z) {
     for (std::size_t b = 0; b < bounds.entries.size(); ++b) {
@@ -92,22 +92,21 @@ bool BarrierProgram::evaluate(const Eigen::VectorXd& x, double& objective, Eigen
   return std::isfinite(objective) && is_finite(rows);
 }
 
-bool BarrierProgram::differentiate(const Eigen::VectorXd& x) {
+void BarrierProgram::differentiate(const Eigen::VectorXd& x) {
   timed([&] {
     program_.gradient(x, gradient_);
     program_.jacobian(x, jacobian_);
   });
-  return is_finite(gradient_) && is_finite(jacobian_);
 }
 
-bool BarrierProgram::evaluate_hessian(const Point& point) {
+void BarrierProgram::evaluate_hessian(const Point& point) {
   timed([&] { program_.hessian(point.x, 1.0, point.multipliers, hessian_); });
-  return is_finite(hessian_);
 }
 
-void BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
+bool BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
   copy_to(result, gradient_);
   add_transposed_product(jacobian_runs_, jacobian_, multipliers, result);
+  return is_finite(result);
 }
 
 double BarrierProgram::barrier(const Point& point) const {

@@ -51,17 +51,17 @@ class BarrierProgram {
 
   /// φ and a at x; false if a number is not finite.
   [[nodiscard]] bool evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows);
-  /// Gradient and Jacobian at x; false if a number is not finite.
-  [[nodiscard]] bool differentiate(const Eigen::VectorXd& x);
-  /// Hessian of φ + λᵀa; false if a number is not finite.
-  [[nodiscard]] bool evaluate_hessian(const Point& point);
+  /// Gradient and Jacobian at x.
+  void differentiate(const Eigen::VectorXd& x);
+  /// Hessian of φ + λᵀa.
+  void evaluate_hessian(const Point& point);
 
   [[nodiscard]] const Eigen::VectorXd& gradient() const noexcept { return gradient_; }
   [[nodiscard]] const Eigen::VectorXd& jacobian() const noexcept { return jacobian_; }
   [[nodiscard]] const Eigen::VectorXd& hessian() const noexcept { return hessian_; }
 
-  /// result = ∇φ + Jᵀ multipliers.
-  void slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const;
+  /// result = ∇φ + Jᵀ multipliers; false if a number is not finite, as one of the gradient or the Jacobian then is.
+  [[nodiscard]] bool slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const;
 
   /// -Σ ln(distances), to be multiplied by μ.
   [[nodiscard]] double barrier(const Point& point) const;

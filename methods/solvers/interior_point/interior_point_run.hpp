@@ -37,7 +37,8 @@ class InteriorPointRun {
   [[nodiscard]] std::optional<Status> iterate();
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool begin(const Eigen::VectorXd& start);
-  [[nodiscard]] bool differentiate();
+  /// From the derivatives at the point; false if one of them is not finite.
+  [[nodiscard]] bool find_slope();
 
   // Convergence.
   [[nodiscard]] Residuals residuals(double mu) const;
@@ -50,6 +51,7 @@ class InteriorPointRun {
   [[nodiscard]] double largest_bound_step(const Direction& direction, double share) const;
   [[nodiscard]] bool search(const Direction& direction);
   [[nodiscard]] bool try_point(const Direction& direction, double length, double slope, double reference_length);
+  [[nodiscard]] bool is_worth_correcting(double violation_there) const;
   [[nodiscard]] bool correct_second_order(double slope, double length);
   void move_bounds(const Direction& direction, double length);
   void keep_bounds_near_barrier();
@@ -59,7 +61,7 @@ class InteriorPointRun {
   // Where no step is acceptable.
   [[nodiscard]] std::optional<Status> restore();
   [[nodiscard]] bool step_towards_rows();
-  [[nodiscard]] std::optional<Status> begin_anew();
+  void begin_anew();
 
   void report(const char* kind, double length) const;
   void measure();  // violation and function at point_

@@ -8,12 +8,23 @@
 
 namespace dmocbench::interior_point {
 
+double InertiaShift::third_of_last() const noexcept {
+  constexpr double smallest = 1e-20;
+  return std::max(smallest, last_ / 3.0);
+}
+
+void InertiaShift::begin() noexcept { shift_ = grows_ ? third_of_last() : 0.0; }
+
+void InertiaShift::keep() noexcept {
+  grows_ = last_ > 0.0 && shift_ > third_of_last();
+  if (shift_ > 0.0) last_ = shift_;
+}
+
 bool InertiaShift::raise() noexcept {
   constexpr double first = 1e-4;
-  constexpr double smallest = 1e-20;
   constexpr double largest = 1e20;
   if (shift_ == 0.0) {
-    shift_ = last_ == 0.0 ? first : std::max(smallest, last_ / 3.0);
+    shift_ = last_ == 0.0 ? first : third_of_last();
   } else {
     shift_ *= last_ == 0.0 ? 100.0 : 8.0;
   }
@@ -82,7 +93,8 @@ bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& s
   fill_barrier(point, mu, slope);
   shift_.begin();
   while (solve(program_.hessian(), rows, direction) != Verdict::solved) {
-    if (!shift_.raise()) return false;
+    // A number that is not finite shows in the verdict; to look for it before every step would take as long as a sweep.
+    if (!is_finite(program_.hessian()) || !shift_.raise()) return false;
   }
   shift_.keep();
   complete(point, mu, direction);
@@ -104,7 +116,7 @@ bool NewtonStep::towards_rows(const Point& point, double mu, const Eigen::Vector
   add_nearness(point.x, program_.x_upper(), mu, diagonal_);
   add_nearness(point.s, program_.s_lower(), mu, slack_);
   add_nearness(point.s, program_.s_upper(), mu, slack_);
-  shift_.begin();
+  shift_.clear();
   const Verdict verdict = solve(no_hessian_, rows, direction);
   diagonal_.setZero();
   if (verdict != Verdict::solved) return false;
@@ -126,7 +138,7 @@ bool NewtonStep::estimate_multipliers(Point& point) {
   subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
   diagonal_.setOnes();
   slack_.setOnes();
-  shift_.begin();
+  shift_.clear();
   const Verdict verdict = solve(no_hessian_, Eigen::VectorXd::Zero(point.s.size()), direction);
   diagonal_.setZero();
   if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return false;

@@ -20,21 +20,25 @@ struct Direction {
 
 /// How the Hessian is made positive definite where the equalities hold: by a multiple of the unit matrix that is raised
 /// until the inertia is right, starting from a third of what was last needed (Wächter and Biegler 2006, Algorithm IC).
+/// Where a third did not do the last time, none will not do this time and is not tried first.
 class InertiaShift {
  public:
-  /// Before a new system.
-  void begin() noexcept { shift_ = 0.0; }
+  /// Before a new system with the program's Hessian.
+  void begin() noexcept;
+  /// Before one that needs no shift.
+  void clear() noexcept { shift_ = 0.0; }
   [[nodiscard]] double value() const noexcept { return shift_; }
   /// The next larger one; false beyond the largest.
   [[nodiscard]] bool raise() noexcept;
   /// This one was enough.
-  void keep() noexcept {
-    if (shift_ > 0.0) last_ = shift_;
-  }
+  void keep() noexcept;
 
  private:
+  [[nodiscard]] double third_of_last() const noexcept;
+
   double shift_ = 0.0;
   double last_ = 0.0;
+  bool grows_ = false;  // the last system needed more than a third of what the one before it needed
 };
 
 /// Newton's step for the conditions of the barrier problem, with slacks and multipliers of bounds eliminated.

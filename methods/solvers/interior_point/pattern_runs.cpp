@@ -4,26 +4,44 @@
 
 namespace dmocbench::interior_point {
 
+namespace {
+
+/// How many of `size` >= 1 numbers, from the first on, are each by `step` larger than the one before.
+std::size_t length_of_progression(const int* numbers, std::size_t size, int step) {
+  constexpr std::size_t at_once = 64;
+  std::size_t length = 1;
+  const auto deviates = [&](std::size_t i) { return numbers[i] - numbers[i - 1] - step; };
+  while (length + at_once <= size) {
+    int deviation = 0;
+    for (std::size_t i = length; i < length + at_once; ++i) deviation |= deviates(i);
+    if (deviation != 0) break;
+    length += at_once;
+  }
+  while (length < size && deviates(length) == 0) ++length;
+  return length;
+}
+
+}  // namespace
+
 std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern) {
   std::vector<PatternRun> runs;
   const std::vector<int>& rows = pattern.rows;
   const std::vector<int>& columns = pattern.columns;
   const auto is_step = [](int step) { return step == 0 || step == 1; };
   for (std::size_t begin = 0; begin < pattern.size();) {
-    std::size_t end = begin + 1;
+    std::size_t length = 1;
     int row_step = 0;
     int column_step = 0;
-    if (end < pattern.size() && is_step(rows[end] - rows[begin]) && is_step(columns[end] - columns[begin])) {
-      row_step = rows[end] - rows[begin];
-      column_step = columns[end] - columns[begin];
-      while (end < pattern.size() && rows[end] == rows[end - 1] + row_step &&
-             columns[end] == columns[end - 1] + column_step) {
-        ++end;
-      }
+    const std::size_t rest = pattern.size() - begin;
+    if (rest > 1 && is_step(rows[begin + 1] - rows[begin]) && is_step(columns[begin + 1] - columns[begin])) {
+      row_step = rows[begin + 1] - rows[begin];
+      column_step = columns[begin + 1] - columns[begin];
+      const std::size_t in_rows = length_of_progression(rows.data() + begin, rest, row_step);
+      length = length_of_progression(columns.data() + begin, in_rows, column_step);
     }
     runs.push_back({static_cast<Eigen::Index>(begin), rows[begin], columns[begin], row_step, column_step,
-                    static_cast<Eigen::Index>(end - begin)});
-    begin = end;
+                    static_cast<Eigen::Index>(length)});
+    begin += length;
   }
   return runs;
 }

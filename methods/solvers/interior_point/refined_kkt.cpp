@@ -15,7 +15,7 @@ constexpr double worthwhile = 0.3;
 constexpr double tolerable = 1e5;
 /// An error this much smaller than wanted lets the next steps pass, so many of them.
 constexpr double to_spare = 1e-2;
-constexpr int steps_to_pass = 3;
+constexpr int steps_to_pass = 7;
 /// Shifts that are raised in vain before the sparse factorisation is asked: where the Hessian needs one, two or three
 /// usually do.
 constexpr int refusals_to_doubt = 4;

@@ -1,5 +1,6 @@
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
+#include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::interior_point {
@@ -35,6 +36,7 @@ Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) c
 
 Verdict SparseKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                          Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return Verdict::singular;
   if (!factorisation_.factorise(lower_triangle(matrix))) return Verdict::singular;
   if (factorisation_.negative_eigenvalues() != rows.size()) return Verdict::wrong_inertia;
   Eigen::VectorXd right_hand_side(slope.size() + rows.size());
