@@ -1,31 +1,12 @@
-// A problem of one's own: a pendulum swings up in 4 s with least torque. Solved by DMOC and Ipopt.
+// Solves the pendulum by DMOC and Ipopt, and writes its motion.
+#include "pendulum.hpp"
+
 #include <fstream>
 #include <iostream>
-#include <numbers>
 
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
-
-using namespace dmocbench;
-
-struct Pendulum final : Problem {  // θ = 0 hangs down; mass 1 kg, length 1 m
-  std::string name() const override { return "pendulum"; }
-  std::string description() const override { return "a pendulum swings up with least torque"; }
-  std::string source() const override { return "an example"; }
-  std::vector<std::string> configuration_names() const override { return {"theta"}; }
-  std::vector<std::string> control_names() const override { return {"torque"}; }
-  Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + 9.81 * cos(x.q[0]); }
-  ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  BoundaryState initial_state() const override { return at_rest(0.0); }
-  BoundaryState final_state() const override { return at_rest(std::numbers::pi); }
-  Bounds control_bounds() const override {
-    return {Eigen::VectorXd::Constant(1, -6.0), Eigen::VectorXd::Constant(1, 6.0)};
-  }
-  double horizon() const override { return 4.0; }
-  static BoundaryState at_rest(double theta) { return {Eigen::VectorXd::Constant(1, theta), Eigen::VectorXd::Zero(1)}; }
-};
 
 int main() {
   const Pendulum problem;

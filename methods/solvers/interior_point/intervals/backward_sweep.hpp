@@ -112,11 +112,11 @@ struct Workspace {
 };
 
 /// Eliminates the steps `begin` .. `end` - 1 of all segments, last to first, in front of `rest`. A pivot that fails
-/// ends it: nobody reads what would follow. Not inlined: both sweeps use it, and it is long.
+/// ends it: nobody reads what would follow. `ahead` as in `collect`. Not inlined: both sweeps use it, and it is long.
 template <class S>
 [[gnu::noinline]] void eliminate_steps(const EliminationPlan& plan, const NewtonArrays& arrays,
-                                       const SegmentGroup& group, int begin, int end, const Workspace<S>& workspace,
-                                       Rest<S>& rest) {
+                                       const SegmentGroup& group, int begin, int end, int ahead,
+                                       const Workspace<S>& workspace, Rest<S>& rest) {
   const S shape = shape_of<S>(plan);
   const int local_size = LocalBlocks<S>{shape}.size();
   const int record_size = RecordBlocks<S>{shape}.size();
@@ -126,7 +126,7 @@ template <class S>
   for (int block = blocks - 1; block >= 0 && smallest_of(*work.rest.pivots_hold) > 0.0; --block) {
     const int first = begin + block * block_steps;
     const int count = first + block_steps <= end ? block_steps : end - first;
-    collect(plan, arrays, group, first, count, workspace.locals, local_size);
+    collect(plan, arrays, group, first, count, ahead, workspace.locals, local_size);
     for (int step = first + count - 1; step >= first; --step) {
       const bool is_last = step == group.steps - 1;
       const Lanes::Mask active = active_at(group, step);
@@ -163,7 +163,8 @@ void sweep_backward(const EliminationPlan& plan, const NewtonArrays& arrays, Seg
       Lanes* const checkpoint = checkpoint_of(shape, group, chunk);
       for (int i = 0; i < RestSizes<S>{shape}.value(); ++i) checkpoint[i] = rest.value[i];
     }
-    eliminate_steps(plan, arrays, group, chunk * group.recorded_steps, end_of_chunk(group, chunk), workspace, rest);
+    eliminate_steps(plan, arrays, group, chunk * group.recorded_steps, end_of_chunk(group, chunk),
+                    chunks > 1 ? -block_steps : 0, workspace, rest);
   }
   group.pivots_hold = smallest_of(*rest.pivots_hold) > 0.0;
   group.smallest_ratio = smallest_of(*rest.smallest_ratio);

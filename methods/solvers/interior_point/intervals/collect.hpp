@@ -38,11 +38,19 @@ inline void read_block(const double* array, const SegmentGroup& group, int begin
   }
 }
 
-/// Fills the local blocks of some steps; entries that nothing is collected for are left alone.
+/// Asks for the cache lines that hold some steps of every lane. These are hundreds of places in memory, more than the
+/// processor itself follows. An address outside of the array does no harm.
+inline void fetch(const double* array, const SegmentGroup& group, int step) {
+  for (int lane = 0; lane < lane_count; ++lane) __builtin_prefetch(array + group.first[lane] + step);
+}
+
+/// Fills the local blocks of some steps; entries that nothing is collected for are left alone. What is collected next is
+/// `ahead` steps from here; 0 if it is in the cache anyway.
 inline void collect(const EliminationPlan& plan, const NewtonArrays& arrays, const SegmentGroup& group, int begin,
-                    int count, Lanes* locals, int local_size) {
+                    int count, int ahead, Lanes* locals, int local_size) {
   Lanes block[8];
   for (const Collected& item : plan.collected) {
+    if (ahead != 0) fetch(arrays.of(item.source) + item.first, group, begin + ahead);
     read_block(arrays.of(item.source) + item.first, group, begin, count, item.from_before ? 1 : 0, block);
     if (item.adds) {
       for (int step = 0; step < count; ++step) block[step] += locals[step * local_size + item.slot];

@@ -108,7 +108,7 @@ void sweep_forward(const EliminationPlan& plan, const NewtonArrays& arrays, cons
       start_rest(shape, arrays.terminal_weights, rest);
       const Lanes* const checkpoint = checkpoint_of(shape, group, chunk);
       for (int i = 0; i < RestSizes<S>{shape}.value(); ++i) rest.value[i] = checkpoint[i];
-      eliminate_steps(plan, arrays, group, begin, end, workspace, rest);
+      eliminate_steps(plan, arrays, group, begin, end, group.recorded_steps, workspace, rest);
     }
     substitute_steps(plan, group, begin, end, workspace.outputs, work, primal_step, multiplier_step);
   }
