@@ -33,7 +33,7 @@ differ(column) = words(distinct("profile_summary", column, "", "")) > 1
 label_of(i) = method_label(entry(where_of(i), "method")).variant_label(i)
 variant_label(i) = (differ("tableau") ? ", ".entry(where_of(i), "tableau") : "")\
     .(differ("stages") ? ", s = ".entry(where_of(i), "stages") : "")\
-    .(differ("solver") ? ", ".entry(where_of(i), "solver") : "")
+    .(differ("solver") ? ", ".solver_label(entry(where_of(i), "solver")) : "")
 plateau_label(i) = sprintf("%s\n%d of %d%s", method_label(entry(where_of(i), "method")), successes(i), instances,\
     variant_label(i))
 left_out = count < words(all_competitors)\

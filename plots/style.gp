@@ -54,6 +54,7 @@ described(problem, column) = system(sprintf("awk -F, '\
     column, problem, plots))
 plain_label(problem) = system("echo '".problem."' | awk '\
     { gsub(/_/, \" \"); print toupper(substr($0, 1, 1)) substr($0, 2) }'")
+solver_label(solver) = solver eq "interior_point" ? "interior point" : solver
 or_else(text, default) = strlen(text) > 0 ? text : default
 problem_label(problem) = or_else(described(problem, "label"), plain_label(problem))
 with_unit(text, unit) = strlen(unit) == 0 ? text\
