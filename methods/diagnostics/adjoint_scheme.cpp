@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
@@ -39,9 +38,10 @@ class AdjointEquations {
                        trajectory.stage_u.row(stage).transpose(), trajectory.stage_times[stage], values_);
     const Eigen::VectorXd psi_q = trajectory.stage_psi_q.row(stage).transpose();
     const Eigen::VectorXd psi_p = trajectory.stage_psi_p.row(stage).transpose();
-    const Eigen::FullPivLU<Eigen::MatrixXd> mass(square(2));
-    if (!mass.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-    slope_p_ = -mass.solve(values_.segment(n_, n_) + psi_q + square(1).transpose() * psi_p);
+    const std::optional<Eigen::VectorXd> slope_p =
+        solve_if_invertible(square(2), -(values_.segment(n_, n_) + psi_q + square(1).transpose() * psi_p));
+    if (!slope_p) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    slope_p_ = *slope_p;
     slope_q_ = -(values_.head(n_) + square(0).transpose() * psi_p + square(3).transpose() * slope_p_);
     cost_by_control_ = values_.segment(2 * n_, m_);
     control_ = cost_by_control_ + values_.tail(n_ * m_).reshaped(n_, m_).transpose() * psi_p;
@@ -76,7 +76,8 @@ void raise_half(const Eigen::VectorXd& left, const Eigen::VectorXd& right, const
                 const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double& step,
                 double& stage) {
   raise(step, (right - left - slopes * b).lpNorm<Eigen::Infinity>());
-  raise(stage, ((stages - slopes * a.transpose()).colwise() - left).lpNorm<Eigen::Infinity>());
+  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  raise(stage, ((stages - slopes.lazyProduct(a.transpose())).colwise() - left).lpNorm<Eigen::Infinity>());
 }
 
 double size_of(const Eigen::MatrixXd& values) {

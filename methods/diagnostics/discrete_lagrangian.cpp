@@ -1,6 +1,7 @@
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 
 #include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/dmoc_element.hpp"
 
@@ -99,7 +100,7 @@ DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& 
   const LongVector work_of_slopes = take(interior, 1);
   // W[∂Q/∂Q̇]·dQ̇/dq with dQ̇/dq = -(∂R/∂Q̇)⁻¹ ∂R/∂q: one solve with the transposed matrix serves both ends.
   const LongMatrix rows_by_slopes = take(interior, interior);
-  const LongVector adjoint = rows_by_slopes.transpose().partialPivLu().solve(work_of_slopes);
+  const LongVector adjoint = solve_square(LongMatrix(rows_by_slopes.transpose()), work_of_slopes);
   const LongMatrix rows_by_left = take(interior, n_);
   const LongMatrix rows_by_right = take(interior, n_);
   objects.left_force -= rows_by_left.transpose() * adjoint;

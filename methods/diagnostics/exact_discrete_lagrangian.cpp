@@ -1,18 +1,17 @@
 #include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 
-#include <Eigen/LU>
-#include <boost/numeric/odeint.hpp>
+#include <algorithm>
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/adaptive_integration.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-namespace odeint = boost::numeric::odeint;
 
 using PhaseVector = std::vector<long double>;
 
@@ -81,17 +80,19 @@ void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& 
   const auto block = [&](Eigen::Index first, Eigen::Index columns) {
     return Eigen::Map<const LongMatrix>(values.data() + first, n_, columns);
   };
-  const Eigen::PartialPivLU<LongMatrix> mass(block(n_, n_));
+  const LongMatrix mass = block(n_, n_);
   x_dot.q = x.v;
-  x_dot.v = -mass.solve(block(0, 1));
+  x_dot.v = -solve_square(mass, LongVector(block(0, 1)));
   std::copy(x_dot.v.begin(), x_dot.v.end(), inputs.begin() + 2 * n_);
   values = replay<long double>(equation_, std::span<const long double>(inputs));
   x_dot.q_variation = x.v_variation;
-  x_dot.v_variation =
-      -mass.solve(block(n_ + n_ * n_, n_) * x.q_variation + block(n_ + 2 * n_ * n_, n_) * x.v_variation);
+  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  const LongMatrix residual_variation =
+      block(n_ + n_ * n_, n_).lazyProduct(x.q_variation) + block(n_ + 2 * n_ * n_, n_).lazyProduct(x.v_variation);
+  x_dot.v_variation = -solve_square(mass, residual_variation);
   const Eigen::Index behind = n_ + 3 * n_ * n_;
   x_dot.action = values[static_cast<std::size_t>(behind)];
-  x_dot.work = x.q_variation.transpose() * block(behind + 1, 1);
+  x_dot.work = x.q_variation.transpose() * block(behind + 1, 1).col(0);
 }
 
 ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVector& v_0, long double h) const {
@@ -112,21 +113,14 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
   interval.q_0 = q_0;
   interval.v_0 = v_0;
   interval.objects.left_momentum = momentum(0.0L);
-  using Stepper = odeint::runge_kutta_fehlberg78<PhaseVector, long double, PhaseVector, long double>;
-  try {
-    odeint::integrate_adaptive(
-        odeint::make_controlled<Stepper>(tolerance, tolerance),
-        [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); }, state, 0.0L, h,
-        h / 4.0L);
-  } catch (const odeint::odeint_error&) {
-    throw Error("the exact motion's step size vanished");
-  }
-  const Eigen::PartialPivLU<LongMatrix> by_velocity(x.q_variation.rightCols(n_));
+  const auto equations = [this](const PhaseVector& at, PhaseVector& rate, long double t) { derivative(at, rate, t); };
+  if (!integrate(equations, state, 0.0L, h, h / 4.0L, tolerance)) throw Error("the exact motion's step size vanished");
   interval.q_1 = x.q;
   interval.right_by_velocity = x.q_variation.rightCols(n_);
   interval.objects.right_momentum = momentum(h);
   interval.objects.lagrangian = x.action;
-  interval.objects.right_force = by_velocity.transpose().solve(x.work.tail(n_));
+  interval.objects.right_force =
+      solve_square(LongMatrix(interval.right_by_velocity.transpose()), LongVector(x.work.tail(n_)));
   interval.objects.left_force = x.work.head(n_) - x.q_variation.leftCols(n_).transpose() * interval.objects.right_force;
   if (!interval.q_1.allFinite() || !interval.objects.left_force.allFinite()) {
     throw Error("the exact motion leaves the set where the equations of motion make sense, or h is a conjugate time");
@@ -141,7 +135,7 @@ ExactInterval ExactDiscreteLagrangian::between(const LongVector& q_0, const Long
   LongVector v_0 = v_start;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const ExactInterval interval = along(q_0, v_0, h);
-    const LongVector step = interval.right_by_velocity.partialPivLu().solve(interval.q_1 - q_1);
+    const LongVector step = solve_square(interval.right_by_velocity, LongVector(interval.q_1 - q_1));
     v_0 -= step;
     // The next iterate is exact to rounding, because the iteration is quadratic.
     if (step.lpNorm<Eigen::Infinity>() < last_step * (1.0L + v_0.lpNorm<Eigen::Infinity>())) return along(q_0, v_0, h);

@@ -1,6 +1,7 @@
 #include "methods/diagnostics/one_step_map.hpp"
 
 #include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 
 namespace dmocbench {
 
@@ -118,10 +119,11 @@ typename OneStepMap<Scalar>::Matrix OneStepMap<Scalar>::jacobian(const Step& ste
   by_start.topRightCorner(n_, n_).diagonal().setConstant(Scalar(-1));  // R begins with left momentum - p_0
   const Matrix momentum_by_unknowns = take(n_, unknowns_);
   const Matrix momentum_by_left = take(n_, n_);
-  const Matrix unknowns_by_start = -by_unknowns.partialPivLu().solve(by_start);
+  const Matrix unknowns_by_start = -solve_square(by_unknowns, by_start);
   Matrix result(2 * n_, 2 * n_);
   result.topRows(n_) = unknowns_by_start.middleRows(node_state_ == NodeState::configuration ? 0 : n_, n_);
-  result.bottomRows(n_) = momentum_by_unknowns * unknowns_by_start;
+  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  result.bottomRows(n_) = momentum_by_unknowns.lazyProduct(unknowns_by_start);
   result.bottomLeftCorner(n_, n_) += momentum_by_left;
   return result;
 }

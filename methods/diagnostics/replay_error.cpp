@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <boost/numeric/odeint.hpp>
-#include <boost/numeric/odeint/external/eigen/eigen.hpp>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/adaptive_integration.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
@@ -42,7 +41,6 @@ double final_cost(const Problem& problem, const BoundaryState& last, double hori
 double ReplayError::norm() const { return std::hypot(configuration, velocity); }
 
 ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
-  namespace odeint = boost::numeric::odeint;
   using PhaseVector = std::vector<double>;
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
@@ -57,7 +55,6 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
   PhaseVector state(first.q.begin(), first.q.end());  // q, v, cost so far
   state.insert(state.end(), first.v.begin(), first.v.end());
   state.push_back(0.0);
-  auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<PhaseVector>>(tolerance, tolerance);
   Eigen::VectorXd cost_rate(1);
   // Interval by interval: controls jump at the nodes, and a step across a jump has order 1.
   for (Eigen::Index k = 0; k < intervals; ++k) {
@@ -72,9 +69,7 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
     };
     const double left = trajectory.node_times[k];
     const double right = trajectory.node_times[k + 1];
-    try {
-      odeint::integrate_adaptive(stepper, equations, state, left, right, right - left);
-    } catch (const odeint::odeint_error&) {
+    if (!integrate(equations, state, left, right, right - left, tolerance)) {
       throw Error("the replay's step size vanished in interval " + std::to_string(k));
     }
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n + 1).allFinite()) {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 
 namespace dmocbench {
 
@@ -41,9 +41,9 @@ class TracedNewton {
     Eigen::Map<Vector> unknowns(inputs.data() + first_, count_);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const std::vector<Scalar> values = replay<Scalar>(schedule_, std::span<const Scalar>(inputs));
-      const Eigen::Map<const Vector> residual(values.data(), count_);
-      const Eigen::Map<const Matrix> derivative(values.data() + count_, count_, count_);
-      const Vector step = derivative.partialPivLu().solve(residual);
+      const Vector residual = Eigen::Map<const Vector>(values.data(), count_);
+      const Matrix derivative = Eigen::Map<const Matrix>(values.data() + count_, count_, count_);
+      const Vector step = solve_square(derivative, residual);
       if (!step.allFinite()) break;
       unknowns -= step;
       if (step.template lpNorm<Eigen::Infinity>() <=

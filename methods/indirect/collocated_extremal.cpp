@@ -5,12 +5,10 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Eigen/SparseLU>
-#include <boost/math/special_functions/legendre.hpp>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 
 namespace dmocbench {
 
@@ -85,8 +83,7 @@ class NewtonOnGrid {
         const PontryaginFunction::Values values = stage_values(k, i);
         extremal_.cost += step_ * tableau_.b[i] * values.running_cost;
         if (function_.control_size() == 0) continue;
-        const Eigen::LLT<Eigen::MatrixXd> factors(values.control_hessian);
-        if (factors.info() != Eigen::Success) {
+        if (!is_positive_definite(values.control_hessian)) {
           throw Error(
               "H_u = 0 is not a minimum of the Hamiltonian: H_uu is not positive definite along the solution; the "
               "indirect method needs a running cost strictly convex in the control");
@@ -121,7 +118,7 @@ class NewtonOnGrid {
       right_hand_sides.block(i * size_, 0, size_, size_) = values.rate_jacobian;
       right_hand_sides.block(i * size_, size_, size_, 1) = values.rate - extremal_.slopes.col(k * s + i);
     }
-    return matrix.partialPivLu().solve(right_hand_sides);
+    return solve_square(matrix, right_hand_sides);
   }
 
   double correct(const Eigen::MatrixXd& correction) {
@@ -152,15 +149,7 @@ class NewtonOnGrid {
 
 }  // namespace
 
-Tableau high_order_gauss_tableau(int stages) {
-  std::vector<long double> nodes;
-  for (const long double zero : boost::math::legendre_p_zeros<long double>(stages)) {
-    nodes.push_back((1.0L + zero) / 2.0L);
-    if (zero > 0.0L) nodes.push_back((1.0L - zero) / 2.0L);
-  }
-  std::sort(nodes.begin(), nodes.end());
-  return collocation_tableau("gauss", nodes, 2 * stages);
-}
+Tableau high_order_gauss_tableau(int stages) { return collocation_tableau("gauss", gauss_nodes(stages), 2 * stages); }
 
 ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tableau, double t) {
   const Eigen::Index intervals = extremal.intervals();

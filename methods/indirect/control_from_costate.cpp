@@ -2,11 +2,10 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/interpolation.hpp"
 
@@ -42,17 +41,16 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
   for (int step = 0; step < most_steps; ++step) {
     point << q, v, u, t, cost_scale_ * psi_p;
     const std::vector<double> outputs = replay<double>(schedule_, inputs);
-    const Eigen::Map<const Eigen::VectorXd> slope(outputs.data(), m_);
-    const Eigen::Map<const Eigen::MatrixXd> curvature(outputs.data() + m_, m_, m_);
-    const Eigen::LLT<Eigen::MatrixXd> factors(curvature);
-    if (factors.info() != Eigen::Success) {
+    const Eigen::VectorXd slope = Eigen::Map<const Eigen::VectorXd>(outputs.data(), m_);
+    const Eigen::MatrixXd curvature = Eigen::Map<const Eigen::MatrixXd>(outputs.data() + m_, m_, m_);
+    const std::optional<Eigen::VectorXd> correction = solve_if_positive_definite(curvature, slope);
+    if (!correction) {
       throw Error(
           "H_u = 0 does not give the control: H_uu is not positive definite; the running cost must be strictly convex "
           "in the control");
     }
-    const Eigen::VectorXd correction = factors.solve(slope);
-    u -= correction;
-    if (correction.norm() <= last_step * (1e-3 + u.norm())) return u;
+    u -= *correction;
+    if (correction->norm() <= last_step * (1e-3 + u.norm())) return u;
   }
   throw Error("Newton's method for the control from H_u = 0 did not converge");
 }

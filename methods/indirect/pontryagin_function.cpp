@@ -2,11 +2,10 @@
 
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
 namespace dmocbench {
@@ -65,9 +64,9 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
     const std::vector<double> outputs = replay<double>(schedule_, inputs);
     const Eigen::Map<const Eigen::VectorXd> slope(outputs.data() + 2, size);
     const Eigen::Map<const Eigen::MatrixXd> curvature(outputs.data() + 2 + size, size, size);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(curvature.bottomRightCorner(size_z, size_z));
+    const Eigen::MatrixXd curvature_z = curvature.bottomRightCorner(size_z, size_z);
     if (!converged) {
-      const Eigen::VectorXd correction = factors.solve(slope.tail(size_z));
+      const Eigen::VectorXd correction = solve_square(curvature_z, Eigen::VectorXd(slope.tail(size_z)));
       if (!correction.allFinite()) {
         throw Error(
             "H_u = 0 has no solution u(x, psi): H_uu or L_vv is singular; the indirect method needs a regular "
@@ -78,9 +77,11 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
       continue;
     }
     const Eigen::Index half = 2 * n_;
+    const Eigen::MatrixXd curvature_zy = curvature.bottomLeftCorner(size_z, size_y);
+    // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
     const Eigen::MatrixXd reduced =
         curvature.topLeftCorner(size_y, size_y) -
-        curvature.topRightCorner(size_y, size_z) * factors.solve(curvature.bottomLeftCorner(size_z, size_y));
+        curvature.topRightCorner(size_y, size_z).lazyProduct(solve_square(curvature_z, curvature_zy));
     Values values;
     values.rate.resize(size_y);
     values.rate << slope.segment(half, half), -slope.head(half);

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include <boost/numeric/odeint.hpp>
-
 #include "methods/error.hpp"
 #include "methods/indirect/pontryagin_function.hpp"
+#include "methods/mechanics/adaptive_integration.hpp"
 
 namespace dmocbench {
 
 double shooting_defect(const Problem& problem, const IndirectSolution& solution, double tolerance) {
-  namespace odeint = boost::numeric::odeint;
   using Extremal = std::vector<double>;
   const PontryaginFunction function(problem);
   const CollocatedExtremal& extremal = solution.extremal();
@@ -21,7 +19,6 @@ double shooting_defect(const Problem& problem, const IndirectSolution& solution,
   const double state = std::max(vanishing, extremal.nodes.topRows(half).lpNorm<Eigen::Infinity>());
   const double costate = std::max(vanishing, extremal.nodes.bottomRows(half).lpNorm<Eigen::Infinity>());
 
-  auto stepper = odeint::make_controlled<odeint::runge_kutta_fehlberg78<Extremal>>(tolerance, tolerance);
   double largest = 0.0;
   for (Eigen::Index k = 0; k < extremal.intervals(); ++k) {
     Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages);
@@ -30,9 +27,7 @@ double shooting_defect(const Problem& problem, const IndirectSolution& solution,
       Eigen::Map<Eigen::VectorXd>(rate.data(), 2 * half) = function.evaluate(point, t, z).rate;
     };
     Extremal y(extremal.nodes.col(k).begin(), extremal.nodes.col(k).end());
-    try {
-      odeint::integrate_adaptive(stepper, equations, y, times[k], times[k + 1], times[k + 1] - times[k]);
-    } catch (const odeint::odeint_error&) {
+    if (!integrate(equations, y, times[k], times[k + 1], times[k + 1] - times[k], tolerance)) {
       throw Error("the step size of the shooting check vanished in interval " + std::to_string(k));
     }
     const Eigen::VectorXd mismatch = Eigen::Map<const Eigen::VectorXd>(y.data(), 2 * half) - extremal.nodes.col(k + 1);

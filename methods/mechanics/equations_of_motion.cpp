@@ -1,8 +1,7 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 
-#include <Eigen/LU>
-
 #include "methods/error.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 
 namespace dmocbench {
 
@@ -23,9 +22,10 @@ Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::Ve
                                                 const Eigen::Ref<const Eigen::VectorXd>& v,
                                                 const Eigen::Ref<const Eigen::VectorXd>& u, double t) {
   function_.evaluate(q, v, u, t, values_);
-  const Eigen::FullPivLU<Eigen::MatrixXd> mass(values_.tail(n_ * n_).reshaped(n_, n_));
-  if (!mass.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-  return mass.solve(values_.head(n_));
+  const std::optional<Eigen::VectorXd> acceleration =
+      solve_if_invertible(values_.tail(n_ * n_).reshaped(n_, n_), values_.head(n_));
+  if (!acceleration) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+  return *acceleration;
 }
 
 }  // namespace dmocbench

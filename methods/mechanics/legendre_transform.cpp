@@ -2,9 +2,8 @@
 
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "methods/error.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 
 namespace dmocbench {
 
@@ -49,14 +48,13 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
     evaluate(q, v, t);
     const Eigen::VectorXd residual = p - values_.head(n_);
     const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
-    const Eigen::FullPivLU<Eigen::MatrixXd> factors(mass);
-    if (!factors.isInvertible()) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    const std::optional<Eigen::VectorXd> correction = solve_if_invertible(mass, residual);
+    if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
     // A residual of rounding is as good as zero, however far an ill-conditioned L_vv carries it.
     const Eigen::VectorXd smallest = rounding * (p.cwiseAbs() + mass.cwiseAbs() * v.cwiseAbs());
     const bool is_rounding = (residual.array().abs() <= smallest.array()).all();
-    const Eigen::VectorXd correction = factors.solve(residual);
-    v += correction;
-    if (is_rounding || correction.norm() <= tolerance * (1.0 + v.norm())) return v;
+    v += *correction;
+    if (is_rounding || correction->norm() <= tolerance * (1.0 + v.norm())) return v;
   }
   throw Error("the inverse Legendre transform did not converge; is the Lagrangian convex in the velocity?");
 }

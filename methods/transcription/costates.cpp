@@ -1,7 +1,6 @@
 #include "methods/transcription/costates.hpp"
 
-#include <Eigen/LU>
-
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/columns.hpp"
 
@@ -41,7 +40,8 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
     }
     const Eigen::VectorXd velocity = v.row(k).transpose();
     const double t = times[k];
-    const Eigen::VectorXd psi_p = legendre.mass(q, velocity, t).partialPivLu().solve(result.psi_p.row(k).transpose());
+    const Eigen::VectorXd psi_p =
+        solve_square(legendre.mass(q, velocity, t), Eigen::VectorXd(result.psi_p.row(k).transpose()));
     result.psi_p.row(k) = psi_p.transpose();
     result.psi_q.row(k) -= (legendre.momentum_by_configuration(q, velocity, t).transpose() * psi_p).transpose();
   }

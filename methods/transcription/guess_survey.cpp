@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "methods/error.hpp"
+#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 
@@ -57,7 +56,7 @@ class Surveyor {
       first += quantity.entries;
     }
     measure(point.q, point.v, t);
-    if (!legendre_.mass(point.q, point.v, t).fullPivLu().isInvertible()) {
+    if (!is_invertible(legendre_.mass(point.q, point.v, t))) {
       throw Error(where(t) + "L_vv is singular, so the Lagrangian is not regular");
     }
   }

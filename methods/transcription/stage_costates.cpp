@@ -71,7 +71,8 @@ StageMultipliers as_variation(const Eigen::VectorXd& local, const Tableau& table
     slopes.col(last) -= tableau.b[j] * slopes.col(j);
   }
   slopes.col(last) /= tableau.b[last];
-  return {(h * slopes * tableau.a.transpose()).colwise() + left, slopes};
+  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  return {(h * slopes).lazyProduct(tableau.a.transpose()).colwise() + left, slopes};
 }
 
 /// Multipliers of collocation: α_i, then β_i for every stage.

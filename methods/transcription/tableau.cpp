@@ -23,17 +23,6 @@ using LongVector = Eigen::VectorX<long double>;
 constexpr int most_stages = 4;
 constexpr int fewest_lobatto_stages = 2;
 
-/// The zeros of the Legendre polynomial of degree `stages`, carried from [-1, 1] to [0, 1].
-std::vector<long double> gauss_nodes(int stages) {
-  const auto positive = boost::math::legendre_p_zeros<long double>(stages);  // the zeros >= 0, ascending
-  std::vector<long double> nodes;
-  for (const long double zero : positive | std::views::reverse) {
-    if (zero > 0.0L) nodes.push_back((1.0L - zero) / 2.0L);
-  }
-  for (const long double zero : positive) nodes.push_back((1.0L + zero) / 2.0L);
-  return nodes;
-}
-
 /// 0, 1 and the zeros of the derivative of the Legendre polynomial of degree `stages` - 1, which lie between those of
 /// the polynomial itself; carried from [-1, 1] to [0, 1].
 std::vector<long double> lobatto_nodes(int stages) {
@@ -52,6 +41,16 @@ std::vector<long double> lobatto_nodes(int stages) {
 }
 
 }  // namespace
+
+std::vector<long double> gauss_nodes(int stages) {
+  const auto positive = boost::math::legendre_p_zeros<long double>(stages);  // the zeros >= 0, ascending
+  std::vector<long double> nodes;
+  for (const long double zero : positive | std::views::reverse) {
+    if (zero > 0.0L) nodes.push_back((1.0L - zero) / 2.0L);
+  }
+  for (const long double zero : positive) nodes.push_back((1.0L + zero) / 2.0L);
+  return nodes;
+}
 
 Tableau collocation_tableau(std::string family, const std::vector<long double>& nodes, int order) {
   const auto s = static_cast<Eigen::Index>(nodes.size());

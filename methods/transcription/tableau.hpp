@@ -41,6 +41,10 @@ template <class Scalar>
 /// Throws `Error` if nodes coincide or a weight is not positive.
 [[nodiscard]] Tableau collocation_tableau(std::string family, const std::vector<long double>& nodes, int order);
 
+/// The stages of `gauss_tableau`, however many: the zeros of the Legendre polynomial of degree `stages`, carried from
+/// [-1, 1] to [0, 1], ascending.
+[[nodiscard]] std::vector<long double> gauss_nodes(int stages);
+
 /// Gauss-Legendre, order 2s. s = 1 is the midpoint rule.
 [[nodiscard]] Tableau gauss_tableau(int stages);
 

@@ -31,6 +31,6 @@ inline SegmentKernel choose_kernel([[maybe_unused]] const Shape& shape) {
   return choose<FixedShape<2, 2, 0, 1, 2>, FixedShape<4, 0, 0, 1, 4>,  //
                 FixedShape<2, 2, 0, 2, 2>, FixedShape<4, 0, 0, 2, 4>,  //
                 FixedShape<1, 1, 0, 1, 1>, FixedShape<2, 0, 0, 1, 2>,  //
-                FixedShape<2, 2, 1, 1, 2>, FixedShape<4, 0, 1, 1, 4>>(shape);
+                FixedShape<2, 2, 1, 1, 2>, FixedShape<4, 0, 1, 1, 4> >(shape);
 #endif
 }

@@ -1,0 +1,31 @@
+#include "methods/mechanics/adaptive_integration.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace dmocbench {
+namespace {
+
+/// x = (cos t², -sin t²) from x(0) = (1, 0), forwards and back.
+template <class Scalar>
+void expect_that_a_turn_of_growing_speed_is_followed(Scalar tolerance) {
+  const auto turn = [](const std::vector<Scalar>& x, std::vector<Scalar>& rate, Scalar t) {
+    rate[0] = 2 * t * x[1];
+    rate[1] = -2 * t * x[0];
+  };
+  std::vector<Scalar> x{1, 0};
+  ASSERT_TRUE(integrate(turn, x, 0, 3, 1, tolerance));
+  EXPECT_LT(std::hypot(x[0] - std::cos(Scalar(9)), x[1] + std::sin(Scalar(9))), 1000 * tolerance);
+  ASSERT_TRUE(integrate(turn, x, 3, 0, -1, tolerance));
+  EXPECT_LT(std::hypot(x[0] - 1, x[1]), 1000 * tolerance);
+}
+
+TEST(AdaptiveIntegration, FollowsATurnOfGrowingSpeed) {
+  expect_that_a_turn_of_growing_speed_is_followed<double>(1e-12);
+  expect_that_a_turn_of_growing_speed_is_followed<double>(1e-6);
+  expect_that_a_turn_of_growing_speed_is_followed<long double>(1e-17L);
+}
+
+}  // namespace
+}  // namespace dmocbench
