@@ -44,8 +44,8 @@ inline void fetch(const double* array, const SegmentGroup& group, int step) {
   for (int lane = 0; lane < lane_count; ++lane) __builtin_prefetch(array + group.first[lane] + step);
 }
 
-/// Fills the local blocks of some steps; entries that nothing is collected for are left alone. What is collected next is
-/// `ahead` steps from here; 0 if it is in the cache anyway.
+/// Fills the local blocks of some steps; entries that nothing is collected for are left alone. What is collected next
+/// is `ahead` steps from here; 0 if it is in the cache anyway.
 inline void collect(const EliminationPlan& plan, const NewtonArrays& arrays, const SegmentGroup& group, int begin,
                     int count, int ahead, Lanes* locals, int local_size) {
   Lanes block[8];
