@@ -15,9 +15,9 @@ namespace dmocbench::interior_point {
 /// the system instead. So it does where the fast one has refused several systems one after the other for their inertia:
 /// its test may be stricter than the truth.
 ///
-/// To compute what is left takes a third to half of the time of the elimination. After a step that was much better than it
-/// has to be the next few are not looked at: their matrices are little different, and Newton's method, whose right-hand
-/// sides are exact, forgives a worse one.
+/// To compute what is left takes a third to half of the time of the elimination. After a step that was much better than
+/// it has to be the next few are not looked at: their matrices are little different, and Newton's method, whose
+/// right-hand sides are exact, forgives a worse one.
 class RefinedKkt : public KktSystem {
  public:
   /// A step is good enough if it leaves `accuracy` of the right-hand side, or rounding.
