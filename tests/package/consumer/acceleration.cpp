@@ -2,8 +2,9 @@
 #include <cmath>
 #include <iostream>
 
+#include <pendulum.hpp>
+
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "pendulum.hpp"
 
 int main() {
   const auto number = [](double value) { return Eigen::VectorXd::Constant(1, value); };

@@ -1,8 +1,8 @@
 // Solves the pendulum by DMOC and Ipopt, and writes its motion.
-#include "pendulum.hpp"
-
 #include <fstream>
 #include <iostream>
+
+#include <pendulum.hpp>
 
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
