@@ -46,8 +46,10 @@ void SolveReporter::ReportRuns(const std::vector<Run>& runs) {
   }
   std::vector<Run> shown;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(shown),
-               [](const Run& run) { return run.aggregate_name == "median"; });
-  if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
+               [](const Run& run) { return run.aggregate_name == "median" || run.repetitions <= 1; });
+  if (shown.empty()) return;
+  ConsoleReporter::ReportRuns(shown);
+  GetOutputStream().flush();  // hours may pass until the next
 }
 
 }  // namespace dmocbench::speed
