@@ -20,7 +20,7 @@ struct Direction {
 
 /// How the Hessian is made positive definite where the equalities hold: by a multiple of the unit matrix that is raised
 /// until the inertia is right, starting from a third of what was last needed (Wächter and Biegler 2006, Algorithm IC).
-/// Where a third did not do the last time, none will not do this time and is not tried first.
+/// Where a third was too little the last time, the system without a shift is not tried first.
 class InertiaShift {
  public:
   /// Before a new system with the program's Hessian.
