@@ -136,6 +136,8 @@ bool NewtonStep::estimate_multipliers(Point& point) {
   subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope_);
   subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
   subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
+  // No slope asks for no multipliers: so it is where the cost is a square of controls and the guess has none.
+  if (slope_.isZero(0.0) && slack_slope_.isZero(0.0)) return true;
   diagonal_.setOnes();
   slack_.setOnes();
   shift_.clear();

@@ -11,6 +11,7 @@
 #include "methods/transcription/transcription.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/container_crane.hpp"
+#include "problems/forced_oscillator.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/random_points.hpp"
@@ -83,6 +84,24 @@ TEST(InteriorPoint, AgreesWithIpoptOnTheTwoLinkManipulator) {
     for (const Eigen::Index intervals : {16, 32}) {
       expect_agreement_with_ipopt(problem, scheme, intervals, tests::common_start(problem));
     }
+  }
+}
+
+/// Newton's method needs one system for linear rows and a quadratic cost; where the start has controls, whose cost has
+/// a slope, its multipliers take another one.
+TEST(InteriorPoint, SolvesALinearQuadraticProblemByOneSystemAndOneForMultipliersWhereTheCostHasASlope) {
+  const ForcedOscillator problem;
+  for (const tests::Scheme& scheme : gauss_schemes_up_to(2)) {
+    SCOPED_TRACE(scheme.label());
+    Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(32));
+    const Eigen::VectorXd without_controls = sample(program, guessed_motion(problem));
+    const Solution plain = solve_by_interior_point(program, without_controls);
+    EXPECT_EQ(plain.status, Status::solved) << plain.message;
+    EXPECT_EQ(plain.linear_systems, 1);
+    const Eigen::VectorXd with_controls = without_controls + tests::RandomPoints().vector(without_controls.size());
+    const Solution other = solve_by_interior_point(program, with_controls);
+    EXPECT_EQ(other.linear_systems, 2);
+    expect_same_answer(other, plain);
   }
 }
 
