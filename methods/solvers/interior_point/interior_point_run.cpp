@@ -35,6 +35,8 @@ constexpr int most_corrections = 4;
 constexpr double correctable = 2.0;        // ours: every correction takes an elimination, see is_worth_correcting
 constexpr double small_violation = 1e-4;   // θ_min over θ of the start
 constexpr double largest_violation = 1e4;  // θ_max over it
+constexpr double runaway = 1e8;            // ours: multipliers that are not believed after a step
+constexpr double short_step = 0.1;         // as short as this
 
 }  // namespace
 
@@ -179,9 +181,17 @@ std::optional<Status> InteriorPointRun::iterate() {
     if (const auto end = restore()) return end;
   }
   program_.differentiate(point_.x);
+  keep_multipliers_from_running_away();
   if (!find_slope()) return Status::evaluation_failed;
   report("newton", step_length_);
   return std::nullopt;
+}
+
+/// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns all
+/// else. Large ones that a long step leads to may be true.
+void InteriorPointRun::keep_multipliers_from_running_away() {
+  if (step_length_ > short_step || largest_of(point_.multipliers) <= runaway) return;
+  if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
 }
 
 double InteriorPointRun::largest_step(const Direction& direction, double share) const {

@@ -45,6 +45,7 @@ class InteriorPointRun {
   [[nodiscard]] double barrier_error(const Residuals& at) const;
   [[nodiscard]] bool has_converged() const;
   void lower_barrier();
+  void keep_multipliers_from_running_away();
 
   // Line search.
   [[nodiscard]] double largest_step(const Direction& direction, double share) const;

@@ -21,7 +21,8 @@ double largest_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 NewtonResidual::NewtonResidual(const NonlinearProgram& program)
     : hessian_runs_(cut_at_diagonal(pattern_runs(program.hessian_structure()))),
-      jacobian_runs_(pattern_runs(program.jacobian_structure())) {
+      jacobian_runs_(pattern_runs(program.jacobian_structure())),
+      floor_(program.rounding_floor()) {
   const Eigen::VectorXd& lower = program.variable_lower();
   const Eigen::VectorXd& upper = program.variable_upper();
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
@@ -55,11 +56,11 @@ double NewtonResidual::excess(const KktMatrix& matrix, const Eigen::VectorXd& pr
   const double rounding = 20.0 * std::numeric_limits<double>::epsilon() + share_of_terms * accuracy;
   const double step = largest_of(primal_step);
   const double jacobian = largest_of(matrix.jacobian);
-  const double allowed_slope = accuracy * largest_slope_ +
+  const double allowed_slope = floor_ * std::max(1.0, largest_of(multiplier_step)) + accuracy * largest_slope_ +
                                rounding * (largest_product(matrix.diagonal, primal_step) +
                                            largest_of(matrix.hessian) * step + jacobian * largest_of(multiplier_step));
-  const double allowed_row =
-      accuracy * largest_row_ + rounding * (largest_product(matrix.softness, multiplier_step) + jacobian * step);
+  const double allowed_row = floor_ + accuracy * largest_row_ +
+                             rounding * (largest_product(matrix.softness, multiplier_step) + jacobian * step);
   return std::max(slope > 0.0 ? slope / allowed_slope : 0.0, row > 0.0 ? row / allowed_row : 0.0);
 }
 

@@ -26,7 +26,8 @@ class NewtonResidual {
   [[nodiscard]] const Eigen::VectorXd& rows() const noexcept { return rows_; }    ///< one entry per row
 
   /// How much larger what is left is than what it may be: `accuracy` times the largest entry of the right-hand side,
-  /// and the rounding of the sums that it is left of; slopes and rows each by their own. Infinite if a number is not
+  /// the rounding of the sums that it is left of, and the rounding of the program's own rows and slopes (its
+  /// `rounding_floor`, by which every solver stops); slopes and rows each by their own. Infinite if a number is not
   /// finite. Arguments as in `compute` before.
   [[nodiscard]] double excess(const KktMatrix& matrix, const Eigen::VectorXd& primal_step,
                               const Eigen::VectorXd& multiplier_step, double accuracy) const;
@@ -34,6 +35,7 @@ class NewtonResidual {
  private:
   std::vector<PatternRun> hessian_runs_;
   std::vector<PatternRun> jacobian_runs_;
+  double floor_;  // the program's rounding_floor()
   std::vector<Eigen::Index> fixed_;
   Eigen::VectorXd slope_;
   Eigen::VectorXd rows_;

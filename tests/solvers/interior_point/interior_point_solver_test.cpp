@@ -13,6 +13,7 @@
 #include "problems/container_crane.hpp"
 #include "problems/forced_oscillator.hpp"
 #include "problems/orbital_transfer.hpp"
+#include "problems/particle_steering.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/restated_problems.hpp"
@@ -170,6 +171,22 @@ TEST(InteriorPoint, AgreesWithIpoptOnEverythingAtOnce) {
   const tests::Everything everything;
   for (const tests::Scheme& scheme : tests::all_schemes(2)) {
     expect_agreement_with_ipopt(everything.problem(), scheme, 12, guessed_motion(everything.problem()));
+  }
+}
+
+TEST(InteriorPoint, ReachesTheOptimumThoughMultipliersRunAwayOnTheWay) {
+  const ParticleSteering problem;  // its bounds on the control allow steps of a hundredth for a while
+  for (const Eigen::Index intervals : {60, 80}) {
+    SCOPED_TRACE(intervals);
+    const auto solve = [&](const char* method) {
+      Transcription program(problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(intervals));
+      return solve_by_interior_point(program, sample(program, guessed_motion(problem)));
+    };
+    const Solution dmoc = solve("dmoc");
+    const Solution hamiltonian = solve("hamiltonian");
+    ASSERT_EQ(dmoc.status, Status::solved) << dmoc.message;
+    ASSERT_EQ(hamiltonian.status, Status::solved) << hamiltonian.message;
+    EXPECT_NEAR(hamiltonian.objective, dmoc.objective, 1e-8 * dmoc.objective);
   }
 }
 

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/transcription.hpp"
+#include "problems/orbital_transfer.hpp"
 #include "tests/support/system_choice.hpp"
 
 namespace dmocbench::interior_point {
@@ -229,6 +231,31 @@ TEST(NewtonResidual, ExceedsByHowMuchMoreItIsThanItMayBe) {
   EXPECT_EQ(excess(1e-3), 0.0);
   primal[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(excess(1e-3), std::numeric_limits<double>::infinity());
+}
+
+/// Without rows to correct, what a step leaves of them cannot be judged by their right-hand side; the program's own
+/// rounding does.
+TEST(NewtonResidual, MayBeAsLargeAsTheRoundingOfTheProgram) {
+  const OrbitalTransfer problem;
+  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(8));
+  const double floor = program.rounding_floor();
+  ASSERT_GT(floor, 0.0);
+  const auto variables = static_cast<Eigen::Index>(program.variable_count());
+  const auto rows = static_cast<Eigen::Index>(program.constraint_count());
+  const Eigen::VectorXd hessian = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  const Eigen::VectorXd jacobian =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(variables);
+  const Eigen::VectorXd softness = Eigen::VectorXd::Zero(rows);
+  const Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables);
+  const Eigen::VectorXd no_step = Eigen::VectorXd::Zero(variables);
+  const Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(rows);
+  NewtonResidual residual(program);
+  const KktMatrix matrix{hessian, jacobian, diagonal, softness};
+  for (const double left : {0.5 * floor, 2.0 * floor}) {
+    residual.compute(matrix, slope, Eigen::VectorXd::Constant(rows, left), no_step, no_multipliers);
+    EXPECT_NEAR(residual.excess(matrix, no_step, no_multipliers, 1e-9), left / floor, 1e-6);
+  }
 }
 
 }  // namespace
