@@ -87,8 +87,8 @@ bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
   if (is_warm()) {
     point_.multipliers = options_.start_multipliers;
     program_.balance_bounds(mu_, point_);
-  } else if (!newton_.estimate_multipliers(point_)) {
-    point_.multipliers.setZero();
+  } else {
+    newton_.estimate_multipliers(point_);
   }
   if (!find_slope()) return false;
   measure();
@@ -190,8 +190,7 @@ std::optional<Status> InteriorPointRun::iterate() {
 /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns all
 /// else. Large ones that a long step leads to may be true.
 void InteriorPointRun::keep_multipliers_from_running_away() {
-  if (step_length_ > short_step || largest_of(point_.multipliers) <= runaway) return;
-  if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
+  if (step_length_ <= short_step && largest_of(point_.multipliers) > runaway) newton_.estimate_multipliers(point_);
 }
 
 double InteriorPointRun::largest_step(const Direction& direction, double share) const {
@@ -386,7 +385,7 @@ void InteriorPointRun::begin_anew() {
     if (z->size() > 0 && z->maxCoeff() > largest) z->setOnes();
   }
   program_.differentiate(point_.x);
-  if (!newton_.estimate_multipliers(point_)) point_.multipliers.setZero();
+  newton_.estimate_multipliers(point_);
 }
 
 }  // namespace dmocbench::interior_point

@@ -125,7 +125,7 @@ bool NewtonStep::towards_rows(const Point& point, double mu, const Eigen::Vector
   return true;
 }
 
-bool NewtonStep::estimate_multipliers(Point& point) {
+void NewtonStep::estimate_multipliers(Point& point) {
   constexpr double largest = 1e3;
   constexpr double no_mu = 0.0;
   Direction direction;
@@ -137,15 +137,14 @@ bool NewtonStep::estimate_multipliers(Point& point) {
   subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
   subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
   // No slope asks for no multipliers: so it is where the cost is a square of controls and the guess has none.
-  if (slope_.isZero(0.0) && slack_slope_.isZero(0.0)) return true;
+  if (slope_.isZero(0.0) && slack_slope_.isZero(0.0)) return;
   diagonal_.setOnes();
   slack_.setOnes();
   shift_.clear();
   const Verdict verdict = solve(no_hessian_, Eigen::VectorXd::Zero(point.s.size()), direction);
   diagonal_.setZero();
-  if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return false;
+  if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return;
   point.multipliers = direction.multipliers;
-  return true;
 }
 
 double NewtonStep::slope_along(const Point& point, double mu, const Direction& direction) const {

@@ -55,8 +55,9 @@ class NewtonStep {
   /// The shortest step to where the linearised rows hold, in a norm in which a unit of length costs 1 + μ/d² at the
   /// distance d from a bound.
   [[nodiscard]] bool towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
-  /// λ that balances the slope best in the sense of least squares; false if there is none of reasonable size.
-  [[nodiscard]] bool estimate_multipliers(Point& point);
+  /// Sets λ, one entry per row, to what balances the slope best in the sense of least squares; to zero if that has no
+  /// reasonable size.
+  void estimate_multipliers(Point& point);
 
   /// Derivative of the barrier function along a direction.
   [[nodiscard]] double slope_along(const Point& point, double mu, const Direction& direction) const;
