@@ -114,7 +114,7 @@ void BandedKkt::assemble(const KktMatrix& matrix) {
     *diagonal_[i] += is_free_[i] ? matrix.diagonal[static_cast<Eigen::Index>(i)] : 1.0;
   }
   for (std::size_t i = unknowns; i < diagonal_.size(); ++i) {
-    *diagonal_[i] -= matrix.softness[static_cast<Eigen::Index>(i - unknowns)];
+    *diagonal_[i] -= matrix.softness_of(static_cast<Eigen::Index>(i - unknowns));
   }
 }
 
@@ -191,7 +191,8 @@ void BandedKkt::read_step(Eigen::Index side, Eigen::VectorXd& primal_step, Eigen
 /// The matrix times (primal, multipliers); fixed unknowns neither move nor have a line of their own.
 void BandedKkt::multiply(const KktMatrix& matrix, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
   unknown_products_ = matrix.diagonal.cwiseProduct(primal);
-  row_products_ = -matrix.softness.cwiseProduct(multipliers);
+  row_products_.setZero(multipliers.size());
+  if (matrix.softness.size() > 0) row_products_ -= matrix.softness.cwiseProduct(multipliers);
   const SparsityPattern& hessian = program_.hessian_structure();
   for (const Target& target : hessian_) {
     const int i = hessian.rows[target.entry];
@@ -216,7 +217,8 @@ bool BandedKkt::curves_upwards(const KktMatrix& matrix) {
   multiply(matrix, tangential_, tangential_multipliers_);
   double curvature = tangential_.dot(unknown_products_);
   for (Eigen::Index i = 0; i < row_products_.size(); ++i) {
-    if (matrix.softness[i] > 0.0) curvature += row_products_[i] * row_products_[i] / matrix.softness[i];
+    const double softness = matrix.softness_of(i);
+    if (softness > 0.0) curvature += row_products_[i] * row_products_[i] / softness;
   }
   return curvature >= smallest_curvature * tangential_.squaredNorm();
 }

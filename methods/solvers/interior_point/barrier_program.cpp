@@ -24,24 +24,40 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
   }
 }
 
+std::vector<Eigen::Index> rows_with_slack(const NonlinearProgram& program) {
+  const Eigen::VectorXd& lower = program.constraint_lower();
+  const Eigen::VectorXd& upper = program.constraint_upper();
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (lower[i] != upper[i]) rows.push_back(i);
+  }
+  return rows;
+}
+
+Eigen::VectorXd values_of_equalities(const NonlinearProgram& program, const std::vector<Eigen::Index>& inequalities) {
+  Eigen::VectorXd values = program.constraint_lower();
+  for (const Eigen::Index i : inequalities) values[i] = 0.0;
+  if (values.isZero(0.0)) values.resize(0);
+  return values;
+}
+
 }  // namespace
 
-BarrierProgram::BarrierProgram(NonlinearProgram& program)
+BarrierProgram::BarrierProgram(NonlinearProgram& program, const ProgramRuns& runs)
     : program_(program),
       x_lower_(bounds_of(program.variable_lower(), program.variable_upper())),
       x_upper_(bounds_of(program.variable_upper(), program.variable_lower())),
-      s_lower_(bounds_of(program.constraint_lower(), program.constraint_upper())),
-      s_upper_(bounds_of(program.constraint_upper(), program.constraint_lower())),
-      jacobian_runs_(pattern_runs(program.jacobian_structure())),
-      gradient_(static_cast<Eigen::Index>(program.variable_count())),
-      jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
-      hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())) {
+      inequalities_(rows_with_slack(program)),
+      values_(values_of_equalities(program, inequalities_)),
+      slope_of_rows_(MatrixProduct::transposed(runs.jacobian)) {
+  resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
+  resize_unwritten(jacobian_, static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));
+  const Eigen::VectorXd lower = program.constraint_lower()(inequalities_);
+  const Eigen::VectorXd upper = program.constraint_upper()(inequalities_);
+  s_lower_ = bounds_of(lower, upper);
+  s_upper_ = bounds_of(upper, lower);
   for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
-  const Eigen::VectorXd& lower = program.constraint_lower();
-  const Eigen::VectorXd& upper = program.constraint_upper();
-  for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    if (lower[i] != upper[i]) inequalities_.push_back(i);
-  }
 }
 
 template <class Evaluation>
@@ -53,12 +69,16 @@ void BarrierProgram::timed(const Evaluation& evaluation) {
 
 Point BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
   Point point;
-  point.x = start;
+  copy_to(point.x, start);
   push_inside(point.x, program_.variable_lower(), program_.variable_upper(), push);
-  point.s.resize(static_cast<Eigen::Index>(program_.constraint_count()));
-  program_.constraints(point.x, point.s);
-  push_inside(point.s, program_.constraint_lower(), program_.constraint_upper(), push);
-  point.multipliers.setZero(point.s.size());
+  const auto rows = static_cast<Eigen::Index>(program_.constraint_count());
+  if (!inequalities_.empty()) {
+    Eigen::VectorXd at_start(rows);
+    program_.constraints(point.x, at_start);
+    point.s = at_start(inequalities_);
+    push_inside(point.s, program_.constraint_lower()(inequalities_), program_.constraint_upper()(inequalities_), push);
+  }
+  set_zero(point.multipliers, rows);
   point.x_lower.setOnes(x_lower_.values.size());
   point.x_upper.setOnes(x_upper_.values.size());
   point.s_lower.setOnes(s_lower_.values.size());
@@ -69,27 +89,30 @@ Point BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
 void BarrierProgram::balance_bounds(double mu, Point& point) const {
   Eigen::VectorXd slope;
   static_cast<void>(slope_of_lagrangian(point.multipliers, slope));  // whether it is finite is asked where it is used
-  const auto balance = [mu](const Eigen::VectorXd& vector, const BoundList& bounds, double side,
-                            const Eigen::VectorXd& of_vector, Eigen::VectorXd& z) {
-    for (std::size_t b = 0; b < bounds.entries.size(); ++b) {
-      const double of_barrier = mu / bounds.distance(vector, side, b);
-      z[static_cast<Eigen::Index>(b)] = std::max(of_barrier, side * of_vector[bounds.entries[b]]);
-    }
-  };
-  const Eigen::VectorXd slack_slope = -point.multipliers;
-  balance(point.x, x_lower_, 1.0, slope, point.x_lower);
-  balance(point.x, x_upper_, -1.0, slope, point.x_upper);
-  balance(point.s, s_lower_, 1.0, slack_slope, point.s_lower);
-  balance(point.s, s_upper_, -1.0, slack_slope, point.s_upper);
+  balance_slope(point.x, x_lower_, 1.0, mu, slope, point.x_lower);
+  balance_slope(point.x, x_upper_, -1.0, mu, slope, point.x_upper);
+  const Eigen::VectorXd slack_slope = slope_of_slacks(point.multipliers);
+  balance_slope(point.s, s_lower_, 1.0, mu, slack_slope, point.s_lower);
+  balance_slope(point.s, s_upper_, -1.0, mu, slack_slope, point.s_upper);
 }
 
-bool BarrierProgram::evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows) {
+Eigen::VectorXd BarrierProgram::slope_of_slacks(const Eigen::VectorXd& multipliers) const {
+  return -multipliers(inequalities_);
+}
+
+std::optional<BarrierProgram::Merit> BarrierProgram::evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& s,
+                                                              Eigen::VectorXd& rows) {
+  Merit merit{};
   timed([&] {
-    objective = program_.objective(x);
+    merit.objective = program_.objective(x);
     program_.constraints(x, rows);
   });
   ++evaluations_;
-  return std::isfinite(objective) && is_finite(rows);
+  if (values_.size() > 0) set_to_sum(rows, rows, -1.0, values_);
+  for (std::size_t j = 0; j < inequalities_.size(); ++j) rows[inequalities_[j]] -= s[static_cast<Eigen::Index>(j)];
+  merit.violation = sum_of_magnitudes(rows);
+  if (!std::isfinite(merit.objective) || !std::isfinite(merit.violation)) return std::nullopt;
+  return merit;
 }
 
 void BarrierProgram::differentiate(const Eigen::VectorXd& x) {
@@ -105,7 +128,7 @@ void BarrierProgram::evaluate_hessian(const Point& point) {
 
 bool BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {
   copy_to(result, gradient_);
-  add_transposed_product(jacobian_runs_, jacobian_, multipliers, result);
+  slope_of_rows_.add(jacobian_, multipliers, result);
   return is_finite(result);
 }
 

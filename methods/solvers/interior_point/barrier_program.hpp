@@ -1,20 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
-#include "methods/solvers/interior_point/pattern_runs.hpp"
+#include "methods/solvers/interior_point/matrix_product.hpp"
 
 namespace dmocbench::interior_point {
 
-/// A point of the barrier method. Every row has a slack, a(x) = s; that of an equality is its value and does not move.
-/// Unknowns ξ and slacks have one multiplier z >= 0 per bound, in the order of `Bounds`.
+/// A point of the barrier method. An inequality has a slack, a(x) = s. Unknowns and slacks have one multiplier z >= 0
+/// per bound, in the order of their `BoundList`.
 struct Point {
   Eigen::VectorXd x;
-  Eigen::VectorXd s;
+  Eigen::VectorXd s;            ///< one per inequality
   Eigen::VectorXd multipliers;  ///< λ, one per row
   Eigen::VectorXd x_lower;
   Eigen::VectorXd x_upper;
@@ -24,14 +25,15 @@ struct Point {
 
 /// The program as the barrier method sees it,
 ///
-///   minimise φ(x) - μ Σ ln(distances from bounds)  such that  a(x) = s,
+///   minimise φ(x) - μ Σ ln(distances from bounds)  such that  a(x) = value or s,
 ///
+/// (the value of an equality, the slack s of an inequality)
 /// with the derivatives at the last point that they were asked for.
 class BarrierProgram {
  public:
   static constexpr double usual_push = 1e-2;
 
-  explicit BarrierProgram(NonlinearProgram& program);
+  BarrierProgram(NonlinearProgram& program, const ProgramRuns& runs);
 
   [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
   [[nodiscard]] bool has_bounds() const noexcept { return bound_count_ > 0; }
@@ -40,8 +42,10 @@ class BarrierProgram {
   [[nodiscard]] const BoundList& x_upper() const noexcept { return x_upper_; }
   [[nodiscard]] const BoundList& s_lower() const noexcept { return s_lower_; }
   [[nodiscard]] const BoundList& s_upper() const noexcept { return s_upper_; }
-  /// The rows that are no equalities.
+  /// The rows that are no equalities, in the order of their slacks.
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
+  /// The derivative of -λᵀs, one per slack.
+  [[nodiscard]] Eigen::VectorXd slope_of_slacks(const Eigen::VectorXd& multipliers) const;
 
   /// `start` and slacks a(start) pushed into the interior, by `push` of their size or of the bounds' distance;
   /// multipliers of bounds 1, λ = 0.
@@ -49,8 +53,14 @@ class BarrierProgram {
   /// Multipliers of bounds that balance the slope of the Lagrangian where they can, at least those of the barrier.
   void balance_bounds(double mu, Point& point) const;
 
-  /// φ and a at x; false if a number is not finite.
-  [[nodiscard]] bool evaluate(const Eigen::VectorXd& x, double& objective, Eigen::VectorXd& rows);
+  /// What a point costs, and how far it is from the rows.
+  struct Merit {
+    double objective;  ///< φ
+    double violation;  ///< Σ |residuals of the rows|
+  };
+  /// At x and s; `rows` becomes the residual, a(x) - value or a(x) - s. None if a number is not finite.
+  [[nodiscard]] std::optional<Merit> evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& s,
+                                              Eigen::VectorXd& rows);
   /// Gradient and Jacobian at x.
   void differentiate(const Eigen::VectorXd& x);
   /// Hessian of φ + λᵀa.
@@ -80,7 +90,8 @@ class BarrierProgram {
   BoundList s_upper_;
   Eigen::Index bound_count_ = 0;
   std::vector<Eigen::Index> inequalities_;
-  std::vector<PatternRun> jacobian_runs_;
+  Eigen::VectorXd values_;  // of equalities, 0 of inequalities; empty if all are zero
+  MatrixProduct slope_of_rows_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd hessian_;

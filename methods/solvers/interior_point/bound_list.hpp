@@ -10,12 +10,32 @@ namespace dmocbench::interior_point {
 /// move. In what follows z are the multipliers of the bounds, in their order, and `side` is 1 for lower bounds and -1
 /// for upper ones.
 struct BoundList {
-  std::vector<Eigen::Index> entries;
+  /// Bounds of consecutive entries.
+  struct Stretch {
+    Eigen::Index entry;  ///< the first of the vector
+    Eigen::Index bound;  ///< and its number
+    Eigen::Index length;
+  };
+  std::vector<Stretch> stretches;
   Eigen::VectorXd values;
 
-  /// How far bound b is from the vector's entry; positive inside.
-  [[nodiscard]] double distance(const Eigen::VectorXd& vector, double side, std::size_t b) const {
-    return side * (vector[entries[b]] - values[static_cast<Eigen::Index>(b)]);
+  /// Entries of a vector that have these bounds.
+  [[nodiscard]] static auto entries(const Eigen::VectorXd& vector, const Stretch& at) {
+    return vector.segment(at.entry, at.length).array();
+  }
+  [[nodiscard]] static auto entries(Eigen::VectorXd& vector, const Stretch& at) {
+    return vector.segment(at.entry, at.length).array();
+  }
+  /// Their multipliers, or whatever else there is one of per bound.
+  [[nodiscard]] static auto of_bounds(const Eigen::VectorXd& z, const Stretch& at) {
+    return z.segment(at.bound, at.length).array();
+  }
+  [[nodiscard]] static auto of_bounds(Eigen::VectorXd& z, const Stretch& at) {
+    return z.segment(at.bound, at.length).array();
+  }
+  /// How far the bounds are from the vector's entries; positive inside.
+  [[nodiscard]] auto distances(const Eigen::VectorXd& vector, double side, const Stretch& at) const {
+    return side * (entries(vector, at) - of_bounds(values, at));
   }
 };
 
@@ -34,10 +54,13 @@ void add_barrier(const Eigen::VectorXd& vector, const BoundList& bounds, const E
 void add_nearness(const Eigen::VectorXd& vector, const BoundList& bounds, double mu, Eigen::VectorXd& diagonal);
 /// slope -= z (times the side).
 void subtract_multipliers(const BoundList& bounds, const Eigen::VectorXd& z, double side, Eigen::VectorXd& slope);
+/// Sets z to what balances the slope (times the side), at least to μ/d.
+void balance_slope(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu,
+                   const Eigen::VectorXd& slope, Eigen::VectorXd& z);
 
 /// δz = μ/d - z - (z/d) δd.
-[[nodiscard]] Eigen::VectorXd bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step,
-                                         const BoundList& bounds, const Eigen::VectorXd& z, double side, double mu);
+void set_bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds,
+                    const Eigen::VectorXd& z, double side, double mu, Eigen::VectorXd& z_step);
 
 /// The longest step, at most 1, that leaves `1 - share` of the distance from every bound; of z, from zero.
 [[nodiscard]] double longest_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, const BoundList& bounds,

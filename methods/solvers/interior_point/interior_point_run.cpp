@@ -37,14 +37,15 @@ constexpr double small_violation = 1e-4;   // θ_min over θ of the start
 constexpr double largest_violation = 1e4;  // θ_max over it
 constexpr double runaway = 1e8;            // ours: multipliers that are not believed after a step
 constexpr double short_step = 0.1;         // as short as this
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, const Eigen::VectorXd& start,
-                                   const SolverOptions& options)
+InteriorPointRun::InteriorPointRun(NonlinearProgram& program, const ProgramRuns& runs, KktSystem& kkt,
+                                   const Eigen::VectorXd& start, const SolverOptions& options)
     : plain_program_(program),
       options_(options),
-      program_(program),
+      program_(program, runs),
       newton_(program_, kkt),
       tolerance_(options.tolerance),
       begin_(Clock::now()) {
@@ -54,8 +55,8 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, co
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     if (lower[i] == upper[i]) fixed_.push_back(i);
   }
-  rows_.resize(point_.s.size());
-  trial_rows_.resize(point_.s.size());
+  resize_unwritten(rows_, point_.multipliers.size());
+  resize_unwritten(trial_rows_, point_.multipliers.size());
 }
 
 Solution InteriorPointRun::run() {
@@ -68,8 +69,8 @@ Solution InteriorPointRun::run() {
   }
   solution.status = end.value_or(Status::solver_error);
   solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
-  solution.primal = point_.x;
-  solution.multipliers = point_.multipliers;
+  solution.primal = std::move(point_.x);
+  solution.multipliers = std::move(point_.multipliers);
   solution.major_iterations = iterations_;
   solution.linear_systems = newton_.factorisations();
   solution.linear_seconds = newton_.linear_seconds();
@@ -81,8 +82,9 @@ Solution InteriorPointRun::run() {
 
 bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
   if (program_.has_bounds()) mu_ = is_warm() ? first_mu_of_warm_start : first_mu;
-  if (!program_.evaluate(start, objective_, rows_)) return false;
-  rows_ -= point_.s;
+  const auto merit = program_.evaluate(start, point_.s, rows_);
+  if (!merit) return false;
+  merit_ = *merit;
   program_.differentiate(start);
   if (is_warm()) {
     point_.multipliers = options_.start_multipliers;
@@ -92,15 +94,16 @@ bool InteriorPointRun::begin(const Eigen::VectorXd& start) {
   }
   if (!find_slope()) return false;
   measure();
-  first_violation_ = std::max(1.0, violation_);
+  first_violation_ = std::max(1.0, merit_.violation);
   noise_of_violation_ = plain_program_.rounding_floor() * std::sqrt(static_cast<double>(rows_.size()));
   filter_.reset(largest_violation * first_violation_);
   return true;
 }
 
-void InteriorPointRun::measure() {
-  violation_ = sum_of_magnitudes(rows_);
-  function_ = objective_ + (program_.has_bounds() ? mu_ * program_.barrier(point_) : 0.0);
+void InteriorPointRun::measure() { function_ = function_at(point_, merit_); }
+
+double InteriorPointRun::function_at(const Point& point, const BarrierProgram::Merit& merit) const {
+  return merit.objective + (program_.has_bounds() ? mu_ * program_.barrier(point) : 0.0);
 }
 
 std::optional<Status> InteriorPointRun::reason_to_stop() const {
@@ -116,55 +119,56 @@ bool InteriorPointRun::find_slope() {
   return true;
 }
 
-InteriorPointRun::Residuals InteriorPointRun::residuals(double mu) const {
+InteriorPointRun::Residuals InteriorPointRun::residuals() {
   Residuals at;
   at.violation = largest_of(rows_);
   if (!program_.has_bounds()) {
     at.stationarity = largest_of(slope_);
     return at;
   }
-  Eigen::VectorXd slope = slope_;
-  subtract_multipliers(program_.x_lower(), point_.x_lower, 1.0, slope);
-  subtract_multipliers(program_.x_upper(), point_.x_upper, -1.0, slope);
-  Eigen::VectorXd slack_slope = -point_.multipliers;
+  copy_to(balanced_, slope_);
+  subtract_multipliers(program_.x_lower(), point_.x_lower, 1.0, balanced_);
+  subtract_multipliers(program_.x_upper(), point_.x_upper, -1.0, balanced_);
+  Eigen::VectorXd slack_slope = program_.slope_of_slacks(point_.multipliers);
   subtract_multipliers(program_.s_lower(), point_.s_lower, 1.0, slack_slope);
   subtract_multipliers(program_.s_upper(), point_.s_upper, -1.0, slack_slope);
-  at.stationarity = largest_of(slope);
-  for (const Eigen::Index i : program_.inequalities()) {
-    at.stationarity = std::max(at.stationarity, std::abs(slack_slope[i]));
-  }
-  at.complementarity = std::max({complementarity(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
-                                 complementarity(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
-                                 complementarity(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
-                                 complementarity(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
+  at.stationarity = std::max(largest_of(balanced_), largest_of(slack_slope));
   return at;
 }
 
-double InteriorPointRun::barrier_error(const Residuals& at) const {
+double InteriorPointRun::complementarity_at(double mu) const {
+  return std::max({complementarity(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
+                   complementarity(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
+                   complementarity(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
+                   complementarity(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
+}
+
+/// s_d and s_c of the paper: large multipliers excuse large residuals.
+InteriorPointRun::Scales InteriorPointRun::scales() const {
   const double sum_z = point_.x_lower.sum() + point_.x_upper.sum() + point_.s_lower.sum() + point_.s_upper.sum();
   const auto bounds = static_cast<double>(program_.bound_count());
   const double sum = sum_of_magnitudes(point_.multipliers) + sum_z;
   const double count = bounds + static_cast<double>(point_.multipliers.size());
-  const double s_d = std::max(s_max, count > 0.0 ? sum / count : 0.0) / s_max;
-  const double s_c = std::max(s_max, bounds > 0.0 ? sum_z / bounds : 0.0) / s_max;
-  return std::max({at.stationarity / s_d, at.violation, at.complementarity / s_c});
+  return {.stationarity = std::max(s_max, count > 0.0 ? sum / count : 0.0) / s_max,
+          .complementarity = std::max(s_max, bounds > 0.0 ? sum_z / bounds : 0.0) / s_max};
 }
 
-bool InteriorPointRun::has_converged() const {
-  const Residuals at = residuals(0.0);
+bool InteriorPointRun::has_converged(const Residuals& at) const {
   const double floor = plain_program_.rounding_floor();
-  const double largest = largest_of(point_.multipliers);
-  const double excused_stationarity = floor * std::max(1.0, largest);
-  Residuals left = at;
-  if (at.stationarity <= excused_stationarity) left.stationarity = 0.0;
-  if (at.violation <= floor) left.violation = 0.0;
-  return barrier_error(left) <= tolerance_;
+  if (at.violation > std::max(tolerance_, floor)) return false;
+  const Scales scale = scales();
+  const bool is_stationary = at.stationarity / scale.stationarity <= tolerance_ ||
+                             at.stationarity <= floor * std::max(1.0, largest_of(point_.multipliers));
+  return is_stationary && complementarity_at(0.0) / scale.complementarity <= tolerance_;
 }
 
-void InteriorPointRun::lower_barrier() {
+void InteriorPointRun::lower_barrier(const Residuals& at) {
   if (!program_.has_bounds()) return;
   const double smallest = tolerance_ / (kappa_epsilon + 1.0);
-  while (mu_ > smallest && barrier_error(residuals(mu_)) <= kappa_epsilon * mu_) {
+  const Scales scale = scales();
+  const double without_barrier = std::max(at.stationarity / scale.stationarity, at.violation);
+  const auto error = [&] { return std::max(without_barrier, complementarity_at(mu_) / scale.complementarity); };
+  while (mu_ > smallest && without_barrier <= kappa_epsilon * mu_ && error() <= kappa_epsilon * mu_) {
     mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));
     measure();
     filter_.reset(largest_violation * first_violation_);
@@ -172,9 +176,10 @@ void InteriorPointRun::lower_barrier() {
 }
 
 std::optional<Status> InteriorPointRun::iterate() {
-  if (has_converged()) return Status::solved;
+  const Residuals at = residuals();
+  if (has_converged(at)) return Status::solved;
   if (const auto reason = reason_to_stop()) return reason;
-  lower_barrier();
+  lower_barrier(at);
   ++iterations_;
   program_.evaluate_hessian(point_);
   if (!newton_.compute(point_, mu_, slope_, rows_, direction_) || !search(direction_)) {
@@ -209,42 +214,47 @@ double InteriorPointRun::largest_bound_step(const Direction& direction, double s
 /// Accepts the point at `length` along the direction if filter and descent allow it, (18) and (20) of the paper; with
 /// differences that are rounding counted as none.
 bool InteriorPointRun::try_point(const Direction& direction, double length, double slope, double reference_length) {
-  set_to_sum(trial_.x, point_.x, length, direction.x);
-  set_to_sum(trial_.s, point_.s, length, direction.s);
-  if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) return false;
-  set_to_sum(trial_rows_, trial_rows_, -1.0, trial_.s);
-  const double violation = sum_of_magnitudes(trial_rows_);
-  const double function = trial_objective_ + (program_.has_bounds() ? mu_ * program_.barrier(trial_) : 0.0);
+  set_trial(direction, length);
+  const auto merit = program_.evaluate(trial_.x, trial_.s, trial_rows_);
+  trial_merit_ = merit.value_or(BarrierProgram::Merit{infinite, infinite});
+  if (!merit) return false;
+  const double violation = merit->violation;
+  const double function = function_at(trial_, *merit);
   if (!std::isfinite(function)) return false;
   const double noise = noise_of_function();
   if (!filter_.accepts(violation - noise_of_violation_, function - noise)) return false;
-  const bool is_noise = violation <= noise_of_violation_ && violation_ <= noise_of_violation_;
+  const bool is_noise = violation <= noise_of_violation_ && merit_.violation <= noise_of_violation_;
   const bool is_descent =
-      slope < 0.0 && reference_length * std::pow(-slope, s_phi) > delta * std::pow(violation_, s_theta);
-  if (violation_ <= small_violation * first_violation_ && (is_descent || is_noise)) {
+      slope < 0.0 && reference_length * std::pow(-slope, s_phi) > delta * std::pow(merit_.violation, s_theta);
+  if (merit_.violation <= small_violation * first_violation_ && (is_descent || is_noise)) {
     if (!(function - function_ <= eta * reference_length * slope + noise)) return false;
   } else {
-    const bool is_better = violation <= (1.0 - Filter::margin) * violation_ ||
-                           function - function_ <= -Filter::margin * violation_ + noise;
+    const bool is_better = violation <= (1.0 - Filter::margin) * merit_.violation ||
+                           function - function_ <= -Filter::margin * merit_.violation + noise;
     if (!is_better) return false;
-    filter_.add(violation_, function_);
+    filter_.add(merit_.violation, function_);
   }
   accept_trial();
   return true;
+}
+
+void InteriorPointRun::set_trial(const Direction& direction, double length) {
+  set_to_sum(trial_.x, point_.x, length, direction.x);
+  if (point_.s.size() > 0) set_to_sum(trial_.s, point_.s, length, direction.s);
 }
 
 /// Rounding of a sum of as many terms as there are unknowns.
 double InteriorPointRun::noise_of_function() const {
   constexpr double safety = 10.0;
   return safety * std::sqrt(static_cast<double>(point_.x.size())) * std::numeric_limits<double>::epsilon() *
-         (std::abs(objective_) + std::abs(function_ - objective_));
+         (std::abs(merit_.objective) + std::abs(function_ - merit_.objective));
 }
 
 void InteriorPointRun::accept_trial() {
   point_.x.swap(trial_.x);
   point_.s.swap(trial_.s);
   rows_.swap(trial_rows_);
-  objective_ = trial_objective_;
+  merit_ = trial_merit_;
 }
 
 void InteriorPointRun::move_bounds(const Direction& direction, double length) {
@@ -262,13 +272,13 @@ void InteriorPointRun::keep_bounds_near_barrier() {
   keep_near_barrier(point_.s, program_.s_upper(), -1.0, mu_, point_.s_upper);
 }
 
-void InteriorPointRun::report(const char* kind, double length) const {
+void InteriorPointRun::report(const char* kind, double length) {
   if (!options_.verbose) return;
-  const Residuals at = residuals(0.0);
+  const Residuals at = residuals();
   std::ostringstream line;
   line << std::setw(4) << iterations_ << " " << std::setw(6) << kind << std::scientific << std::setprecision(10)
-       << "  cost " << objective_ << std::setprecision(1) << "  violation " << at.violation << "  stationarity "
-       << at.stationarity << "  complementarity " << at.complementarity << "  mu " << mu_ << "  shift "
+       << "  cost " << merit_.objective << std::setprecision(1) << "  violation " << at.violation << "  stationarity "
+       << at.stationarity << "  complementarity " << complementarity_at(0.0) << "  mu " << mu_ << "  shift "
        << newton_.shift() << "  step " << length << "\n";
   std::cout << line.str();
 }
@@ -281,9 +291,9 @@ bool InteriorPointRun::search(const Direction& direction) {
   const auto smallest_length = [&] {
     double length = Filter::margin;
     if (slope < 0.0) {
-      length = std::min(length, -Filter::margin * violation_ / slope);
-      if (violation_ <= small_violation * first_violation_) {
-        length = std::min(length, delta * std::pow(violation_, s_theta) / std::pow(-slope, s_phi));
+      length = std::min(length, -Filter::margin * merit_.violation / slope);
+      if (merit_.violation <= small_violation * first_violation_) {
+        length = std::min(length, delta * std::pow(merit_.violation, s_theta) / std::pow(-slope, s_phi));
       }
     }
     return std::max(gamma_alpha * length, 1e-14);
@@ -292,7 +302,7 @@ bool InteriorPointRun::search(const Direction& direction) {
   double length = longest_step;
   for (bool is_first = true; is_first || length >= least; length *= 0.5) {
     bool accepted = try_point(direction, length, slope, length);
-    if (!accepted && is_first && is_worth_correcting(sum_of_magnitudes(trial_rows_))) {
+    if (!accepted && is_first && is_worth_correcting(trial_merit_.violation)) {
       accepted = correct_second_order(slope, length);
     }
     is_first = false;
@@ -309,21 +319,21 @@ bool InteriorPointRun::search(const Direction& direction) {
 /// A violation that grows is the rows' curvature. Where it grows a lot the step is too long for a correction: over the
 /// library, N = 64, one system in ten is saved, and iterations do not change.
 bool InteriorPointRun::is_worth_correcting(double violation_there) const {
-  return violation_there >= violation_ && violation_there <= correctable * violation_;
+  return violation_there >= merit_.violation && violation_there <= correctable * merit_.violation;
 }
 
 /// Steps for the rows' curvature: their residual at the trial point joins the right-hand side, (27) of the paper.
 bool InteriorPointRun::correct_second_order(double slope, double length) {
   const double share = std::max(tau_min, 1.0 - mu_);
   Eigen::VectorXd residual = length * rows_ + trial_rows_;
-  double before = violation_;
+  double before = merit_.violation;
   Direction corrected;
   for (int i = 0; i < most_corrections; ++i) {
-    if (!residual.allFinite() || !newton_.correct(point_, mu_, residual, corrected)) return false;
+    if (!residual.allFinite() || !newton_.correct(point_, mu_, slope_, residual, corrected)) return false;
     const double corrected_length = largest_step(corrected, share);
     // NOLINTNEXTLINE(readability-suspicious-call-argument): descent is measured by the step that is corrected.
     if (try_point(corrected, corrected_length, slope, length)) return true;
-    const double now = trial_rows_.lpNorm<1>();
+    const double now = trial_merit_.violation;
     if (!(now <= kappa_soc * before)) return false;
     before = now;
     residual = corrected_length * residual + trial_rows_;
@@ -339,11 +349,10 @@ bool InteriorPointRun::step_towards_rows() {
   constexpr double shortest = 1e-10;
   constexpr double sufficient = 1e-4;
   for (double length = largest_step(direction_, tau_min); length > shortest; length *= 0.5) {
-    trial_.x = point_.x + length * direction_.x;
-    trial_.s = point_.s + length * direction_.s;
-    if (!program_.evaluate(trial_.x, trial_objective_, trial_rows_)) continue;
-    trial_rows_ -= trial_.s;
-    if (!(trial_rows_.lpNorm<1>() <= (1.0 - sufficient * length) * violation_)) continue;
+    set_trial(direction_, length);
+    const auto merit = program_.evaluate(trial_.x, trial_.s, trial_rows_);
+    if (!merit || !(merit->violation <= (1.0 - sufficient * length) * merit_.violation)) continue;
+    trial_merit_ = *merit;
     accept_trial();
     measure();
     step_length_ = length;
@@ -354,22 +363,22 @@ bool InteriorPointRun::step_towards_rows() {
 
 /// Steps towards the rows alone, until the filter takes the point back.
 std::optional<Status> InteriorPointRun::restore() {
-  if (violation_ <= tolerance_) {
+  if (merit_.violation <= tolerance_) {
     message_ = "No step along the Newton direction is an improvement, though all rows hold.";
     return Status::step_failed;
   }
   constexpr double enough = 0.9;
-  const double violation_before = violation_;
-  filter_.add(violation_, function_);
+  const double violation_before = merit_.violation;
+  filter_.add(merit_.violation, function_);
   bool is_restored = false;
   while (!is_restored) {
     if (const auto reason = reason_to_stop()) return reason;
     if (!step_towards_rows()) break;
     ++iterations_;
     report("rows", step_length_);
-    is_restored = violation_ <= enough * violation_before && filter_.accepts(violation_, function_);
+    is_restored = merit_.violation <= enough * violation_before && filter_.accepts(merit_.violation, function_);
   }
-  if (violation_ <= enough * violation_before) {
+  if (merit_.violation <= enough * violation_before) {
     begin_anew();
     return std::nullopt;
   }

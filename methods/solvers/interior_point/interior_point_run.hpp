@@ -19,7 +19,7 @@ namespace dmocbench::interior_point {
 /// Programming 106, 2006); equations are named after it.
 class InteriorPointRun {
  public:
-  InteriorPointRun(NonlinearProgram& program, KktSystem& kkt, const Eigen::VectorXd& start,
+  InteriorPointRun(NonlinearProgram& program, const ProgramRuns& runs, KktSystem& kkt, const Eigen::VectorXd& start,
                    const SolverOptions& options);
 
   /// Judged by `confirm` afterwards, like every solver's.
@@ -30,7 +30,10 @@ class InteriorPointRun {
   struct Residuals {
     double stationarity = 0.0;
     double violation = 0.0;
-    double complementarity = 0.0;
+  };
+  struct Scales {
+    double stationarity;
+    double complementarity;
   };
 
   [[nodiscard]] bool is_warm() const noexcept { return options_.start_multipliers.size() > 0; }
@@ -41,10 +44,11 @@ class InteriorPointRun {
   [[nodiscard]] bool find_slope();
 
   // Convergence.
-  [[nodiscard]] Residuals residuals(double mu) const;
-  [[nodiscard]] double barrier_error(const Residuals& at) const;
-  [[nodiscard]] bool has_converged() const;
-  void lower_barrier();
+  [[nodiscard]] Residuals residuals();
+  [[nodiscard]] double complementarity_at(double mu) const;
+  [[nodiscard]] Scales scales() const;
+  [[nodiscard]] bool has_converged(const Residuals& at) const;
+  void lower_barrier(const Residuals& at);
   void keep_multipliers_from_running_away();
 
   // Line search.
@@ -56,6 +60,7 @@ class InteriorPointRun {
   [[nodiscard]] bool correct_second_order(double slope, double length);
   void move_bounds(const Direction& direction, double length);
   void keep_bounds_near_barrier();
+  void set_trial(const Direction& direction, double length);
   void accept_trial();
   [[nodiscard]] double noise_of_function() const;
 
@@ -64,8 +69,9 @@ class InteriorPointRun {
   [[nodiscard]] bool step_towards_rows();
   void begin_anew();
 
-  void report(const char* kind, double length) const;
-  void measure();  // violation and function at point_
+  void report(const char* kind, double length);
+  void measure();
+  [[nodiscard]] double function_at(const Point& point, const BarrierProgram::Merit& merit) const;
 
   NonlinearProgram& plain_program_;
   const SolverOptions& options_;
@@ -77,12 +83,12 @@ class InteriorPointRun {
   Direction direction_;
   std::vector<Eigen::Index> fixed_;
   Eigen::VectorXd slope_;  // ∇φ + Jᵀλ at the point, zero for what is fixed
-  Eigen::VectorXd rows_;   // a(x) - s at the point
+  Eigen::VectorXd rows_;   // residuals at the point
   Eigen::VectorXd trial_rows_;
-  double objective_ = 0.0;
-  double trial_objective_ = 0.0;
-  double violation_ = 0.0;  // |a(x) - s|_1
-  double function_ = 0.0;   // φ + μ barrier
+  Eigen::VectorXd balanced_;  // slope_ with multipliers of bounds
+  BarrierProgram::Merit merit_{};
+  BarrierProgram::Merit trial_merit_{};
+  double function_ = 0.0;  // φ + μ barrier at the point
   double mu_ = 0.0;
   double tolerance_;
   double first_violation_ = 0.0;

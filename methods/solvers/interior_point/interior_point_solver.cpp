@@ -42,14 +42,15 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
 }
 
 /// Null, with the reason in `why`, where the program has no structure that intervals need.
-std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program, Factorisation choice,
+std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program,
+                                                       const interior_point::ProgramRuns& runs, Factorisation choice,
                                                        std::string& why) {
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
   if (choice == Factorisation::recombined) return interior_point::RecombinedKkt::make(program, why);
   if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
-  auto by_intervals = interior_point::IntervalKkt::make(program, why);
+  auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
   if (!by_intervals) return nullptr;
-  return std::make_unique<interior_point::RefinedKkt>(program, std::move(by_intervals));
+  return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(by_intervals));
 }
 
 }  // namespace
@@ -72,7 +73,8 @@ Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::Vect
   }
   const Clock::time_point begin = Clock::now();
   std::string why;
-  const auto kkt = make_system(program, factorisation_of(options_.passed_on), why);
+  const interior_point::ProgramRuns runs(program);
+  const auto kkt = make_system(program, runs, factorisation_of(options_.passed_on), why);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
@@ -80,7 +82,7 @@ Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::Vect
                       "; choose ipopt, or the option factorisation=sparse.";
     return refused;
   }
-  Solution solution = interior_point::InteriorPointRun(program, *kkt, start, options_).run();
+  Solution solution = interior_point::InteriorPointRun(program, runs, *kkt, start, options_).run();
   solution.seconds = seconds_since(begin);  // finding the structure is part of it
   const std::string message = solution.message;
   confirm(program, options_.tolerance, solution);

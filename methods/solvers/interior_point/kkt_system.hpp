@@ -17,7 +17,10 @@ struct KktMatrix {
   const Eigen::VectorXd& hessian;   ///< one value per entry of hessian_structure()
   const Eigen::VectorXd& jacobian;  ///< one value per entry of jacobian_structure()
   const Eigen::VectorXd& diagonal;  ///< d, one per variable
-  const Eigen::VectorXd& softness;  ///< e >= 0, one per row, zero for exactly the equalities
+  /// e >= 0, one per row, zero for exactly the equalities; empty if there is nothing else.
+  const Eigen::VectorXd& softness;
+
+  [[nodiscard]] double softness_of(Eigen::Index row) const { return softness.size() > 0 ? softness[row] : 0.0; }
 };
 
 /// What a factorisation found.

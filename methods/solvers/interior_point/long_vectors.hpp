@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/program/large_pages.hpp"
 #include "methods/program/parallel.hpp"
 
 namespace dmocbench::interior_point {
@@ -68,21 +69,22 @@ inline double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 /// target = vector + factor * step
 inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, double factor,
                        const Eigen::VectorXd& step) {
-  target.resize(vector.size());
+  resize_unwritten(target, vector.size());
   for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
     target.segment(begin, length) = vector.segment(begin, length) + factor * step.segment(begin, length);
   });
 }
 
 inline void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector) {
-  target.resize(vector.size());
+  resize_unwritten(target, vector.size());
   for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
     target.segment(begin, length) = vector.segment(begin, length);
   });
 }
 
-inline void set_zero(Eigen::VectorXd& target) {
-  for_stretches(target.size(),
+inline void set_zero(Eigen::VectorXd& target, Eigen::Index size) {
+  resize_unwritten(target, size);
+  for_stretches(size,
                 [&](std::size_t, Eigen::Index begin, Eigen::Index length) { target.segment(begin, length).setZero(); });
 }
 

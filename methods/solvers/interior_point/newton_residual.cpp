@@ -19,9 +19,10 @@ double largest_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-NewtonResidual::NewtonResidual(const NonlinearProgram& program)
-    : hessian_runs_(cut_at_diagonal(pattern_runs(program.hessian_structure()))),
-      jacobian_runs_(pattern_runs(program.jacobian_structure())),
+NewtonResidual::NewtonResidual(const NonlinearProgram& program, const ProgramRuns& runs)
+    : hessian_(MatrixProduct::symmetric(runs.hessian)),
+      jacobian_(MatrixProduct::plain(runs.jacobian)),
+      transposed_jacobian_(MatrixProduct::transposed(runs.jacobian)),
       floor_(program.rounding_floor()) {
   const Eigen::VectorXd& lower = program.variable_lower();
   const Eigen::VectorXd& upper = program.variable_upper();
@@ -34,12 +35,18 @@ void NewtonResidual::compute(const KktMatrix& matrix, const Eigen::VectorXd& slo
                              const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step) {
   largest_slope_ = largest_of(slope);
   largest_row_ = largest_of(rows);
-  slope_ = slope + matrix.diagonal.cwiseProduct(primal_step);
-  add_symmetric_product(hessian_runs_, matrix.hessian, primal_step, slope_);
-  add_transposed_product(jacobian_runs_, matrix.jacobian, multiplier_step, slope_);
+  resize_unwritten(slope_, slope.size());
+  for_stretches(slope.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+    slope_.segment(begin, length) =
+        slope.segment(begin, length) +
+        matrix.diagonal.segment(begin, length).cwiseProduct(primal_step.segment(begin, length));
+  });
+  hessian_.add(matrix.hessian, primal_step, slope_);
+  transposed_jacobian_.add(matrix.jacobian, multiplier_step, slope_);
   for (const Eigen::Index i : fixed_) slope_[i] = 0.0;
-  rows_ = rows - matrix.softness.cwiseProduct(multiplier_step);
-  add_product(jacobian_runs_, matrix.jacobian, primal_step, rows_);
+  copy_to(rows_, rows);
+  if (matrix.softness.size() > 0) rows_ -= matrix.softness.cwiseProduct(multiplier_step);
+  jacobian_.add(matrix.jacobian, primal_step, rows_);
 }
 
 double NewtonResidual::excess(const KktMatrix& matrix, const Eigen::VectorXd& primal_step,
@@ -59,8 +66,8 @@ double NewtonResidual::excess(const KktMatrix& matrix, const Eigen::VectorXd& pr
   const double allowed_slope = floor_ * std::max(1.0, largest_of(multiplier_step)) + accuracy * largest_slope_ +
                                rounding * (largest_product(matrix.diagonal, primal_step) +
                                            largest_of(matrix.hessian) * step + jacobian * largest_of(multiplier_step));
-  const double allowed_row = floor_ + accuracy * largest_row_ +
-                             rounding * (largest_product(matrix.softness, multiplier_step) + jacobian * step);
+  const double of_softness = matrix.softness.size() > 0 ? largest_product(matrix.softness, multiplier_step) : 0.0;
+  const double allowed_row = floor_ + accuracy * largest_row_ + rounding * (of_softness + jacobian * step);
   return std::max(slope > 0.0 ? slope / allowed_slope : 0.0, row > 0.0 ? row / allowed_row : 0.0);
 }
 

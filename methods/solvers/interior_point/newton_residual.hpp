@@ -6,7 +6,7 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
-#include "methods/solvers/interior_point/pattern_runs.hpp"
+#include "methods/solvers/interior_point/matrix_product.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -17,7 +17,8 @@ namespace dmocbench::interior_point {
 /// with zero for fixed variables, whose equation is δx = 0.
 class NewtonResidual {
  public:
-  explicit NewtonResidual(const NonlinearProgram& program);
+  explicit NewtonResidual(const NonlinearProgram& program) : NewtonResidual(program, ProgramRuns(program)) {}
+  NewtonResidual(const NonlinearProgram& program, const ProgramRuns& runs);
 
   void compute(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step);
@@ -33,8 +34,9 @@ class NewtonResidual {
                               const Eigen::VectorXd& multiplier_step, double accuracy) const;
 
  private:
-  std::vector<PatternRun> hessian_runs_;
-  std::vector<PatternRun> jacobian_runs_;
+  MatrixProduct hessian_;
+  MatrixProduct jacobian_;
+  MatrixProduct transposed_jacobian_;
   double floor_;  // the program's rounding_floor()
   std::vector<Eigen::Index> fixed_;
   Eigen::VectorXd slope_;

@@ -32,67 +32,80 @@ bool InertiaShift::raise() noexcept {
 }
 
 NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_(program), kkt_(kkt) {
-  const auto n = static_cast<Eigen::Index>(program.program().variable_count());
-  const auto m = static_cast<Eigen::Index>(program.program().constraint_count());
-  diagonal_.setZero(n);
-  shifted_.setZero(n);
-  slope_.setZero(n);
-  slack_.setZero(m);
-  softness_.setZero(m);
-  slack_slope_.setZero(m);
-  right_rows_.setZero(m);
-  no_hessian_.setZero(program.hessian().size());
+  set_zero(diagonal_, static_cast<Eigen::Index>(program.program().variable_count()));
+  if (program.has_bounds()) {
+    set_zero(sigma_, diagonal_.size());
+    set_zero(slope_, diagonal_.size());
+  }
+  if (!program.inequalities().empty()) {
+    set_zero(softness_, static_cast<Eigen::Index>(program.program().constraint_count()));
+    set_zero(right_rows_, softness_.size());
+    slack_sigma_.setZero(static_cast<Eigen::Index>(program.inequalities().size()));
+    slack_slope_.setZero(slack_sigma_.size());
+  }
 }
 
 void NewtonStep::fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope) {
-  copy_to(slope_, slope);
   if (!program_.has_bounds()) return;
-  diagonal_.setZero();
-  slack_.setZero();
-  slack_slope_ = -point.multipliers;
-  add_barrier(point.x, program_.x_lower(), point.x_lower, 1.0, mu, diagonal_, slope_);
-  add_barrier(point.x, program_.x_upper(), point.x_upper, -1.0, mu, diagonal_, slope_);
-  add_barrier(point.s, program_.s_lower(), point.s_lower, 1.0, mu, slack_, slack_slope_);
-  add_barrier(point.s, program_.s_upper(), point.s_upper, -1.0, mu, slack_, slack_slope_);
+  copy_to(slope_, slope);
+  sigma_.setZero();
+  slack_sigma_.setZero();
+  slack_slope_ = program_.slope_of_slacks(point.multipliers);
+  add_barrier(point.x, program_.x_lower(), point.x_lower, 1.0, mu, sigma_, slope_);
+  add_barrier(point.x, program_.x_upper(), point.x_upper, -1.0, mu, sigma_, slope_);
+  add_barrier(point.s, program_.s_lower(), point.s_lower, 1.0, mu, slack_sigma_, slack_slope_);
+  add_barrier(point.s, program_.s_upper(), point.s_upper, -1.0, mu, slack_sigma_, slack_slope_);
 }
 
-Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction) {
+void NewtonStep::fill_diagonal(double constant) {
+  if (sigma_.size() == 0 && constant == constant_) return;
+  constant_ = constant;
   for_stretches(diagonal_.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    shifted_.segment(begin, length) = diagonal_.segment(begin, length).array() + shift_.value();
+    if (sigma_.size() > 0) {
+      diagonal_.segment(begin, length) = sigma_.segment(begin, length).array() + constant;
+    } else {
+      diagonal_.segment(begin, length).setConstant(constant);
+    }
   });
-  copy_to(right_rows_, rows);
-  for (const Eigen::Index i : program_.inequalities()) {
-    softness_[i] = 1.0 / (slack_[i] + shift_.value());
-    right_rows_[i] += softness_[i] * slack_slope_[i];
+}
+
+Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
+                          const Eigen::VectorXd& rows, Direction& direction) {
+  fill_diagonal(constant);
+  const std::vector<Eigen::Index>& inequalities = program_.inequalities();
+  if (!inequalities.empty()) copy_to(right_rows_, rows);
+  for (std::size_t j = 0; j < inequalities.size(); ++j) {
+    const Eigen::Index row = inequalities[j];
+    const auto slack = static_cast<Eigen::Index>(j);
+    softness_[row] = 1.0 / (slack_sigma_[slack] + constant);
+    right_rows_[row] += softness_[row] * slack_slope_[slack];
   }
-  direction.x.resize(slope_.size());
-  direction.multipliers.resize(rows.size());
+  resize_unwritten(direction.x, diagonal_.size());
+  resize_unwritten(direction.multipliers, rows.size());
   ++factorisations_;
   const Clock::time_point begin = Clock::now();
-  const Verdict verdict = kkt_.solve({hessian, program_.jacobian(), shifted_, softness_}, slope_, right_rows_,
-                                     direction.x, direction.multipliers);
+  const Verdict verdict = kkt_.solve({hessian, program_.jacobian(), diagonal_, softness_}, slope,
+                                     inequalities.empty() ? rows : right_rows_, direction.x, direction.multipliers);
   linear_seconds_ += seconds_since(begin);
   return verdict;
 }
 
 void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {
-  direction.s.resize(point.s.size());
-  set_zero(direction.s);
   if (!program_.has_bounds()) return;
-  for (const Eigen::Index i : program_.inequalities()) {
-    direction.s[i] = softness_[i] * (direction.multipliers[i] - slack_slope_[i]);
-  }
-  direction.x_lower = bound_step(point.x, direction.x, program_.x_lower(), point.x_lower, 1.0, mu);
-  direction.x_upper = bound_step(point.x, direction.x, program_.x_upper(), point.x_upper, -1.0, mu);
-  direction.s_lower = bound_step(point.s, direction.s, program_.s_lower(), point.s_lower, 1.0, mu);
-  direction.s_upper = bound_step(point.s, direction.s, program_.s_upper(), point.s_upper, -1.0, mu);
+  direction.s =
+      softness_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()) - slack_slope_);
+  set_bound_step(point.x, direction.x, program_.x_lower(), point.x_lower, 1.0, mu, direction.x_lower);
+  set_bound_step(point.x, direction.x, program_.x_upper(), point.x_upper, -1.0, mu, direction.x_upper);
+  set_bound_step(point.s, direction.s, program_.s_lower(), point.s_lower, 1.0, mu, direction.s_lower);
+  set_bound_step(point.s, direction.s, program_.s_upper(), point.s_upper, -1.0, mu, direction.s_upper);
 }
 
 bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                          Direction& direction) {
   fill_barrier(point, mu, slope);
+  const Eigen::VectorXd& of_barrier = program_.has_bounds() ? slope_ : slope;
   shift_.begin();
-  while (solve(program_.hessian(), rows, direction) != Verdict::solved) {
+  while (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != Verdict::solved) {
     // A number that is not finite shows in the verdict; to look for it before every step would take as long as a sweep.
     if (!is_finite(program_.hessian()) || !shift_.raise()) return false;
   }
@@ -101,48 +114,56 @@ bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& s
   return true;
 }
 
-bool NewtonStep::correct(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
-  if (solve(program_.hessian(), rows, direction) != Verdict::solved) return false;
+bool NewtonStep::correct(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                         Direction& direction) {
+  const Eigen::VectorXd& of_barrier = program_.has_bounds() ? slope_ : slope;
+  if (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != Verdict::solved) return false;
   complete(point, mu, direction);
   return true;
 }
 
+/// Made when it is needed, which is rare.
+const Eigen::VectorXd& NewtonStep::no_hessian() {
+  if (no_hessian_.size() == 0) no_hessian_.setZero(program_.hessian().size());
+  return no_hessian_;
+}
+
 bool NewtonStep::towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction) {
-  slope_.setZero();
+  constexpr double of_a_unit_of_length = 1.0;
+  const Eigen::VectorXd no_slope = Eigen::VectorXd::Zero(diagonal_.size());
   slack_slope_.setZero();
-  diagonal_.setOnes();
-  slack_.setOnes();
-  add_nearness(point.x, program_.x_lower(), mu, diagonal_);
-  add_nearness(point.x, program_.x_upper(), mu, diagonal_);
-  add_nearness(point.s, program_.s_lower(), mu, slack_);
-  add_nearness(point.s, program_.s_upper(), mu, slack_);
+  sigma_.setZero();
+  slack_sigma_.setZero();
+  add_nearness(point.x, program_.x_lower(), mu, sigma_);
+  add_nearness(point.x, program_.x_upper(), mu, sigma_);
+  add_nearness(point.s, program_.s_lower(), mu, slack_sigma_);
+  add_nearness(point.s, program_.s_upper(), mu, slack_sigma_);
   shift_.clear();
-  const Verdict verdict = solve(no_hessian_, rows, direction);
-  diagonal_.setZero();
-  if (verdict != Verdict::solved) return false;
-  direction.s.setZero(point.s.size());
-  for (const Eigen::Index i : program_.inequalities()) direction.s[i] = softness_[i] * direction.multipliers[i];
+  if (solve(no_hessian(), of_a_unit_of_length, no_slope, rows, direction) != Verdict::solved) return false;
+  if (program_.inequalities().empty()) return true;
+  direction.s = softness_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()));
   return true;
 }
 
 void NewtonStep::estimate_multipliers(Point& point) {
   constexpr double largest = 1e3;
-  constexpr double no_mu = 0.0;
+  constexpr double of_a_unit_of_slope = 1.0;
   Direction direction;
   point.multipliers.setZero();
-  fill_barrier(point, no_mu, program_.gradient());
-  // The slope with the multipliers of the bounds as they are, where fill_barrier has those of the barrier.
-  subtract_multipliers(program_.x_lower(), point.x_lower, 1.0, slope_);
-  subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope_);
+  Eigen::VectorXd slope = program_.gradient();
+  // With the multipliers of the bounds as they are.
+  subtract_multipliers(program_.x_lower(), point.x_lower, 1.0, slope);
+  subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope);
+  slack_slope_.setZero();
   subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
   subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
   // No slope asks for no multipliers: so it is where the cost is a square of controls and the guess has none.
-  if (slope_.isZero(0.0) && slack_slope_.isZero(0.0)) return;
-  diagonal_.setOnes();
-  slack_.setOnes();
+  if (slope.isZero(0.0) && slack_slope_.isZero(0.0)) return;
+  sigma_.setZero();
+  slack_sigma_.setZero();
   shift_.clear();
-  const Verdict verdict = solve(no_hessian_, Eigen::VectorXd::Zero(point.s.size()), direction);
-  diagonal_.setZero();
+  const Verdict verdict =
+      solve(no_hessian(), of_a_unit_of_slope, slope, Eigen::VectorXd::Zero(point.multipliers.size()), direction);
   if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return;
   point.multipliers = direction.multipliers;
 }

@@ -50,8 +50,9 @@ class NewtonStep {
   /// a(x) - s. False if no shift of the Hessian gives a step.
   [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                              Direction& direction);
-  /// The same matrix for another residual of the rows; false if it fails.
-  [[nodiscard]] bool correct(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
+  /// The same matrix and slope for another residual of the rows; false if it fails.
+  [[nodiscard]] bool correct(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                             Direction& direction);
   /// The shortest step to where the linearised rows hold, in a norm in which a unit of length costs 1 + μ/d² at the
   /// distance d from a bound.
   [[nodiscard]] bool towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
@@ -70,19 +71,27 @@ class NewtonStep {
 
  private:
   void fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope);
-  [[nodiscard]] Verdict solve(const Eigen::VectorXd& hessian, const Eigen::VectorXd& rows, Direction& direction);
+  /// With Σ + `constant` on the diagonal, of unknowns and of slacks.
+  [[nodiscard]] Verdict solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
+                              const Eigen::VectorXd& rows, Direction& direction);
+  [[nodiscard]] const Eigen::VectorXd& no_hessian();
+  void fill_diagonal(double constant);
   void complete(const Point& point, double mu, Direction& direction) const;
 
   const BarrierProgram& program_;
   KktSystem& kkt_;
   InertiaShift shift_;
-  Eigen::VectorXd diagonal_;  // Σ of the unknowns
-  Eigen::VectorXd shifted_;   // and the shift
-  Eigen::VectorXd slack_;     // Σ of the slacks
-  Eigen::VectorXd softness_;
+  // Empty, with the slope and the rows as they come, where nothing has a bound, or no row a slack: vectors of a long
+  // horizon are fetched from memory.
+  Eigen::VectorXd sigma_;        // Σ of the unknowns
+  Eigen::VectorXd slack_sigma_;  // Σ of the slacks
+  Eigen::VectorXd softness_;     // one per row
   Eigen::VectorXd slope_;        // of the barrier function and the rows, with respect to the unknowns
   Eigen::VectorXd slack_slope_;  // with respect to the slacks
   Eigen::VectorXd right_rows_;
+
+  Eigen::VectorXd diagonal_;
+  double constant_ = 0.0;  // what fills the diagonal where nothing has a bound
   Eigen::VectorXd no_hessian_;
   int factorisations_ = 0;
   double linear_seconds_ = 0.0;

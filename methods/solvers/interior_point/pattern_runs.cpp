@@ -1,7 +1,5 @@
 #include "methods/solvers/interior_point/pattern_runs.hpp"
 
-#include "methods/solvers/interior_point/long_vectors.hpp"
-
 namespace dmocbench::interior_point {
 
 namespace {
@@ -48,34 +46,6 @@ std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern) {
 
 namespace {
 
-bool is_on_diagonal(const PatternRun& run) {
-  return run.row == run.column && (run.length == 1 || run.row_step == run.column_step);
-}
-
-PatternRun transposed(const PatternRun& run) {
-  return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
-}
-
-void add_run(const PatternRun& run, const Eigen::VectorXd& values, const Eigen::VectorXd& x, Eigen::VectorXd& result) {
-  const auto entries = values.segment(run.entry, run.length);
-  if (run.row_step == 0 && run.column_step == 0) {
-    result[run.row] += entries[0] * x[run.column];
-  } else if (run.row_step == 0) {
-    result[run.row] += sum_of_stretches(run.length, [&](Eigen::Index begin, Eigen::Index length) {
-      return entries.segment(begin, length).dot(x.segment(run.column + begin, length));
-    });
-  } else {
-    for_stretches(run.length, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-      auto target = result.segment(run.row + begin, length);
-      if (run.column_step == 0) {
-        target += x[run.column] * entries.segment(begin, length);
-      } else {
-        target += entries.segment(begin, length).cwiseProduct(x.segment(run.column + begin, length));
-      }
-    });
-  }
-}
-
 /// Entries `begin` .. `end` - 1 of a run.
 PatternRun part_of(const PatternRun& run, Eigen::Index begin, Eigen::Index end) {
   return {run.entry + begin,
@@ -87,16 +57,6 @@ PatternRun part_of(const PatternRun& run, Eigen::Index begin, Eigen::Index end) 
 }
 
 }  // namespace
-
-void add_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
-                 Eigen::VectorXd& result) {
-  for (const PatternRun& run : runs) add_run(run, values, x, result);
-}
-
-void add_transposed_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values,
-                            const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) {
-  for (const PatternRun& run : runs) add_run(transposed(run), values, multipliers, result);
-}
 
 std::vector<PatternRun> cut_at_diagonal(const std::vector<PatternRun>& runs) {
   std::vector<PatternRun> cut;
@@ -113,14 +73,6 @@ std::vector<PatternRun> cut_at_diagonal(const std::vector<PatternRun>& runs) {
     if (meeting + 1 < run.length) cut.push_back(part_of(run, meeting + 1, run.length));
   }
   return cut;
-}
-
-void add_symmetric_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
-                           Eigen::VectorXd& result) {
-  for (const PatternRun& run : runs) {
-    add_run(run, values, x, result);
-    if (!is_on_diagonal(run)) add_run(transposed(run), values, x, result);
-  }
 }
 
 }  // namespace dmocbench::interior_point

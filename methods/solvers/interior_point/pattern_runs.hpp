@@ -21,19 +21,16 @@ struct PatternRun {
 /// The pattern as runs, in its order; few where a program is stored column by column.
 [[nodiscard]] std::vector<PatternRun> pattern_runs(const SparsityPattern& pattern);
 
-/// result += J x; `values` one per entry of the pattern that the runs were made from.
-void add_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
-                 Eigen::VectorXd& result);
+/// The runs of a program's matrices; to find them takes a pass over both patterns.
+struct ProgramRuns {
+  explicit ProgramRuns(const NonlinearProgram& program)
+      : jacobian(pattern_runs(program.jacobian_structure())), hessian(pattern_runs(program.hessian_structure())) {}
 
-/// result += Jᵀ multipliers; `values` one per entry of the pattern that the runs were made from.
-void add_transposed_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values,
-                            const Eigen::VectorXd& multipliers, Eigen::VectorXd& result);
+  std::vector<PatternRun> jacobian;
+  std::vector<PatternRun> hessian;  ///< of the lower triangle
+};
 
 /// The runs of a lower triangle, cut so that only those on the diagonal touch it.
 [[nodiscard]] std::vector<PatternRun> cut_at_diagonal(const std::vector<PatternRun>& runs);
-
-/// result += H x for a symmetric matrix of which the lower triangle is there, in runs of `cut_at_diagonal`.
-void add_symmetric_product(const std::vector<PatternRun>& runs, const Eigen::VectorXd& values, const Eigen::VectorXd& x,
-                           Eigen::VectorXd& result);
 
 }  // namespace dmocbench::interior_point

@@ -13,17 +13,19 @@ constexpr int most_refinements = 5;
 constexpr double worthwhile = 0.3;
 /// How much larger than wanted an error may stay: Newton's method still gains a digit in an iteration.
 constexpr double tolerable = 1e5;
-/// An error this much smaller than wanted lets the next steps pass, so many of them.
+/// An error that is as small as wanted lets the next steps pass, and more of them where it is this much smaller.
 constexpr double to_spare = 1e-2;
-constexpr int steps_to_pass = 7;
+constexpr int steps_to_pass = 2;
+constexpr int more_steps_to_pass = 7;
 /// Shifts that are raised in vain before the sparse factorisation is asked: where the Hessian needs one, two or three
 /// usually do.
 constexpr int refusals_to_doubt = 4;
 
 }  // namespace
 
-RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy)
-    : program_(program), fast_(std::move(fast)), residual_(program), accuracy_(accuracy) {}
+RefinedKkt::RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs, std::unique_ptr<KktSystem> fast,
+                       double accuracy)
+    : program_(program), fast_(std::move(fast)), residual_(program, runs), accuracy_(accuracy) {}
 
 Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
@@ -50,7 +52,7 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::Ve
   residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
   double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
   const bool is_fast = &kkt == fast_.get();
-  if (is_fast && excess <= to_spare) unlooked_ = steps_to_pass;
+  if (is_fast && excess <= 1.0) unlooked_ = excess <= to_spare ? more_steps_to_pass : steps_to_pass;
   if (is_fast && excess > tolerable) {
     // The elimination by intervals learns from every system (its terminal weights): once more, from nothing.
     if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != Verdict::solved) return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -15,13 +16,18 @@ namespace dmocbench::interior_point {
 /// the system instead. So it does where the fast one has refused several systems one after the other for their inertia:
 /// its test may be stricter than the truth.
 ///
-/// To compute what is left takes a third to half of the time of the elimination. After a step that was much better than
-/// it has to be the next few are not looked at: their matrices are little different, and Newton's method, whose
-/// right-hand sides are exact, forgives a worse one.
+/// To compute what is left takes a third to half of the time of the elimination. After a step that was good
+/// enough the next two, after one that was much better the next seven are not looked at: their matrices are little
+/// different, and Newton's method, whose right-hand sides are exact, forgives a worse one.
 class RefinedKkt : public KktSystem {
  public:
+  static constexpr double usual_accuracy = 1e-6;
+
   /// A step is good enough if it leaves `accuracy` of the right-hand side, or rounding.
-  RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = 1e-6);
+  RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs, std::unique_ptr<KktSystem> fast,
+             double accuracy = usual_accuracy);
+  RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy)
+      : RefinedKkt(program, ProgramRuns(program), std::move(fast), accuracy) {}
 
   [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                               Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;

@@ -27,7 +27,7 @@ Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) c
   }
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, is_free(i) ? matrix.diagonal[i] : 1.0);
   for (int i = 0; i < m; ++i) {
-    entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.softness[i]);
+    entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.softness_of(i));
   }
   Eigen::SparseMatrix<double> lower(n + m, n + m);
   lower.setFromTriplets(entries.begin(), entries.end());

@@ -135,7 +135,7 @@ class GroupSweeps {
  public:
   GroupSweeps(const Transcription& program, const KktNumbers& numbers) : numbers_(numbers) {
     std::string why;
-    entries_ = that_is_there(interval_entries(program, why));
+    entries_ = that_is_there(interval_entries(program, ProgramRuns(program), why));
     padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
     const auto give = [&](Source source, const Eigen::VectorXd& values) {
       arrays_.arrays[static_cast<std::size_t>(source)] = values.data();

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/solvers/interior_point/matrix_product.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "tests/support/system_choice.hpp"
@@ -93,7 +94,7 @@ void expect_symmetric_product(const SparsityPattern& pattern, Eigen::Index size,
   }
   EXPECT_EQ(entry, static_cast<Eigen::Index>(pattern.size()));
   Eigen::VectorXd sum = before;
-  add_symmetric_product(runs, values, x, sum);
+  MatrixProduct::symmetric(pattern_runs(pattern)).add(values, x, sum);
   const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, size, size, true) * x;
   EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
 }
@@ -151,7 +152,7 @@ TEST(Products, AreThoseOfDenseMatrices) {
     const Eigen::VectorXd x = random.vector(columns);
     const Eigen::VectorXd before = random.vector(rows);
     Eigen::VectorXd sum = before;
-    add_product(pattern_runs(pattern), values, x, sum);
+    MatrixProduct::plain(pattern_runs(pattern)).add(values, x, sum);
     const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, rows, columns, false) * x;
     EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/solvers/interior_point/matrix_product.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/restated_problems.hpp"
@@ -63,7 +64,7 @@ void expect_dense_product(const SparsityPattern& pattern, Eigen::Index rows, Eig
   const Eigen::VectorXd multipliers = random.vector(rows);
   const Eigen::VectorXd before = random.vector(columns);
   Eigen::VectorXd sum = before;
-  add_transposed_product(pattern_runs(pattern), values, multipliers, sum);
+  MatrixProduct::transposed(pattern_runs(pattern)).add(values, multipliers, sum);
   EXPECT_LT((sum - before - matrix.transpose() * multipliers).lpNorm<Eigen::Infinity>(), 1e-13);
 }
 

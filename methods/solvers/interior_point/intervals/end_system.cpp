@@ -130,7 +130,7 @@ void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, 
     right_hand_side_[unknown.at] -= value_at(slope, unknown.number);
   }
   for (const Bound& row : rows_) {
-    matrix_(row.at, row.at) -= value_at(matrix.softness, row.number);
+    matrix_(row.at, row.at) -= matrix.softness_of(static_cast<Eigen::Index>(row.number));
     right_hand_side_[row.at] -= value_at(rows, row.number);
   }
 }

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "methods/solvers/interior_point/pattern_runs.hpp"
+#include "methods/solvers/interior_point/intervals/columns.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -13,52 +13,6 @@ namespace {
 /// Thrown inside, returned as a sentence.
 struct Irregular {
   std::string why;
-};
-
-/// A column of unknowns or rows that all nodes, or all intervals, have.
-struct Member {
-  Place::Kind kind = Place::Kind::border;
-  std::size_t at = 0;    // node or interval
-  int column = -1;       // number among the columns of its kind; -1 for a single one
-  bool is_soft = false;  // rows only
-};
-
-/// Finds the columns: stretches of places of one kind that count all nodes, or all intervals, from the first to the
-/// last. What belongs to no column is single.
-struct Columns {
-  Columns(const std::vector<Place>& places, std::size_t intervals, std::vector<Member>& members) : members_(members) {
-    members.resize(places.size());
-    for (std::size_t i = 0; i < places.size();) {
-      const Place::Kind kind = places[i].kind;
-      const std::size_t length = kind == Place::Kind::border ? 1 : intervals + (kind == Place::Kind::node ? 1 : 0);
-      std::size_t count = 0;
-      while (i + count < places.size() && count < length && places[i + count].kind == kind &&
-             places[i + count].index == count) {
-        ++count;
-      }
-      const bool is_column = kind != Place::Kind::border && count == length;
-      if (is_column) {
-        append(kind == Place::Kind::node ? nodes : inner, kind, i, length);
-        i += length;
-      } else {
-        members[i] = {kind, places[i].index, -1, false};
-        singles.push_back(i);
-        ++i;
-      }
-    }
-  }
-
-  std::vector<std::size_t> nodes;
-  std::vector<std::size_t> inner;
-  std::vector<std::size_t> singles;
-
- private:
-  void append(std::vector<std::size_t>& firsts, Place::Kind kind, std::size_t first, std::size_t length) {
-    for (std::size_t k = 0; k < length; ++k) members_[first + k] = {kind, k, static_cast<int>(firsts.size()), false};
-    firsts.push_back(first);
-  }
-
-  std::vector<Member>& members_;
 };
 
 class Sorter {
@@ -71,9 +25,11 @@ class Sorter {
         constraint_upper_(program.constraint_upper()) {
     if (program.interval_structure() == nullptr) throw Irregular{"it tells no interval structure"};
     if (program.interval_structure()->intervals == 0) throw Irregular{"it has no intervals"};
+    unknowns_.emplace(structure().unknowns, structure().intervals);
+    rows_.emplace(structure().rows, structure().intervals);
   }
 
-  IntervalEntries sort() {
+  IntervalEntries sort(const ProgramRuns& runs) {
     result_.intervals = structure().intervals;
     find_unknowns();
     find_rows();
@@ -85,9 +41,9 @@ class Sorter {
                      .soft = count(result_.soft_rows)};
     if (free_size(result_.shape) < 0) throw Irregular{"an interval has more equalities than unknowns"};
     require_free_between_ends();
-    sort(Source::hessian, program_.hessian_structure(),
+    sort(Source::hessian, program_.hessian_structure(), runs.hessian,
          [this](std::size_t i, std::size_t j) { return hessian_destination(i, j); });
-    sort(Source::jacobian, program_.jacobian_structure(),
+    sort(Source::jacobian, program_.jacobian_structure(), runs.jacobian,
          [this](std::size_t i, std::size_t j) { return jacobian_destination(i, j); });
     append_columns();
     append_vectors();
@@ -108,12 +64,10 @@ class Sorter {
 
   void find_unknowns() {
     const auto& places = structure().unknowns;
-    const Columns columns(places, result_.intervals, unknowns_);
-    result_.node_unknowns = columns.nodes;
-    result_.inner_unknowns = columns.inner;
-    for (const std::size_t i : columns.singles) {
+    result_.node_unknowns = unknowns_->nodes();
+    result_.inner_unknowns = unknowns_->inner();
+    for (const std::size_t i : unknowns_->singles()) {
       if (places[i].kind == Place::Kind::border) {
-        unknowns_[i] = {Place::Kind::border, 0, static_cast<int>(result_.shared_unknowns.size()), false};
         result_.shared_unknowns.push_back(i);
       } else {
         result_.single_unknowns[end_of(places[i], "an unknown")].push_back(i);
@@ -130,23 +84,22 @@ class Sorter {
 
   void find_rows() {
     const auto& places = structure().rows;
-    const Columns columns(places, result_.intervals, rows_);
-    result_.node_rows = columns.nodes;
-    for (const std::size_t first : columns.nodes) {
+    result_.node_rows = rows_->nodes();
+    for (const std::size_t first : rows_->nodes()) {
       for (std::size_t k = 0; k <= result_.intervals; ++k) {
         if (is_soft(first + k)) throw Irregular{"a row of a node is an inequality"};
       }
     }
-    for (const std::size_t first : columns.inner) {
+    for (const std::size_t first : rows_->inner()) {
       const bool soft = is_soft(first);
       auto& list = soft ? result_.soft_rows : result_.interval_rows;
       for (std::size_t k = 0; k < result_.intervals; ++k) {
         if (is_soft(first + k) != soft) throw Irregular{"a row is an equality in some intervals only"};
-        rows_[first + k] = {Place::Kind::interval, k, count(list), soft};
       }
+      rows_->renumber(first, count(list), soft);
       list.push_back(first);
     }
-    for (const std::size_t i : columns.singles) {
+    for (const std::size_t i : rows_->singles()) {
       if (places[i].kind != Place::Kind::border) static_cast<void>(end_of(places[i], "a row"));
       result_.single_rows.push_back(i);
     }
@@ -183,6 +136,15 @@ class Sorter {
     return next_size(result_.shape) + result_.shape.node + result_.shape.carried + m.column;
   }
 
+  [[nodiscard]] Member unknown(std::size_t i) const {
+    Member m = unknowns_->member(i);
+    if (m.kind == Place::Kind::border) {
+      const auto& shared = result_.shared_unknowns;
+      m = {Place::Kind::border, 0, static_cast<int>(std::ranges::lower_bound(shared, i) - shared.begin()), false};
+    }
+    return m;
+  }
+
   [[nodiscard]] static bool in_column(const Member& m, Place::Kind kind) { return m.kind == kind && m.column >= 0; }
 
   /// Where an unknown is seen from interval k; -1 if it does not belong to it.
@@ -216,7 +178,8 @@ class Sorter {
   /// Sorts the entries of a pattern run by run; only their first and last two are looked at where these tell that all
   /// between go to the same block.
   template <class DestinationOf>
-  void sort(Source source, const SparsityPattern& pattern, const DestinationOf& destination_of) {
+  void sort(Source source, const SparsityPattern& pattern, const std::vector<PatternRun>& runs,
+            const DestinationOf& destination_of) {
     const auto at = [&](std::size_t e) {
       return destination_of(static_cast<std::size_t>(pattern.rows[e]), static_cast<std::size_t>(pattern.columns[e]));
     };
@@ -229,7 +192,7 @@ class Sorter {
         put(to, source, e, 1);
       }
     };
-    for (const PatternRun& run : pattern_runs(pattern)) {
+    for (const PatternRun& run : runs) {
       const auto first = static_cast<std::size_t>(run.entry);
       const auto length = static_cast<std::size_t>(run.length);
       constexpr std::size_t shortest = 4;
@@ -250,10 +213,12 @@ class Sorter {
 
   [[nodiscard]] Destination hessian_destination(std::size_t i, std::size_t j) const {
     if (is_fixed_inner(i) || is_fixed_inner(j)) return {};
-    const auto interval = interval_of(unknowns_[i], unknowns_[j]);
+    const Member first = unknown(i);
+    const Member second = unknown(j);
+    const auto interval = interval_of(first, second);
     if (!interval) return to_ends();
-    const int a = seen_from(unknowns_[i], *interval);
-    const int b = seen_from(unknowns_[j], *interval);
+    const int a = seen_from(first, *interval);
+    const int b = seen_from(second, *interval);
     const int Z = next_size(result_.shape);
     if (a < 0 || b < 0 || (a >= Z && b >= Z)) return to_ends();
     return {Destination::Where::interval, {LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
@@ -272,38 +237,37 @@ class Sorter {
     return latest - 1;
   }
 
-  [[nodiscard]] bool is_fixed_inner(std::size_t unknown) const {
-    const Member& m = unknowns_[unknown];
+  [[nodiscard]] bool is_fixed_inner(std::size_t i) const {
+    const Member m = unknown(i);
     return in_column(m, Place::Kind::interval) && result_.inner_is_fixed[static_cast<std::size_t>(m.column)];
   }
 
   [[nodiscard]] Destination jacobian_destination(std::size_t i, std::size_t j) const {
-    const Member& row = rows_[i];
-    const Member& unknown = unknowns_[j];
+    const Member row = rows_->member(i);
     if (is_fixed_inner(j)) return {};
     if (row.column < 0) return to_ends();
-    return row.kind == Place::Kind::interval ? interval_row_destination(row, unknown)
-                                             : node_row_destination(row, unknown);
+    return row.kind == Place::Kind::interval ? interval_row_destination(row, unknown(j))
+                                             : node_row_destination(row, unknown(j));
   }
 
-  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& unknown) const {
-    const int column = seen_from(unknown, row.at);
+  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) const {
+    const int column = seen_from(of, row.at);
     if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
     if (row.is_soft) return {Destination::Where::interval, {LocalEntry::Block::soft, row.column, column}, row.at};
     const int number = result_.shape.carried + row.column;
     return {Destination::Where::interval, {LocalEntry::Block::equality, number, column}, row.at};
   }
 
-  [[nodiscard]] Destination node_row_destination(const Member& row, const Member& unknown) const {
-    const bool from_before = (in_column(unknown, Place::Kind::interval) || in_column(unknown, Place::Kind::node)) &&
-                             unknown.at + 1 == row.at;
+  [[nodiscard]] Destination node_row_destination(const Member& row, const Member& of) const {
+    const bool from_before =
+        (in_column(of, Place::Kind::interval) || in_column(of, Place::Kind::node)) && of.at + 1 == row.at;
     if (from_before) {
       const int Z = next_size(result_.shape);
-      const int seen = seen_from(unknown, unknown.at);  // of its own interval, or the left node of it
+      const int seen = seen_from(of, of.at);  // of its own interval, or the left node of it
       const int column = seen >= Z ? seen - Z : result_.shape.node + seen;
-      return {Destination::Where::interval, {LocalEntry::Block::carry, row.column, column}, unknown.at};
+      return {Destination::Where::interval, {LocalEntry::Block::carry, row.column, column}, of.at};
     }
-    const int column = row.at == result_.intervals ? -1 : seen_from(unknown, row.at);
+    const int column = row.at == result_.intervals ? -1 : seen_from(of, row.at);
     if (column < 0) return to_ends();
     return {Destination::Where::interval, {LocalEntry::Block::equality, row.column, column}, row.at};
   }
@@ -354,16 +318,17 @@ class Sorter {
   const Eigen::VectorXd& constraint_lower_;
   const Eigen::VectorXd& constraint_upper_;
   IntervalEntries result_;
-  std::vector<Member> unknowns_;
-  std::vector<Member> rows_;
+  std::optional<Columns> unknowns_;
+  std::optional<Columns> rows_;
   std::map<Key, Run> runs_;
 };
 
 }  // namespace
 
-std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, std::string& why) {
+std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, const ProgramRuns& runs,
+                                                std::string& why) {
   try {
-    return Sorter(program).sort();
+    return Sorter(program).sort(runs);
   } catch (const Irregular& irregular) {
     why = irregular.why;
     return std::nullopt;

@@ -9,6 +9,7 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 #include "methods/solvers/interior_point/intervals/shape.hpp"
+#include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -65,6 +66,7 @@ struct IntervalEntries {
 
 /// Sorts a program's entries. None, with the reason in `why`, if the program has no interval structure, or one that is
 /// not the same in all intervals, or fixed unknowns between its ends.
-[[nodiscard]] std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, std::string& why);
+[[nodiscard]] std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, const ProgramRuns& runs,
+                                                              std::string& why);
 
 }  // namespace dmocbench::interior_point

@@ -17,9 +17,9 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, std::string& why,
-                                               SegmentKernelChoice choose) {
-  auto entries = interval_entries(program, why);
+std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, const ProgramRuns& runs,
+                                               std::string& why, SegmentKernelChoice choose) {
+  auto entries = interval_entries(program, runs, why);
   if (!entries) return nullptr;
   try {
     return std::make_unique<IntervalKkt>(program, std::move(*entries), choose);
@@ -159,13 +159,21 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
     Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
         multipliers_.middleCols(first, lane_count).transpose();
   }
-  set_zero(primal_step);
-  set_zero(multiplier_step);
+  set_fixed_to_zero(primal_step);
   for_each_part(groups_.size(), [&](std::size_t g) {
     kernel_.forward(plan_, arrays, groups_[g].group(), primal_step.data(), multiplier_step.data());
   });
   ends_.write(primal_step, multiplier_step);
   write_soft_multipliers(arrays, rows, primal_step, multiplier_step);
+}
+
+/// The sweep writes what moves, and `EndSystem` all that belongs to the ends.
+void IntervalKkt::set_fixed_to_zero(Eigen::VectorXd& primal_step) const {
+  for (std::size_t j = 0; j < entries_.inner_unknowns.size(); ++j) {
+    if (!entries_.inner_is_fixed[j]) continue;
+    const auto first = static_cast<Eigen::Index>(entries_.inner_unknowns[j]);
+    primal_step.segment(first, static_cast<Eigen::Index>(entries_.intervals)).setZero();
+  }
 }
 
 std::size_t IntervalKkt::first_of(int column) const {

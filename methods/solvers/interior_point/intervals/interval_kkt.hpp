@@ -23,8 +23,13 @@ namespace dmocbench::interior_point {
 class IntervalKkt : public KktSystem {
  public:
   /// Null, with the reason in `why`, for a program whose structure does not allow it (interval_entries.hpp).
-  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why,
+  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, const ProgramRuns& runs,
+                                                         std::string& why,
                                                          SegmentKernelChoice choose = segment_kernel_for);
+  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why,
+                                                         SegmentKernelChoice choose = segment_kernel_for) {
+    return make(program, ProgramRuns(program), why, choose);
+  }
 
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
@@ -47,6 +52,7 @@ class IntervalKkt : public KktSystem {
   void find_last_carry(const NewtonArrays& arrays);
   void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                   Eigen::VectorXd& multiplier_step);
+  void set_fixed_to_zero(Eigen::VectorXd& primal_step) const;
   void write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
                               const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
   [[nodiscard]] std::size_t first_of(int column) const;

@@ -31,7 +31,7 @@ void with_combined(const Combination& combination, const Eigen::VectorXd& values
 
 std::unique_ptr<RecombinedKkt> RecombinedKkt::make(const NonlinearProgram& program, std::string& why,
                                                    SegmentKernelChoice choose) {
-  const auto entries = interval_entries(program, why);
+  const auto entries = interval_entries(program, ProgramRuns(program), why);
   if (!entries) return nullptr;
   auto pairs = momentum_pairs(program, *entries, why);
   if (!pairs) {
@@ -191,7 +191,7 @@ Verdict RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slo
   combine_rows(rows);
   move_slope(slope);
   unknowns_.take_from(matrix.diagonal, diagonal_);
-  kept_rows_.take_from(matrix.softness, softness_.tail(kept_rows_.size()));
+  if (matrix.softness.size() > 0) kept_rows_.take_from(matrix.softness, softness_.tail(kept_rows_.size()));
   const Verdict verdict =
       system_->solve({matrix.hessian, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step_, multiplier_step_);
   if (verdict != Verdict::solved) return verdict;

@@ -1,0 +1,93 @@
+#include "methods/solvers/interior_point/matrix_product.hpp"
+
+#include <algorithm>
+
+#include "methods/solvers/interior_point/long_vectors.hpp"
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// Intervals whose numbers stay in the first two caches while all runs are added.
+constexpr Eigen::Index at_once = 512;
+
+PatternRun transpose_of(const PatternRun& run) {
+  return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
+}
+
+bool is_on_diagonal(const PatternRun& run) {
+  return run.row == run.column && (run.length == 1 || run.row_step == run.column_step);
+}
+
+/// What a run adds to the entries `begin` .. `end` - 1 of the result.
+void add_part(const PatternRun& run, Eigen::Index begin, Eigen::Index end, const Eigen::VectorXd& values,
+              const Eigen::VectorXd& vector, Eigen::VectorXd& result) {
+  const Eigen::Index first = std::max(begin, run.row);
+  const Eigen::Index length = std::min(end, run.row + run.length) - first;
+  if (length <= 0) return;
+  const Eigen::Index skipped = first - run.row;
+  const auto entries = values.segment(run.entry + skipped, length);
+  if (run.column_step == 0) {
+    result.segment(first, length) += vector[run.column] * entries;
+  } else {
+    result.segment(first, length) += entries.cwiseProduct(vector.segment(run.column + skipped, length));
+  }
+}
+
+double sum_of_run(const PatternRun& run, const Eigen::VectorXd& values, const Eigen::VectorXd& vector) {
+  const auto entries = values.segment(run.entry, run.length);
+  if (run.column_step == 0) return entries.sum() * vector[run.column];
+  return sum_of_stretches(run.length, [&](Eigen::Index begin, Eigen::Index length) {
+    return entries.segment(begin, length).dot(vector.segment(run.column + begin, length));
+  });
+}
+
+}  // namespace
+
+MatrixProduct::MatrixProduct(std::vector<PatternRun> terms) {
+  std::ranges::stable_sort(terms, {}, &PatternRun::row);
+  for (PatternRun& run : terms) {
+    if (run.row_step == 0) {
+      into_.push_back(run);
+      continue;
+    }
+    // A column has a run from its first or second entry on; a later one that begins inside it belongs to it too.
+    const bool is_new = columns_.empty() || run.row >= columns_.back().first + columns_.back().length;
+    if (is_new) columns_.push_back({run.row, 0, {}});
+    Column& column = columns_.back();
+    column.length = std::max(column.length, run.row + run.length - column.first);
+    longest_ = std::max(longest_, column.length);
+    column.runs.push_back(run);
+  }
+}
+
+MatrixProduct MatrixProduct::transposed(const std::vector<PatternRun>& runs) {
+  std::vector<PatternRun> terms;
+  std::ranges::transform(runs, std::back_inserter(terms), transpose_of);
+  return MatrixProduct(std::move(terms));
+}
+
+MatrixProduct MatrixProduct::symmetric(const std::vector<PatternRun>& runs) {
+  std::vector<PatternRun> terms;
+  for (const PatternRun& run : cut_at_diagonal(runs)) {
+    terms.push_back(run);
+    if (!is_on_diagonal(run)) terms.push_back(transpose_of(run));
+  }
+  return MatrixProduct(std::move(terms));
+}
+
+void MatrixProduct::add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const {
+  for_stretches(longest_, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+    for (Eigen::Index from = begin; from < begin + length; from += at_once) {
+      const Eigen::Index to = std::min(from + at_once, begin + length);
+      for (const Column& column : columns_) {
+        for (const PatternRun& run : column.runs) {
+          add_part(run, column.first + from, column.first + to, values, vector, result);
+        }
+      }
+    }
+  });
+  for (const PatternRun& run : into_) result[run.row] += sum_of_run(run, values, vector);
+}
+
+}  // namespace dmocbench::interior_point
