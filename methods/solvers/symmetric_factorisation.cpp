@@ -18,6 +18,7 @@ constexpr int job_factorise = 2;
 constexpr int job_solve = 3;
 constexpr int use_comm_world = -987654;  // the value that its manual prescribes
 constexpr int general_symmetric = 2;
+constexpr int order_is_given = 1;
 
 // Numbers of the manual, which counts from 1.
 constexpr int control(int number) { return number - 1; }
@@ -32,6 +33,7 @@ struct SymmetricFactorisation::Mumps {
   std::vector<MUMPS_INT> rows;
   std::vector<MUMPS_INT> columns;
   std::vector<double> values;
+  std::vector<MUMPS_INT> positions;  // from 1 on; empty if MUMPS shall choose
   bool analysed = false;
 
   Mumps() {
@@ -43,6 +45,7 @@ struct SymmetricFactorisation::Mumps {
     for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
     data.icntl[control(4)] = 0;   // silent
     data.icntl[control(13)] = 1;  // counts negative pivots in the root too
+    data.icntl[control(24)] = 1;  // finds pivots that are rounding, which else become as large as their reciprocals
   }
   ~Mumps() {
     data.job = job_end;
@@ -88,6 +91,14 @@ struct SymmetricFactorisation::Mumps {
 };
 
 SymmetricFactorisation::SymmetricFactorisation() : mumps_(std::make_unique<Mumps>()) {}
+SymmetricFactorisation::SymmetricFactorisation(std::vector<int> positions) : SymmetricFactorisation() {
+  constexpr int more_workspace_percent = 100;  // lines that wait need it, and to begin anew takes longer
+  for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
+  if (positions.empty()) return;
+  mumps_->data.icntl[control(7)] = order_is_given;
+  mumps_->data.icntl[control(14)] = more_workspace_percent;
+  mumps_->data.perm_in = mumps_->positions.data();
+}
 SymmetricFactorisation::~SymmetricFactorisation() = default;
 SymmetricFactorisation::SymmetricFactorisation(SymmetricFactorisation&&) noexcept = default;
 SymmetricFactorisation& SymmetricFactorisation::operator=(SymmetricFactorisation&&) noexcept = default;
@@ -107,7 +118,8 @@ bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower)
   }
   if (is_singular(info)) return false;
   if (info < 0) Mumps::fail(info);
-  return true;
+  const bool has_full_rank = mumps_->data.infog[control(28)] == 0;
+  return has_full_rank;
 }
 
 Eigen::Index SymmetricFactorisation::negative_eigenvalues() const { return mumps_->data.infog[control(12)]; }

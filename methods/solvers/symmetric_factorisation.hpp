@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -11,14 +12,18 @@ namespace dmocbench {
 class SymmetricFactorisation {
  public:
   SymmetricFactorisation();
+  /// Eliminates in a given order, which is kept: `positions` tells for every line of the matrix when its turn is, from
+  /// 0 on. Where a pivot is too small a line waits until later.
+  explicit SymmetricFactorisation(std::vector<int> positions);
   ~SymmetricFactorisation();
   SymmetricFactorisation(const SymmetricFactorisation&) = delete;
   SymmetricFactorisation& operator=(const SymmetricFactorisation&) = delete;
   SymmetricFactorisation(SymmetricFactorisation&&) noexcept;
   SymmetricFactorisation& operator=(SymmetricFactorisation&&) noexcept;
 
-  /// Factorises the matrix whose lower triangle is given. False if it is singular. The order of elimination is chosen
-  /// at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS fails (out of memory).
+  /// Factorises the matrix whose lower triangle is given. False if it is singular. The order of elimination, if
+  /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS
+  /// fails (out of memory).
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
   /// Number of negative eigenvalues of the matrix factorised last.
   [[nodiscard]] Eigen::Index negative_eigenvalues() const;

@@ -1,5 +1,8 @@
 #include "methods/solvers/symmetric_factorisation.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -21,6 +24,24 @@ TEST(SymmetricFactorisation, CountsNegativeEigenvaluesAndSolves) {
   for (const Eigen::Index size : {1, 2, 5, 20, 21}) {
     const Eigen::MatrixXd root = random_matrix(size, size, generator);
     const Eigen::MatrixXd matrix = root + root.transpose();
+    ASSERT_TRUE(factorisation.factorise(lower_of(matrix)));
+    const Eigen::VectorXd eigenvalues = matrix.selfadjointView<Eigen::Lower>().eigenvalues();
+    EXPECT_EQ(factorisation.negative_eigenvalues(), (eigenvalues.array() < 0.0).count());
+    const Eigen::VectorXd right_hand_side = random_matrix(size, 1, generator);
+    EXPECT_LT((matrix * factorisation.solve(right_hand_side) - right_hand_side).lpNorm<Eigen::Infinity>(), 1e-9);
+  }
+}
+
+TEST(SymmetricFactorisation, FindsTheSameInAnyOrder) {
+  std::mt19937 generator(12);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Index size = 1 + i % 7;
+    const Eigen::MatrixXd root = random_matrix(size, size, generator);
+    const Eigen::MatrixXd matrix = root + root.transpose();
+    std::vector<int> positions(static_cast<std::size_t>(size));
+    std::iota(positions.begin(), positions.end(), 0);
+    std::ranges::shuffle(positions, generator);
+    SymmetricFactorisation factorisation(positions);
     ASSERT_TRUE(factorisation.factorise(lower_of(matrix)));
     const Eigen::VectorXd eigenvalues = matrix.selfadjointView<Eigen::Lower>().eigenvalues();
     EXPECT_EQ(factorisation.negative_eigenvalues(), (eigenvalues.array() < 0.0).count());

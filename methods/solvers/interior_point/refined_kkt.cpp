@@ -38,7 +38,7 @@ Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
     return verdict;
   }
   if (verdict == Verdict::solved && refine(*fast_, matrix, slope, rows, primal_step, multiplier_step)) return verdict;
-  if (!robust_) robust_ = std::make_unique<SparseKkt>(program_);
+  if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
   ++fallbacks_;
   const Verdict robust = robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
   if (robust != Verdict::solved) return robust;

@@ -1,11 +1,15 @@
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
+#include "methods/solvers/interior_point/dissection_order.hpp"
 #include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::interior_point {
 
-SparseKkt::SparseKkt(const NonlinearProgram& program) : program_(program), is_free_(free_variables(program)) {}
+SparseKkt::SparseKkt(const NonlinearProgram& program, Order order)
+    : program_(program),
+      is_free_(free_variables(program)),
+      factorisation_(order == Order::found ? std::vector<int>{} : dissection_order(program)) {}
 
 Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) const {
   const auto n = static_cast<Eigen::Index>(program_.variable_count());

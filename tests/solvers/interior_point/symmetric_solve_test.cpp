@@ -52,6 +52,7 @@ TEST(SymmetricSolve, FindsTheSolutionAndTheInertiaOfRandomMatrices) {
     const Eigen::VectorXd wanted = random.vector(n);
     const SmallAnswer answer = answer_for(matrix, matrix * wanted);
     EXPECT_FALSE(answer.inertia.is_singular);
+    EXPECT_TRUE(answer.inertia.is_certain);
     EXPECT_EQ(answer.inertia.negative, (eigenvalues.array() < 0.0).count());
     EXPECT_LT((answer.solution - wanted).lpNorm<Eigen::Infinity>(), 1e-12) << "n = " << n;
   }
@@ -92,6 +93,7 @@ TEST(SymmetricSolve, TellsAMatrixWithoutFullRank) {
     eigenvalues.head(missing).setZero();
     const SmallAnswer answer = answer_for(with_eigenvalues(random, eigenvalues), random.vector(n));
     EXPECT_TRUE(answer.inertia.is_singular) << "n = " << n << ", rank " << n - missing;
+    EXPECT_FALSE(answer.inertia.is_certain);
   }
 }
 

@@ -139,6 +139,7 @@ Verdict EndSystem::factorise_and_solve() {
   reduced_ = matrix_(kept_, kept_);
   Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
   const DenseInertia inertia = solve_symmetric(reduced_, reduced_solution);
+  is_certain_ = inertia.is_certain;
   if (inertia.is_singular) return Verdict::singular;
   const auto wanted = std::count_if(kept_.begin(), kept_.end(), [&](Eigen::Index at) { return at >= first_row_; });
   if (inertia.negative != wanted) return Verdict::wrong_inertia;

@@ -25,6 +25,10 @@ class EndSystem {
                               const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
                               const Eigen::VectorXd& terminal_weights);
 
+  /// True if no rounding hides what the last system's inertia is. As the matrix is that of the program in other
+  /// coordinates, whatever the terminal weights are, no others would find another one.
+  [[nodiscard]] bool is_certain() const noexcept { return is_certain_; }
+
   /// X at the first node, and ν.
   [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
   [[nodiscard]] const Eigen::VectorXd& multiplier() const noexcept { return multiplier_; }
@@ -76,6 +80,7 @@ class EndSystem {
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_hand_side_;
   Eigen::MatrixXd reduced_;
+  bool is_certain_ = false;
   Eigen::VectorXd solution_;
   Eigen::VectorXd state_;
   Eigen::VectorXd multiplier_;

@@ -79,7 +79,9 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
     verdict = eliminate(arrays, matrix, slope, rows);
   }
   // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
-  const auto may_be_weight = [&] { return verdict == Verdict::wrong_inertia || verdict == Verdict::singular; };
+  const auto may_be_weight = [&] {
+    return (verdict == Verdict::wrong_inertia || verdict == Verdict::singular) && !has_certain_inertia_;
+  };
   while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict != Verdict::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);
@@ -89,6 +91,7 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
 Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                const Eigen::VectorXd& rows) {
   arrays.terminal_weights = weights_.values().data();
+  has_certain_inertia_ = false;
   ++eliminations_;
   for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
   for (const GroupMemory& memory : groups_) {
@@ -99,7 +102,9 @@ Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, co
   }
   if (!join_segments()) return Verdict::wrong_inertia;
   find_last_carry(arrays);
-  return ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
+  const Verdict verdict = ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
+  has_certain_inertia_ = ends_.is_certain();
+  return verdict;
 }
 
 /// J_{N,N-1}, of the unknowns that move by increments.

@@ -62,6 +62,7 @@ class IntervalKkt : public KktSystem {
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
+  bool has_certain_inertia_ = false;
   int eliminations_ = 0;
   EliminationPlan plan_;
   TerminalWeights weights_;

@@ -32,6 +32,7 @@ double smallest_eigenvalue(double a, double b, double c) {
 /// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
 DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
   const Eigen::Index n = factors.rows();
+  constexpr double far_from_zero = 1e-8;
   // What elimination leaves of dependent rows is rounding, a few units of it per row.
   const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   DenseInertia inertia;
@@ -47,6 +48,7 @@ DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack
     }
   }
   inertia.is_singular = !(smallest > rounding);
+  inertia.is_certain = smallest > far_from_zero;
   return inertia;
 }
 
@@ -54,7 +56,7 @@ DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack
 
 DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side) {
   const Eigen::Index n = matrix.rows();
-  if (n == 0) return {};
+  if (n == 0) return {.is_certain = true};
   if (!matrix.allFinite() || !right_hand_side.allFinite()) return {.is_singular = true};
   const Eigen::VectorXd scale = equilibration(matrix);
   matrix = (scale.asDiagonal() * matrix * scale.asDiagonal()).eval();

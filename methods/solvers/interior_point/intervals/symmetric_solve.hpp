@@ -7,6 +7,7 @@ namespace dmocbench::interior_point {
 /// What the factorisation of a small symmetric matrix tells.
 struct DenseInertia {
   bool is_singular = false;
+  bool is_certain = false;  ///< no eigenvalue of the scaled matrix is near zero
   Eigen::Index negative = 0;
 };
 
