@@ -227,7 +227,9 @@ bool InteriorPointRun::try_point(const Direction& direction, double length, doub
   const bool is_descent =
       slope < 0.0 && reference_length * std::pow(-slope, s_phi) > delta * std::pow(merit_.violation, s_theta);
   if (merit_.violation <= small_violation * first_violation_ && (is_descent || is_noise)) {
-    if (!(function - function_ <= eta * reference_length * slope + noise)) return false;
+    // Where rows hold but for rounding, the cost may have to rise for them to hold better still.
+    const bool is_nearer = is_noise && violation <= (1.0 - Filter::margin) * merit_.violation;
+    if (!(function - function_ <= eta * reference_length * slope + noise) && !is_nearer) return false;
   } else {
     const bool is_better = violation <= (1.0 - Filter::margin) * merit_.violation ||
                            function - function_ <= -Filter::margin * merit_.violation + noise;
