@@ -64,6 +64,7 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   if (!plan) return false;
   plan_ = std::move(*plan);
   kernel_ = choose_(plan_.shape);
+  weights_.use(plan_);
   for (GroupMemory& memory : groups_) memory.make_workspace(kernel_.workspace_size(plan_));
   return true;
 }
@@ -71,8 +72,8 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
 Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                            Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   NewtonArrays arrays = arrays_of(matrix, slope, rows);
-  weights_.follow(arrays);
   if (!has_plan_ && !choose_plan(arrays)) return Verdict::singular;
+  weights_.follow(arrays);
   Verdict verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict == Verdict::untrusted) {
     if (!choose_plan(arrays)) return Verdict::singular;

@@ -54,24 +54,49 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
   diagonals_.erase(std::remove_if(diagonals_.begin(), diagonals_.end(), is_fixed), diagonals_.end());
 }
 
-/// The softest unknowns count most, so it is their harmonic mean; as the Hessian of an interval is proportional to its
-/// length, their number is a factor.
-double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
-  double compliance = 0.0;
-  const double* added = arrays.of(Source::diagonal);
-  for (const Diagonal& diagonal : diagonals_) {
-    const double* hessian = diagonal.has_hessian ? arrays.of(diagonal.source) + diagonal.entry : nullptr;
-    compliance += sum_of_stretches(static_cast<Eigen::Index>(intervals_), [&](Eigen::Index begin, Eigen::Index length) {
-      double sum = 0.0;
-      for (Eigen::Index k = begin; k < begin + length; ++k) {
-        const double curvature = (hessian != nullptr ? hessian[k] : 0.0) + (added + diagonal.first)[k];
-        sum += 1.0 / (std::abs(curvature) + smallest_curvature);
-      }
-      return sum;
+void TerminalWeights::use(const EliminationPlan& plan) {
+  const auto is_free = [&](const Diagonal& diagonal) {
+    return std::ranges::any_of(plan.emitted, [&](const Emitted& item) {
+      return item.what == Emitted::What::free && item.first == diagonal.first;
     });
+  };
+  const bool some_are_free = std::ranges::any_of(diagonals_, is_free);
+  for (Diagonal& diagonal : diagonals_) diagonal.is_free = !some_are_free || is_free(diagonal);
+}
+
+/// Σ 1/|curvature| over the intervals.
+double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const {
+  const double* const hessian = diagonal.has_hessian ? arrays.of(diagonal.source) + diagonal.entry : nullptr;
+  const double* const added = arrays.of(Source::diagonal) + diagonal.first;
+  return sum_of_stretches(static_cast<Eigen::Index>(intervals_), [&](Eigen::Index begin, Eigen::Index length) {
+    double sum = 0.0;
+    for (Eigen::Index k = begin; k < begin + length; ++k) {
+      sum += 1.0 / (std::abs((hessian != nullptr ? hessian[k] : 0.0) + added[k]) + smallest_curvature);
+    }
+    return sum;
+  });
+}
+
+/// The softest unknowns count most, so it is their harmonic mean; as the Hessian of an interval is proportional to its
+/// length, their number is a factor. Unknowns that cost next to nothing, such as slopes, are left out: equalities tie
+/// them to others that do.
+double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
+  constexpr double next_to_nothing = 1e4;
+  std::vector<double> compliances;
+  for (const Diagonal& diagonal : diagonals_) {
+    if (diagonal.is_free) compliances.push_back(compliance_of(diagonal, arrays));
+  }
+  if (compliances.empty()) return 1.0;
+  const double largest = next_to_nothing * *std::ranges::min_element(compliances);
+  double sum = 0.0;
+  double kinds = 0.0;
+  for (const double compliance : compliances) {
+    if (!(compliance <= largest)) continue;
+    sum += compliance;
+    kinds += 1.0;
   }
   const auto count = static_cast<double>(intervals_);
-  return compliance > 0.0 ? count * count * static_cast<double>(diagonals_.size()) / compliance : 1.0;
+  return sum > 0.0 ? count * count * kinds / sum : 1.0;
 }
 
 void TerminalWeights::follow(const NewtonArrays& arrays) {

@@ -21,6 +21,9 @@ class TerminalWeights {
  public:
   explicit TerminalWeights(const IntervalEntries& entries);
 
+  /// For another order of elimination: which unknowns of the intervals it leaves free. (Those that equalities
+  /// determine, the slopes of several stages say, may cost nothing; their compliance is not the segment's.)
+  void use(const EliminationPlan& plan);
   /// For a new matrix.
   void follow(const NewtonArrays& arrays);
   /// After a failure: takes the next multiple, which stays if it succeeds; false if none is left for this matrix.
@@ -39,7 +42,9 @@ class TerminalWeights {
     bool has_hessian = false;
     Source source = Source::hessian;
     std::size_t entry = 0;
+    bool is_free = true;
   };
+  [[nodiscard]] double compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const;
   [[nodiscard]] double stiffness_of_free_unknowns(const NewtonArrays& arrays) const;
   void update();
 
