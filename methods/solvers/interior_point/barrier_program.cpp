@@ -35,9 +35,9 @@ std::vector<Eigen::Index> rows_with_slack(const NonlinearProgram& program) {
 }
 
 Eigen::VectorXd values_of_equalities(const NonlinearProgram& program, const std::vector<Eigen::Index>& inequalities) {
+  if (program.constraint_lower().isZero(0.0)) return {};
   Eigen::VectorXd values = program.constraint_lower();
   for (const Eigen::Index i : inequalities) values[i] = 0.0;
-  if (values.isZero(0.0)) values.resize(0);
   return values;
 }
 

@@ -150,13 +150,16 @@ void NewtonStep::estimate_multipliers(Point& point) {
   constexpr double of_a_unit_of_slope = 1.0;
   Direction direction;
   point.multipliers.setZero();
-  Eigen::VectorXd slope = program_.gradient();
-  // With the multipliers of the bounds as they are.
-  subtract_multipliers(program_.x_lower(), point.x_lower, 1.0, slope);
-  subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope);
-  slack_slope_.setZero();
-  subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
-  subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
+  if (program_.has_bounds()) {
+    // With the multipliers of the bounds as they are.
+    copy_to(slope_, program_.gradient());
+    subtract_multipliers(program_.x_lower(), point.x_lower, 1.0, slope_);
+    subtract_multipliers(program_.x_upper(), point.x_upper, -1.0, slope_);
+    slack_slope_.setZero();
+    subtract_multipliers(program_.s_lower(), point.s_lower, 1.0, slack_slope_);
+    subtract_multipliers(program_.s_upper(), point.s_upper, -1.0, slack_slope_);
+  }
+  const Eigen::VectorXd& slope = program_.has_bounds() ? slope_ : program_.gradient();
   // No slope asks for no multipliers: so it is where the cost is a square of controls and the guess has none.
   if (slope.isZero(0.0) && slack_slope_.isZero(0.0)) return;
   sigma_.setZero();
