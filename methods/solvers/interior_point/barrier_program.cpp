@@ -137,4 +137,18 @@ double BarrierProgram::barrier(const Point& point) const {
          barrier_of(point.s, s_upper_, -1.0);
 }
 
+double BarrierProgram::complementarity(const Point& point, double mu) const {
+  return std::max({complementarity_of(point.x, x_lower_, point.x_lower, 1.0, mu),
+                   complementarity_of(point.x, x_upper_, point.x_upper, -1.0, mu),
+                   complementarity_of(point.s, s_lower_, point.s_lower, 1.0, mu),
+                   complementarity_of(point.s, s_upper_, point.s_upper, -1.0, mu)});
+}
+
+void BarrierProgram::keep_near_barrier(double mu, Point& point) const {
+  keep_near(point.x, x_lower_, 1.0, mu, point.x_lower);
+  keep_near(point.x, x_upper_, -1.0, mu, point.x_upper);
+  keep_near(point.s, s_lower_, 1.0, mu, point.s_lower);
+  keep_near(point.s, s_upper_, -1.0, mu, point.s_upper);
+}
+
 }  // namespace dmocbench::interior_point

@@ -76,6 +76,11 @@ class BarrierProgram {
   /// -Σ ln(distances), to be multiplied by μ.
   [[nodiscard]] double barrier(const Point& point) const;
 
+  /// Largest |distance from a bound times its multiplier - μ|.
+  [[nodiscard]] double complementarity(const Point& point, double mu) const;
+  /// Keeps multipliers of bounds in the neighbourhood of the barrier's own.
+  void keep_near_barrier(double mu, Point& point) const;
+
   [[nodiscard]] int evaluations() const noexcept { return evaluations_; }
   [[nodiscard]] double evaluation_seconds() const noexcept { return evaluation_seconds_; }
 

@@ -118,8 +118,8 @@ double longest_step(const Eigen::VectorXd& z, const Eigen::VectorXd& step, doubl
   return z.size() > 0 ? longest_step_of(z.array(), step.array(), share) : 1.0;
 }
 
-double complementarity(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z, double side,
-                       double mu) {
+double complementarity_of(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z, double side,
+                          double mu) {
   double largest = 0.0;
   for (const BoundList::Stretch& at : bounds.stretches) {
     const auto products = bounds.distances(vector, side, at) * BoundList::of_bounds(z, at);
@@ -128,8 +128,7 @@ double complementarity(const Eigen::VectorXd& vector, const BoundList& bounds, c
   return largest;
 }
 
-void keep_near_barrier(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu,
-                       Eigen::VectorXd& z) {
+void keep_near(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu, Eigen::VectorXd& z) {
   constexpr double kappa_sigma = 1e10;  // of Wächter and Biegler
   for (const BoundList::Stretch& at : bounds.stretches) {
     const auto distances = bounds.distances(vector, side, at);

@@ -68,10 +68,9 @@ void set_bound_step(const Eigen::VectorXd& vector, const Eigen::VectorXd& step, 
 [[nodiscard]] double longest_step(const Eigen::VectorXd& z, const Eigen::VectorXd& step, double share);
 
 /// Largest |d z - μ|.
-[[nodiscard]] double complementarity(const Eigen::VectorXd& vector, const BoundList& bounds, const Eigen::VectorXd& z,
-                                     double side, double mu);
+[[nodiscard]] double complementarity_of(const Eigen::VectorXd& vector, const BoundList& bounds,
+                                        const Eigen::VectorXd& z, double side, double mu);
 /// Keeps z within a factor of μ/d, so that it cannot leave the neighbourhood of the barrier's own multipliers.
-void keep_near_barrier(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu,
-                       Eigen::VectorXd& z);
+void keep_near(const Eigen::VectorXd& vector, const BoundList& bounds, double side, double mu, Eigen::VectorXd& z);
 
 }  // namespace dmocbench::interior_point

@@ -136,13 +136,6 @@ InteriorPointRun::Residuals InteriorPointRun::residuals() {
   return at;
 }
 
-double InteriorPointRun::complementarity_at(double mu) const {
-  return std::max({complementarity(point_.x, program_.x_lower(), point_.x_lower, 1.0, mu),
-                   complementarity(point_.x, program_.x_upper(), point_.x_upper, -1.0, mu),
-                   complementarity(point_.s, program_.s_lower(), point_.s_lower, 1.0, mu),
-                   complementarity(point_.s, program_.s_upper(), point_.s_upper, -1.0, mu)});
-}
-
 /// s_d and s_c of the paper: large multipliers excuse large residuals.
 InteriorPointRun::Scales InteriorPointRun::scales() const {
   const double sum_z = point_.x_lower.sum() + point_.x_upper.sum() + point_.s_lower.sum() + point_.s_upper.sum();
@@ -159,7 +152,7 @@ bool InteriorPointRun::has_converged(const Residuals& at) const {
   const Scales scale = scales();
   const bool is_stationary = at.stationarity / scale.stationarity <= tolerance_ ||
                              at.stationarity <= floor * std::max(1.0, largest_of(point_.multipliers));
-  return is_stationary && complementarity_at(0.0) / scale.complementarity <= tolerance_;
+  return is_stationary && program_.complementarity(point_, 0.0) / scale.complementarity <= tolerance_;
 }
 
 void InteriorPointRun::lower_barrier(const Residuals& at) {
@@ -167,7 +160,9 @@ void InteriorPointRun::lower_barrier(const Residuals& at) {
   const double smallest = tolerance_ / (kappa_epsilon + 1.0);
   const Scales scale = scales();
   const double without_barrier = std::max(at.stationarity / scale.stationarity, at.violation);
-  const auto error = [&] { return std::max(without_barrier, complementarity_at(mu_) / scale.complementarity); };
+  const auto error = [&] {
+    return std::max(without_barrier, program_.complementarity(point_, mu_) / scale.complementarity);
+  };
   while (mu_ > smallest && without_barrier <= kappa_epsilon * mu_ && error() <= kappa_epsilon * mu_) {
     mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));
     measure();
@@ -264,14 +259,7 @@ void InteriorPointRun::move_bounds(const Direction& direction, double length) {
   point_.x_upper += length * direction.x_upper;
   point_.s_lower += length * direction.s_lower;
   point_.s_upper += length * direction.s_upper;
-  keep_bounds_near_barrier();
-}
-
-void InteriorPointRun::keep_bounds_near_barrier() {
-  keep_near_barrier(point_.x, program_.x_lower(), 1.0, mu_, point_.x_lower);
-  keep_near_barrier(point_.x, program_.x_upper(), -1.0, mu_, point_.x_upper);
-  keep_near_barrier(point_.s, program_.s_lower(), 1.0, mu_, point_.s_lower);
-  keep_near_barrier(point_.s, program_.s_upper(), -1.0, mu_, point_.s_upper);
+  program_.keep_near_barrier(mu_, point_);
 }
 
 void InteriorPointRun::report(const char* kind, double length) {
@@ -280,8 +268,8 @@ void InteriorPointRun::report(const char* kind, double length) {
   std::ostringstream line;
   line << std::setw(4) << iterations_ << " " << std::setw(6) << kind << std::scientific << std::setprecision(10)
        << "  cost " << merit_.objective << std::setprecision(1) << "  violation " << at.violation << "  stationarity "
-       << at.stationarity << "  complementarity " << complementarity_at(0.0) << "  mu " << mu_ << "  shift "
-       << newton_.shift() << "  step " << length << "\n";
+       << at.stationarity << "  complementarity " << program_.complementarity(point_, 0.0) << "  mu " << mu_
+       << "  shift " << newton_.shift() << "  step " << length << "\n";
   std::cout << line.str();
 }
 

@@ -45,7 +45,6 @@ class InteriorPointRun {
 
   // Convergence.
   [[nodiscard]] Residuals residuals();
-  [[nodiscard]] double complementarity_at(double mu) const;
   [[nodiscard]] Scales scales() const;
   [[nodiscard]] bool has_converged(const Residuals& at) const;
   void lower_barrier(const Residuals& at);
@@ -59,7 +58,6 @@ class InteriorPointRun {
   [[nodiscard]] bool is_worth_correcting(double violation_there) const;
   [[nodiscard]] bool correct_second_order(double slope, double length);
   void move_bounds(const Direction& direction, double length);
-  void keep_bounds_near_barrier();
   void set_trial(const Direction& direction, double length);
   void accept_trial();
   [[nodiscard]] double noise_of_function() const;

@@ -9,6 +9,7 @@
 
 #include "methods/program/large_pages.hpp"
 #include "methods/program/parallel.hpp"
+#include "methods/solvers/interior_point/vector_loops.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -42,27 +43,27 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
 inline double largest_of(const Eigen::VectorXd& vector) {
   std::array<double, most_parts> largest{};
   for_stretches(vector.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
-    largest[s] = length > 0 ? vector.segment(begin, length).lpNorm<Eigen::Infinity>() : 0.0;
+    largest[s] = vector_loops().largest(vector.data() + begin, length);
   });
   return *std::max_element(largest.begin(), largest.end());
 }
 
 inline double sum_of_magnitudes(const Eigen::VectorXd& vector) {
   return sum_of_stretches(vector.size(), [&](Eigen::Index begin, Eigen::Index length) {
-    return vector.segment(begin, length).lpNorm<1>();
+    return vector_loops().sum_of_magnitudes(vector.data() + begin, length);
   });
 }
 
 /// Eigen's allFinite() looks at one number at a time.
 inline bool is_finite(const Eigen::VectorXd& vector) {
   return sum_of_stretches(vector.size(), [&](Eigen::Index begin, Eigen::Index length) {
-           return (vector.segment(begin, length).array() * 0.0).sum();
+           return vector_loops().sum_of_zeros(vector.data() + begin, length);
          }) == 0.0;
 }
 
 inline double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return sum_of_stretches(a.size(), [&](Eigen::Index begin, Eigen::Index length) {
-    return a.segment(begin, length).dot(b.segment(begin, length));
+    return vector_loops().dot(a.data() + begin, b.data() + begin, length);
   });
 }
 
@@ -71,7 +72,7 @@ inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, d
                        const Eigen::VectorXd& step) {
   resize_unwritten(target, vector.size());
   for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    target.segment(begin, length) = vector.segment(begin, length) + factor * step.segment(begin, length);
+    vector_loops().set_to_sum(target.data() + begin, vector.data() + begin, factor, step.data() + begin, length);
   });
 }
 

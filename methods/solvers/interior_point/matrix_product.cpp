@@ -26,11 +26,12 @@ void add_part(const PatternRun& run, Eigen::Index begin, Eigen::Index end, const
   const Eigen::Index length = std::min(end, run.row + run.length) - first;
   if (length <= 0) return;
   const Eigen::Index skipped = first - run.row;
-  const auto entries = values.segment(run.entry + skipped, length);
+  double* const sum = result.data() + first;
+  const double* const entries = values.data() + run.entry + skipped;
   if (run.column_step == 0) {
-    result.segment(first, length) += vector[run.column] * entries;
+    vector_loops().set_to_sum(sum, sum, vector[run.column], entries, length);
   } else {
-    result.segment(first, length) += entries.cwiseProduct(vector.segment(run.column + skipped, length));
+    vector_loops().add_products(sum, entries, vector.data() + run.column + skipped, length);
   }
 }
 
@@ -38,7 +39,7 @@ double sum_of_run(const PatternRun& run, const Eigen::VectorXd& values, const Ei
   const auto entries = values.segment(run.entry, run.length);
   if (run.column_step == 0) return entries.sum() * vector[run.column];
   return sum_of_stretches(run.length, [&](Eigen::Index begin, Eigen::Index length) {
-    return entries.segment(begin, length).dot(vector.segment(run.column + begin, length));
+    return vector_loops().dot(entries.data() + begin, vector.data() + run.column + begin, length);
   });
 }
 

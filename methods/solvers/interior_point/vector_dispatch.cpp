@@ -1,0 +1,19 @@
+#include "methods/solvers/interior_point/vector_loops.hpp"
+
+namespace dmocbench::interior_point {
+
+std::vector<const VectorLoops*> available_vector_loops() {
+  std::vector<const VectorLoops*> loops{&vector_loops_baseline};
+#ifdef DMOCBENCH_X86_KERNELS
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) loops.push_back(&vector_loops_avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) loops.push_back(&vector_loops_avx512);
+#endif
+  return loops;
+}
+
+const VectorLoops& vector_loops() {
+  static const VectorLoops& widest = *available_vector_loops().back();
+  return widest;
+}
+
+}  // namespace dmocbench::interior_point

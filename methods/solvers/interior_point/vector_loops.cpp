@@ -1,0 +1,81 @@
+#include "methods/solvers/interior_point/vector_loops.hpp"
+
+// Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name of what it defines. Everything else is in
+// an unnamed namespace, since a linker may take either of two functions of the same name.
+namespace dmocbench::interior_point {
+
+namespace {
+
+constexpr std::ptrdiff_t lanes = 8;
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+
+inline Lanes load(const double* from) {
+  Lanes values;
+  __builtin_memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store(const Lanes& values, double* to) { __builtin_memcpy(to, &values, sizeof values); }
+
+inline Lanes magnitudes(const Lanes& values) { return values < 0.0 ? -values : values; }
+
+inline double sum_of(const Lanes& values) {
+  return ((values[0] + values[4]) + (values[2] + values[6])) + ((values[1] + values[5]) + (values[3] + values[7]));
+}
+
+double largest(const double* x, std::ptrdiff_t size) {
+  Lanes most{};
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) {
+    const Lanes some = magnitudes(load(x + i));
+    most = most > some ? most : some;
+  }
+  double result = 0.0;
+  for (; i < size; ++i) result = result > __builtin_fabs(x[i]) ? result : __builtin_fabs(x[i]);
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) result = result > most[lane] ? result : most[lane];
+  return result;
+}
+
+double sum_of_magnitudes(const double* x, std::ptrdiff_t size) {
+  Lanes sums{};
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) sums += magnitudes(load(x + i));
+  double rest = 0.0;
+  for (; i < size; ++i) rest += __builtin_fabs(x[i]);
+  return sum_of(sums) + rest;
+}
+
+double dot(const double* x, const double* y, std::ptrdiff_t size) {
+  Lanes sums{};
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) sums += load(x + i) * load(y + i);
+  double rest = 0.0;
+  for (; i < size; ++i) rest += x[i] * y[i];
+  return sum_of(sums) + rest;
+}
+
+double sum_of_zeros(const double* x, std::ptrdiff_t size) {
+  Lanes sums{};
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) sums += load(x + i) * 0.0;
+  double rest = 0.0;
+  for (; i < size; ++i) rest += x[i] * 0.0;
+  return sum_of(sums) + rest;
+}
+
+void add_products(double* result, const double* x, const double* y, std::ptrdiff_t size) {
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) store(load(result + i) + load(x + i) * load(y + i), result + i);
+  for (; i < size; ++i) result[i] += x[i] * y[i];
+}
+
+void set_to_sum(double* result, const double* x, double factor, const double* y, std::ptrdiff_t size) {
+  std::ptrdiff_t i = 0;
+  for (; i + lanes <= size; i += lanes) store(load(x + i) + factor * load(y + i), result + i);
+  for (; i < size; ++i) result[i] = x[i] + factor * y[i];
+}
+
+}  // namespace
+
+const VectorLoops DMOCBENCH_VECTOR_LOOPS{largest, sum_of_magnitudes, dot, sum_of_zeros, add_products, set_to_sum};
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace dmocbench::interior_point {
+
+/// Loops over stretches of vectors, compiled for one instruction set. Sums are those of eight interleaved parts, in the
+/// same order in every set.
+struct VectorLoops {
+  /// Largest |x_i|, 0 of none; of no use where a number is not finite.
+  double (*largest)(const double* x, std::ptrdiff_t size);
+  /// Σ |x_i|
+  double (*sum_of_magnitudes)(const double* x, std::ptrdiff_t size);
+  /// Σ x_i y_i
+  double (*dot)(const double* x, const double* y, std::ptrdiff_t size);
+  /// Zero if and only if all numbers are finite.
+  double (*sum_of_zeros)(const double* x, std::ptrdiff_t size);
+  /// result_i += x_i y_i; `result` overlaps neither.
+  void (*add_products)(double* result, const double* x, const double* y, std::ptrdiff_t size);
+  /// result_i = x_i + factor y_i; `result` may be x.
+  void (*set_to_sum)(double* result, const double* x, double factor, const double* y, std::ptrdiff_t size);
+};
+
+/// Those of the widest instruction set that this processor has.
+[[nodiscard]] const VectorLoops& vector_loops();
+/// Those of every one that it has; the widest last.
+[[nodiscard]] std::vector<const VectorLoops*> available_vector_loops();
+
+// The same source, vector_loops.cpp, compiled once per instruction set.
+extern const VectorLoops vector_loops_baseline;
+extern const VectorLoops vector_loops_avx2;
+extern const VectorLoops vector_loops_avx512;
+
+}  // namespace dmocbench::interior_point

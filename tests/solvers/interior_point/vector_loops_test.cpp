@@ -1,0 +1,57 @@
+#include "methods/solvers/interior_point/vector_loops.hpp"
+
+#include <limits>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include "tests/support/random_points.hpp"
+
+namespace dmocbench::interior_point {
+namespace {
+
+/// Sizes with and without a rest behind the last eight numbers.
+constexpr Eigen::Index most_numbers = 40;
+constexpr double rounding = 1e-14;
+
+TEST(VectorLoops, AreThoseOfTheDefinitionsOnEveryInstructionSet) {
+  tests::RandomPoints random;
+  for (const VectorLoops* loops : available_vector_loops()) {
+    for (Eigen::Index size = 0; size <= most_numbers; ++size) {
+      const Eigen::VectorXd x = random.vector(size);
+      const Eigen::VectorXd y = random.vector(size);
+      const double factor = random.number();
+      EXPECT_EQ(loops->largest(x.data(), size), size > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
+      EXPECT_NEAR(loops->sum_of_magnitudes(x.data(), size), x.cwiseAbs().sum(), rounding);
+      EXPECT_NEAR(loops->dot(x.data(), y.data(), size), x.cwiseProduct(y).sum(), rounding);
+      EXPECT_EQ(loops->sum_of_zeros(x.data(), size), 0.0);
+      Eigen::VectorXd sum = random.vector(size + 1);  // the last number is not to be touched
+      Eigen::VectorXd wanted = sum;
+      wanted.head(size) += x.cwiseProduct(y);
+      loops->add_products(sum.data(), x.data(), y.data(), size);
+      EXPECT_LE((sum - wanted).lpNorm<Eigen::Infinity>(), rounding);
+      wanted.head(size) = x + factor * y;
+      loops->set_to_sum(sum.data(), x.data(), factor, y.data(), size);
+      EXPECT_LE((sum - wanted).lpNorm<Eigen::Infinity>(), rounding);
+      wanted.head(size) += factor * y;
+      loops->set_to_sum(sum.data(), sum.data(), factor, y.data(), size);
+      EXPECT_LE((sum - wanted).lpNorm<Eigen::Infinity>(), rounding);
+    }
+  }
+}
+
+TEST(VectorLoops, FindWhatIsNotANumberWhereverItStands) {
+  tests::RandomPoints random;
+  for (const VectorLoops* loops : available_vector_loops()) {
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      for (Eigen::Index at = 0; at < most_numbers; ++at) {
+        Eigen::VectorXd x = random.vector(most_numbers - 3);
+        if (at < x.size()) x[at] = bad;
+        EXPECT_EQ(loops->sum_of_zeros(x.data(), x.size()) == 0.0, at >= x.size());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench::interior_point
