@@ -74,7 +74,13 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   total_.Phi = Phi * (mixed + slope * state_multiplier);
   total_.P = symmetric_part<Matrix>(segment.P + Phi * slope * state_state);
   if (joins_.size() <= count_) joins_.emplace_back();
-  joins_[count_++] = {state_state, state_multiplier, state_constant, slope, mixed, constant};
+  Join& join = joins_[count_++];
+  join.state_state = state_state;
+  join.state_multiplier = state_multiplier;
+  join.state_constant = state_constant;
+  join.slope = slope;
+  join.mixed = mixed;
+  join.constant = constant;
   return true;
 }
 
