@@ -49,7 +49,8 @@ TEST(SegmentKernels, HaveOneForEveryProcessor) {
 
 /// Shapes known to the compiler and shapes that are not; whole blocks of eight steps, and what is left of them.
 TEST(SegmentKernels, AgreeOnEveryInstructionSet) {
-  for (const char* name : {"double_integrator", "orbital_transfer", "two_link_manipulator", "hovercraft"}) {
+  for (const char* name :
+       {"double_integrator", "orbital_transfer", "two_link_manipulator", "hovercraft", "link_chain", "robot_arm"}) {
     const auto problem = make_problem(name);
     for (const tests::Scheme& scheme : tests::all_schemes(2)) {
       for (const Eigen::Index intervals : {16, 64, 77}) expect_same_steps(*problem, scheme, intervals);

@@ -26,11 +26,15 @@ inline SegmentKernel choose_kernel([[maybe_unused]] const Shape& shape) {
 #if DMOCBENCH_ANY_SIZE
   return kernel_of<Shape>();
 #else
-  // The midpoint rule for n = 1 and 2 configurations, DMOC and collocation; for one control also with a free horizon.
-  // With n = 3 a step no longer fits the registers, and to know the sizes gains nothing.
+  // The midpoint rule for n = 1, 2 and 3 configurations, DMOC and collocation; with fewer controls than configurations
+  // and with as many, some also with a free horizon.
   return choose<FixedShape<2, 2, 0, 1, 2>, FixedShape<4, 0, 0, 1, 4>,  //
                 FixedShape<2, 2, 0, 2, 2>, FixedShape<4, 0, 0, 2, 4>,  //
                 FixedShape<1, 1, 0, 1, 1>, FixedShape<2, 0, 0, 1, 2>,  //
-                FixedShape<2, 2, 1, 1, 2>, FixedShape<4, 0, 1, 1, 4> >(shape);
+                FixedShape<3, 3, 0, 2, 3>, FixedShape<6, 0, 0, 2, 6>,  //
+                FixedShape<3, 3, 0, 3, 3>, FixedShape<6, 0, 0, 3, 6>,  //
+                FixedShape<2, 2, 1, 1, 2>, FixedShape<4, 0, 1, 1, 4>,  //
+                FixedShape<2, 2, 1, 2, 2>, FixedShape<4, 0, 1, 2, 4>,  //
+                FixedShape<3, 3, 1, 3, 3>, FixedShape<6, 0, 1, 3, 6> >(shape);
 #endif
 }
