@@ -12,9 +12,9 @@ namespace dmocbench::interior_point {
 namespace {
 
 /// The multiples of the stiffness that are tried, one after the other.
-constexpr std::array<double, 3> multiples{1.0, 1e3, 1e6};
+constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
 /// Where a failure is most to be believed: the smallest may be too small, the largest may drown the stiffness.
-constexpr std::size_t middle = 1;
+constexpr std::size_t middle = 2;
 /// Failures that are believed, after all multiples were tried in vain.
 constexpr int patience = 6;
 /// Of a weight that drowned the stiffness: what it may have been at most.
