@@ -32,7 +32,7 @@ double smallest_eigenvalue(double a, double b, double c) {
 /// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
 DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
   const Eigen::Index n = factors.rows();
-  constexpr double far_from_zero = 1e-8;
+  constexpr double far_from_zero = 1e-11;  // hundreds of times what rounding leaves of dependent rows
   // What elimination leaves of dependent rows is rounding, a few units of it per row.
   const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   DenseInertia inertia;
