@@ -27,6 +27,18 @@ Eigen::Matrix<double, size, size> semidefinite_factor(const Eigen::Matrix<double
   return factor;
 }
 
+/// Column by column: for matrices of right-hand sides, Eigen begins with memory for blocks.
+template <class System, class Matrix>
+Matrix solve_columns(const System& system, const Matrix& right_hand_sides) {
+  using Vector = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
+  Matrix solution(right_hand_sides.rows(), right_hand_sides.cols());
+  for (Eigen::Index j = 0; j < right_hand_sides.cols(); ++j) {
+    const Vector column = right_hand_sides.col(j);
+    solution.col(j) = system.solve(column);
+  }
+  return solution;
+}
+
 template <class Matrix>
 Matrix symmetric_part(const Matrix& matrix) {
   return 0.5 * (matrix + matrix.transpose());
@@ -64,13 +76,15 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   const Matrix factor = semidefinite_factor<size>(reach);
   if (Eigen::LLT<Matrix>(identity + factor.transpose() * slope * factor).info() != Eigen::Success) return false;
   const Eigen::PartialPivLU<Matrix> system(identity + reach * slope);
-  const Matrix state_state = system.solve(Phi.transpose());
-  const Matrix state_multiplier = -system.solve(reach * mixed);
+  const Matrix state_state = solve_columns<decltype(system), Matrix>(system, Phi.transpose());
+  const Matrix state_multiplier = -solve_columns<decltype(system), Matrix>(system, reach * mixed);
   const Vector state_constant = system.solve(segment.gamma - reach * constant);
 
-  total_.gamma += mixed.transpose() * state_constant;
+  const Vector gamma = mixed.transpose() * state_constant;
+  const Vector p = Phi * (slope * state_constant + constant);
+  total_.gamma += gamma;
   total_.Gamma = symmetric_part<Matrix>(total_.Gamma - mixed.transpose() * state_multiplier);
-  total_.p = segment.p + Phi * (slope * state_constant + constant);
+  total_.p = segment.p + p;
   total_.Phi = Phi * (mixed + slope * state_multiplier);
   total_.P = symmetric_part<Matrix>(segment.P + Phi * slope * state_state);
   if (joins_.size() <= count_) joins_.emplace_back();
