@@ -91,7 +91,7 @@ struct SymmetricFactorisation::Mumps {
 };
 
 SymmetricFactorisation::SymmetricFactorisation() : mumps_(std::make_unique<Mumps>()) {}
-SymmetricFactorisation::SymmetricFactorisation(std::vector<int> positions) : SymmetricFactorisation() {
+SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : SymmetricFactorisation() {
   constexpr int more_workspace_percent = 100;  // lines that wait need it, and to begin anew takes longer
   for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
   if (positions.empty()) return;

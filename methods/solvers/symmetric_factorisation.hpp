@@ -14,7 +14,7 @@ class SymmetricFactorisation {
   SymmetricFactorisation();
   /// Eliminates in a given order, which is kept: `positions` tells for every line of the matrix when its turn is, from
   /// 0 on. Where a pivot is too small a line waits until later.
-  explicit SymmetricFactorisation(std::vector<int> positions);
+  explicit SymmetricFactorisation(const std::vector<int>& positions);
   ~SymmetricFactorisation();
   SymmetricFactorisation(const SymmetricFactorisation&) = delete;
   SymmetricFactorisation& operator=(const SymmetricFactorisation&) = delete;

@@ -17,20 +17,18 @@ struct Irregular {
 
 class Sorter {
  public:
-  explicit Sorter(const NonlinearProgram& program)
+  Sorter(const NonlinearProgram& program, const IntervalStructure& structure)
       : program_(program),
+        structure_(structure),
         variable_lower_(program.variable_lower()),
         variable_upper_(program.variable_upper()),
         constraint_lower_(program.constraint_lower()),
-        constraint_upper_(program.constraint_upper()) {
-    if (program.interval_structure() == nullptr) throw Irregular{"it tells no interval structure"};
-    if (program.interval_structure()->intervals == 0) throw Irregular{"it has no intervals"};
-    unknowns_.emplace(structure().unknowns, structure().intervals);
-    rows_.emplace(structure().rows, structure().intervals);
-  }
+        constraint_upper_(program.constraint_upper()),
+        unknowns_(structure.unknowns, structure.intervals),
+        rows_(structure.rows, structure.intervals) {}
 
   IntervalEntries sort(const ProgramRuns& runs) {
-    result_.intervals = structure().intervals;
+    result_.intervals = structure_.intervals;
     find_unknowns();
     find_rows();
     result_.shape = {.node = count(result_.node_unknowns),
@@ -59,14 +57,13 @@ class Sorter {
     Source source = Source::hessian;
   };
 
-  [[nodiscard]] const IntervalStructure& structure() const { return *program_.interval_structure(); }
   static int count(const std::vector<std::size_t>& list) { return static_cast<int>(list.size()); }
 
   void find_unknowns() {
-    const auto& places = structure().unknowns;
-    result_.node_unknowns = unknowns_->nodes();
-    result_.inner_unknowns = unknowns_->inner();
-    for (const std::size_t i : unknowns_->singles()) {
+    const auto& places = structure_.unknowns;
+    result_.node_unknowns = unknowns_.nodes();
+    result_.inner_unknowns = unknowns_.inner();
+    for (const std::size_t i : unknowns_.singles()) {
       if (places[i].kind == Place::Kind::border) {
         result_.shared_unknowns.push_back(i);
       } else {
@@ -83,23 +80,23 @@ class Sorter {
   }
 
   void find_rows() {
-    const auto& places = structure().rows;
-    result_.node_rows = rows_->nodes();
-    for (const std::size_t first : rows_->nodes()) {
+    const auto& places = structure_.rows;
+    result_.node_rows = rows_.nodes();
+    for (const std::size_t first : rows_.nodes()) {
       for (std::size_t k = 0; k <= result_.intervals; ++k) {
         if (is_soft(first + k)) throw Irregular{"a row of a node is an inequality"};
       }
     }
-    for (const std::size_t first : rows_->inner()) {
+    for (const std::size_t first : rows_.inner()) {
       const bool soft = is_soft(first);
       auto& list = soft ? result_.soft_rows : result_.interval_rows;
       for (std::size_t k = 0; k < result_.intervals; ++k) {
         if (is_soft(first + k) != soft) throw Irregular{"a row is an equality in some intervals only"};
       }
-      rows_->renumber(first, count(list), soft);
+      rows_.renumber(first, count(list), soft);
       list.push_back(first);
     }
-    for (const std::size_t i : rows_->singles()) {
+    for (const std::size_t i : rows_.singles()) {
       if (places[i].kind != Place::Kind::border) static_cast<void>(end_of(places[i], "a row"));
       result_.single_rows.push_back(i);
     }
@@ -137,7 +134,7 @@ class Sorter {
   }
 
   [[nodiscard]] Member unknown(std::size_t i) const {
-    Member m = unknowns_->member(i);
+    Member m = unknowns_.member(i);
     if (m.kind == Place::Kind::border) {
       const auto& shared = result_.shared_unknowns;
       m = {Place::Kind::border, 0, static_cast<int>(std::ranges::lower_bound(shared, i) - shared.begin()), false};
@@ -243,7 +240,7 @@ class Sorter {
   }
 
   [[nodiscard]] Destination jacobian_destination(std::size_t i, std::size_t j) const {
-    const Member row = rows_->member(i);
+    const Member row = rows_.member(i);
     if (is_fixed_inner(j)) return {};
     if (row.column < 0) return to_ends();
     return row.kind == Place::Kind::interval ? interval_row_destination(row, unknown(j))
@@ -313,13 +310,14 @@ class Sorter {
   }
 
   const NonlinearProgram& program_;
+  const IntervalStructure& structure_;
   const Eigen::VectorXd& variable_lower_;
   const Eigen::VectorXd& variable_upper_;
   const Eigen::VectorXd& constraint_lower_;
   const Eigen::VectorXd& constraint_upper_;
   IntervalEntries result_;
-  std::optional<Columns> unknowns_;
-  std::optional<Columns> rows_;
+  Columns unknowns_;
+  Columns rows_;
   std::map<Key, Run> runs_;
 };
 
@@ -327,8 +325,11 @@ class Sorter {
 
 std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, const ProgramRuns& runs,
                                                 std::string& why) {
+  const IntervalStructure* const structure = program.interval_structure();
   try {
-    return Sorter(program).sort(runs);
+    if (structure == nullptr) throw Irregular{"it tells no interval structure"};
+    if (structure->intervals == 0) throw Irregular{"it has no intervals"};
+    return Sorter(program, *structure).sort(runs);
   } catch (const Irregular& irregular) {
     why = irregular.why;
     return std::nullopt;
