@@ -34,8 +34,8 @@ void add(const SolveName& name) {
 
 /// One grid by both solvers, and where it is long by two threads.
 void add_solves(SolveName name) {
-  constexpr int most_intervals_of_ipopt = 16384;  // beyond it a solve takes minutes
-  constexpr int fewest_intervals_of_two = 16384;  // the next shorter grid is a single part of the work
+  constexpr int most_intervals_of_ipopt = 262144;  // beyond it no solve ends within its minute
+  constexpr int fewest_intervals_of_two = 16384;   // the next shorter grid is a single part of the work
   name.solver = "interior_point";
   add(name);
   if (name.intervals >= fewest_intervals_of_two) {
