@@ -76,6 +76,7 @@ inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, d
   });
 }
 
+/// target = vector
 inline void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector) {
   resize_unwritten(target, vector.size());
   for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
@@ -83,6 +84,7 @@ inline void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector) {
   });
 }
 
+/// Resizes to `size` zeros.
 inline void set_zero(Eigen::VectorXd& target, Eigen::Index size) {
   resize_unwritten(target, size);
   for_stretches(size,

@@ -1,6 +1,7 @@
 #include "methods/solvers/interior_point/matrix_product.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "methods/solvers/interior_point/long_vectors.hpp"
 
@@ -8,8 +9,8 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// Intervals whose numbers stay in the first two caches while all runs are added.
-constexpr Eigen::Index at_once = 512;
+/// Entries of the result that stay in the first cache.
+constexpr Eigen::Index at_once = 1024;
 
 PatternRun transpose_of(const PatternRun& run) {
   return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
@@ -45,27 +46,14 @@ double sum_of_run(const PatternRun& run, const Eigen::VectorXd& values, const Ei
 
 }  // namespace
 
-MatrixProduct::MatrixProduct(std::vector<PatternRun> terms) {
-  std::ranges::stable_sort(terms, {}, &PatternRun::row);
-  for (PatternRun& run : terms) {
-    if (run.row_step == 0) {
-      into_.push_back(run);
-      continue;
-    }
-    // A column has a run from its first or second entry on; a later one that begins inside it belongs to it too.
-    const bool is_new = columns_.empty() || run.row >= columns_.back().first + columns_.back().length;
-    if (is_new) columns_.push_back({run.row, 0, {}});
-    Column& column = columns_.back();
-    column.length = std::max(column.length, run.row + run.length - column.first);
-    longest_ = std::max(longest_, column.length);
-    column.runs.push_back(run);
-  }
+MatrixProduct::MatrixProduct(const std::vector<PatternRun>& terms) {
+  for (const PatternRun& run : terms) (run.row_step == 1 ? along_ : into_).push_back(run);
 }
 
 MatrixProduct MatrixProduct::transposed(const std::vector<PatternRun>& runs) {
   std::vector<PatternRun> terms;
   std::ranges::transform(runs, std::back_inserter(terms), transpose_of);
-  return MatrixProduct(std::move(terms));
+  return MatrixProduct(terms);
 }
 
 MatrixProduct MatrixProduct::symmetric(const std::vector<PatternRun>& runs) {
@@ -74,18 +62,14 @@ MatrixProduct MatrixProduct::symmetric(const std::vector<PatternRun>& runs) {
     terms.push_back(run);
     if (!is_on_diagonal(run)) terms.push_back(transpose_of(run));
   }
-  return MatrixProduct(std::move(terms));
+  return MatrixProduct(terms);
 }
 
 void MatrixProduct::add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const {
-  for_stretches(longest_, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+  for_stretches(result.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
     for (Eigen::Index from = begin; from < begin + length; from += at_once) {
       const Eigen::Index to = std::min(from + at_once, begin + length);
-      for (const Column& column : columns_) {
-        for (const PatternRun& run : column.runs) {
-          add_part(run, column.first + from, column.first + to, values, vector, result);
-        }
-      }
+      for (const PatternRun& run : along_) add_part(run, from, to, values, vector, result);
     }
   });
   for (const PatternRun& run : into_) result[run.row] += sum_of_run(run, values, vector);

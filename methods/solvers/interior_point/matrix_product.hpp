@@ -8,13 +8,12 @@
 
 namespace dmocbench::interior_point {
 
-/// Adds the product of a sparse matrix and a vector. Runs whose results begin side by side belong to one column of
-/// unknowns or rows; all columns advance together, some intervals at a time, so that every number is fetched from
-/// memory once however many runs read or write it.
+/// Adds the product of a sparse matrix and a vector, in stretches of the result that stay in the first cache while all
+/// runs of the matrix that reach them are added.
 class MatrixProduct {
  public:
   /// J x, from the runs of J.
-  [[nodiscard]] static MatrixProduct plain(std::vector<PatternRun> runs) { return MatrixProduct(std::move(runs)); }
+  [[nodiscard]] static MatrixProduct plain(const std::vector<PatternRun>& runs) { return MatrixProduct(runs); }
   /// Jᵀ λ, from the runs of J.
   [[nodiscard]] static MatrixProduct transposed(const std::vector<PatternRun>& runs);
   /// H x of a symmetric matrix, from the runs of its lower triangle.
@@ -24,18 +23,10 @@ class MatrixProduct {
   void add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const;
 
  private:
-  /// A stretch of the result, and the runs that are added to it entry by entry.
-  struct Column {
-    Eigen::Index first;
-    Eigen::Index length;
-    std::vector<PatternRun> runs;
-  };
+  explicit MatrixProduct(const std::vector<PatternRun>& terms);
 
-  explicit MatrixProduct(std::vector<PatternRun> terms);
-
-  std::vector<Column> columns_;
-  std::vector<PatternRun> into_;  // all into one entry of the result
-  Eigen::Index longest_ = 0;      // of the columns
+  std::vector<PatternRun> along_;  // entry after entry of the result
+  std::vector<PatternRun> into_;   // all into one entry of it
 };
 
 }  // namespace dmocbench::interior_point

@@ -46,8 +46,8 @@ class NewtonStep {
  public:
   NewtonStep(const BarrierProgram& program, KktSystem& kkt);
 
-  /// The step at a point, from the program's derivatives there, for the slope ∇φ + Jᵀλ and the residual of the rows,
-  /// a(x) - s. False if no shift of the Hessian gives a step.
+  /// The step at a point, from the program's derivatives there, for the slope ∇φ + Jᵀλ (one entry per unknown) and the
+  /// residual of the rows (one per row). False if no shift of the Hessian gives a step.
   [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                              Direction& direction);
   /// The same matrix and slope for another residual of the rows; false if it fails.

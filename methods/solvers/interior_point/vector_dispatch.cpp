@@ -1,3 +1,4 @@
+#include "methods/solvers/interior_point/processor.hpp"
 #include "methods/solvers/interior_point/vector_loops.hpp"
 
 namespace dmocbench::interior_point {
@@ -5,8 +6,8 @@ namespace dmocbench::interior_point {
 std::vector<const VectorLoops*> available_vector_loops() {
   std::vector<const VectorLoops*> loops{&vector_loops_baseline};
 #ifdef DMOCBENCH_X86_KERNELS
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) loops.push_back(&vector_loops_avx2);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) loops.push_back(&vector_loops_avx512);
+  if (has_avx2()) loops.push_back(&vector_loops_avx2);
+  if (has_avx512()) loops.push_back(&vector_loops_avx512);
 #endif
   return loops;
 }

@@ -1,12 +1,13 @@
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/interior_point/processor.hpp"
 
 namespace dmocbench::interior_point {
 
 std::vector<SegmentKernelChoice> available_segment_kernels() {
   std::vector<SegmentKernelChoice> choices{segment_kernel_baseline};
 #ifdef DMOCBENCH_X86_KERNELS
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) choices.push_back(segment_kernel_avx2);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) choices.push_back(segment_kernel_avx512);
+  if (has_avx2()) choices.push_back(segment_kernel_avx2);
+  if (has_avx512()) choices.push_back(segment_kernel_avx512);
 #endif
   return choices;
 }
