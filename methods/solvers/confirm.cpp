@@ -5,6 +5,7 @@
 
 #include "methods/program/kkt_residual.hpp"
 #include "methods/program/least_squares_multipliers.hpp"
+#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
 
@@ -30,15 +31,13 @@ void measure(NonlinearProgram& program, Solution& solution) {
 }
 
 double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution) {
-  constexpr double multiplier_scale = 100.0;
-  const double floor = program.rounding_floor();
+  const StopRule allowed(program, tolerance);
   const bool has_multipliers = solution.multipliers.size() > 0;
   const double mean =
       has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
   const double largest = has_multipliers ? solution.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  const double allowed = std::max(tolerance * std::max(1.0, mean / multiplier_scale), floor * std::max(1.0, largest));
-  const double stationarity = solution.kkt_residual.value_or(unbounded) / allowed;
-  const double violation = solution.constraint_violation.value_or(unbounded) / std::max(tolerance, floor);
+  const double stationarity = solution.kkt_residual.value_or(unbounded) / allowed.stationarity(mean, largest);
+  const double violation = solution.constraint_violation.value_or(unbounded) / allowed.violation();
   return std::isnan(stationarity) ? stationarity
          : std::isnan(violation)  ? violation
                                   : std::max(stationarity, violation);

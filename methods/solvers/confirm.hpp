@@ -13,9 +13,7 @@ void measure(NonlinearProgram& program, Solution& solution);
 /// How many times what `tolerance` allows a measured solution misses, NaN if it is not a number, infinity if it was not
 /// measured.
 ///
-/// Allowed are a stationarity of max(tolerance · max(1, |λ|/100), rounding · max(1, largest |λ|)), where |λ| is the
-/// mean magnitude of the multipliers (Ipopt scales its own test by it) and rounding the program's rounding floor, and a
-/// violation of max(tolerance, rounding).
+/// `StopRule` says what is allowed; its mean is that of the multipliers of rows, for those of bounds are not known.
 [[nodiscard]] double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution);
 
 /// Measures a solution and judges the solver's word.

@@ -1,11 +1,15 @@
 #include "methods/solvers/solver.hpp"
 
 #include <limits>
+#include <map>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "methods/solvers/confirm.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/small_programs.hpp"
 
 namespace dmocbench {
 namespace {
@@ -19,6 +23,34 @@ TEST(Solvers, AreMadeByNameAndUnknownNamesListThem) {
     EXPECT_EQ(make_solver(name)->name(), name);
     EXPECT_FALSE(make_solver(name)->description().empty());
     tests::expect_error_naming({"simplex", name}, [] { static_cast<void>(make_solver("simplex")); });
+  }
+}
+
+/// A program whose residuals below a thousandth are rounding.
+class CoarseProgram final : public tests::SmallProgram {
+ public:
+  using SmallProgram::SmallProgram;
+  [[nodiscard]] double rounding_floor() const override { return 1e-3; }
+};
+
+TEST(Solvers, StopWhereRoundingBegins) {
+  SolverOptions sparse;  // these programs have no intervals
+  sparse.passed_on["factorisation"] = "sparse";
+  const std::map<std::string, SolverOptions> solvers{{"ipopt", {}}, {"interior_point", sparse}, {"sqp", {}}};
+  for (const auto& [name, options] : solvers) {
+    int iterations_saved = 0;
+    for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
+      SCOPED_TRACE(name + ", HS " + std::to_string(known.number));
+      tests::SmallProgram exact(known.statement);
+      CoarseProgram coarse(known.statement);
+      const Solution fine = make_solver(name, options)->solve(exact, known.start);
+      const Solution rough = make_solver(name, options)->solve(coarse, known.start);
+      ASSERT_EQ(rough.status, Status::solved) << rough.message;
+      EXPECT_LE(times_the_tolerance(coarse, options.tolerance, rough), 1.0);
+      EXPECT_LE(rough.major_iterations.value(), fine.major_iterations.value());
+      iterations_saved += fine.major_iterations.value() - rough.major_iterations.value();
+    }
+    EXPECT_GT(iterations_saved, 0) << name;
   }
 }
 

@@ -24,7 +24,6 @@ constexpr double kappa_epsilon = 10.0;
 constexpr double kappa_mu = 0.2;
 constexpr double theta_mu = 1.5;
 constexpr double tau_min = 0.99;
-constexpr double s_max = 100.0;
 constexpr double eta = 1e-8;
 constexpr double delta = 1.0;
 constexpr double s_theta = 1.1;
@@ -48,6 +47,7 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, const ProgramRuns&
       program_(program, runs),
       newton_(program_, kkt),
       tolerance_(options.tolerance),
+      allowed_(program, options.tolerance),
       begin_(Clock::now()) {
   point_ = is_warm() ? program_.interior(start, push_of_warm_start) : program_.interior(start);
   const Eigen::VectorXd& lower = program.variable_lower();
@@ -136,32 +136,28 @@ InteriorPointRun::Residuals InteriorPointRun::residuals() {
   return at;
 }
 
-/// s_d and s_c of the paper: large multipliers excuse large residuals.
-InteriorPointRun::Scales InteriorPointRun::scales() const {
+InteriorPointRun::Means InteriorPointRun::mean_multipliers() const {
   const double sum_z = point_.x_lower.sum() + point_.x_upper.sum() + point_.s_lower.sum() + point_.s_upper.sum();
   const auto bounds = static_cast<double>(program_.bound_count());
   const double sum = sum_of_magnitudes(point_.multipliers) + sum_z;
   const double count = bounds + static_cast<double>(point_.multipliers.size());
-  return {.stationarity = std::max(s_max, count > 0.0 ? sum / count : 0.0) / s_max,
-          .complementarity = std::max(s_max, bounds > 0.0 ? sum_z / bounds : 0.0) / s_max};
+  return {.all = count > 0.0 ? sum / count : 0.0, .of_bounds = bounds > 0.0 ? sum_z / bounds : 0.0};
 }
 
 bool InteriorPointRun::has_converged(const Residuals& at) const {
-  const double floor = plain_program_.rounding_floor();
-  if (at.violation > std::max(tolerance_, floor)) return false;
-  const Scales scale = scales();
-  const bool is_stationary = at.stationarity / scale.stationarity <= tolerance_ ||
-                             at.stationarity <= floor * std::max(1.0, largest_of(point_.multipliers));
-  return is_stationary && program_.complementarity(point_, 0.0) / scale.complementarity <= tolerance_;
+  if (at.violation > allowed_.violation()) return false;
+  const Means mean = mean_multipliers();
+  return at.stationarity <= allowed_.stationarity(mean.all, largest_of(point_.multipliers)) &&
+         program_.complementarity(point_, 0.0) <= allowed_.complementarity(mean.of_bounds);
 }
 
 void InteriorPointRun::lower_barrier(const Residuals& at) {
   if (!program_.has_bounds()) return;
   const double smallest = tolerance_ / (kappa_epsilon + 1.0);
-  const Scales scale = scales();
-  const double without_barrier = std::max(at.stationarity / scale.stationarity, at.violation);
+  const Means mean = mean_multipliers();
+  const double without_barrier = std::max(at.stationarity / StopRule::scale(mean.all), at.violation);
   const auto error = [&] {
-    return std::max(without_barrier, program_.complementarity(point_, mu_) / scale.complementarity);
+    return std::max(without_barrier, program_.complementarity(point_, mu_) / StopRule::scale(mean.of_bounds));
   };
   while (mu_ > smallest && without_barrier <= kappa_epsilon * mu_ && error() <= kappa_epsilon * mu_) {
     mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));

@@ -12,6 +12,7 @@
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -31,9 +32,10 @@ class InteriorPointRun {
     double stationarity = 0.0;
     double violation = 0.0;
   };
-  struct Scales {
-    double stationarity;
-    double complementarity;
+  /// Mean magnitudes of multipliers.
+  struct Means {
+    double all;
+    double of_bounds;
   };
 
   [[nodiscard]] bool is_warm() const noexcept { return options_.start_multipliers.size() > 0; }
@@ -45,7 +47,7 @@ class InteriorPointRun {
 
   // Convergence.
   [[nodiscard]] Residuals residuals();
-  [[nodiscard]] Scales scales() const;
+  [[nodiscard]] Means mean_multipliers() const;
   [[nodiscard]] bool has_converged(const Residuals& at) const;
   void lower_barrier(const Residuals& at);
   void keep_multipliers_from_running_away();
@@ -89,6 +91,7 @@ class InteriorPointRun {
   double function_ = 0.0;  // φ + μ barrier at the point
   double mu_ = 0.0;
   double tolerance_;
+  StopRule allowed_;
   double first_violation_ = 0.0;
   double noise_of_violation_ = 0.0;
   int iterations_ = 0;
