@@ -37,7 +37,7 @@ void register_hessian(const std::string& quantity, short tag, const Subject& sub
 void register_adolc_benchmarks(const Subjects& subjects) {
   short tag = 0;
   for (const auto& subject : subjects) register_hessian("hessian", tag++, *subject, 1);
-  for (const auto& subject : subjects) register_hessian("hessian_block", tag++, *subject, Tape::block_width);
+  for (const auto& subject : subjects) register_hessian("hessian_block", tag++, *subject, 64);
 }
 
 }  // namespace dmocbench::speed

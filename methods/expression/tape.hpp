@@ -15,9 +15,10 @@ namespace dmocbench {
 /// A schedule made ready to be evaluated over all intervals of a grid.
 ///
 /// The same straight-line code is carried out for a block of intervals at a time: every instruction is a loop over
-/// `block_width` numbers that become vector instructions. Values live in slots that are reused as soon as a value is
-/// dead, so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with a
-/// `Workspace` of its own.
+/// `block_width` numbers that become vector instructions. Sums and products whose values have one reader are carried
+/// out with it, in registers (`compound_steps`); the others live in slots that are reused as soon as a value is dead
+/// (`ColumnPlan`), so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with
+/// a `Workspace` of its own.
 class Tape {
  public:
   /// Intervals evaluated together.

@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <xsimd/xsimd.hpp>
 
+#include "methods/expression/instruction_code.hpp"
 #include "methods/expression/operation.hpp"
 
 namespace dmocbench {
@@ -28,88 +30,229 @@ struct PartialWidth {
   static constexpr bool is_full = false;
 };
 
-template <class Width, class Function>
-inline void for_each(Width width, double* result, const double* x, Function function) {
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < width.value; ++i) result[i] = function(x[i]);
-}
-
-template <class Width, class Function>
-inline void for_each(Width width, double* result, const double* x, const double* y, Function function) {
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < width.value; ++i) result[i] = function(x[i], y[i]);
-}
-
-/// A function of xsimd, vector by vector; the remainder goes through a padded vector, so that every number takes the
-/// same path whatever its place.
-template <class Width, class Function>
-inline void for_each_vector(Width width, double* result, const double* x, Function function) {
-  using Vector = xsimd::batch<double>;
-  std::size_t i = 0;
-  for (; i + Vector::size <= width.value; i += Vector::size) {
-    function(Vector::load_unaligned(x + i)).store_unaligned(result + i);
+/// What an operation of one or two numbers gives; sines and cosines are found vector by vector.
+template <Operation operation>
+inline double value_of(double x, double y, double exponent) {
+  switch (operation) {  // known to the compiler
+    case Operation::add:
+      return x + y;
+    case Operation::subtract:
+      return x - y;
+    case Operation::multiply:
+      return x * y;
+    case Operation::divide:
+      return x / y;
+    case Operation::negate:
+      return -x;
+    case Operation::reciprocal:
+      return 1.0 / x;
+    case Operation::square_root:
+      return std::sqrt(x);
+    case Operation::exponential:
+      return std::exp(x);
+    case Operation::logarithm:
+      return std::log(x);
+    case Operation::tangent:
+      return std::tan(x);
+    case Operation::arc_sine:
+      return std::asin(x);
+    case Operation::arc_cosine:
+      return std::acos(x);
+    case Operation::arc_tangent:
+      return std::atan(x);
+    case Operation::arc_tangent2:
+      return std::atan2(x, y);
+    case Operation::hyperbolic_sine:
+      return std::sinh(x);
+    case Operation::hyperbolic_cosine:
+      return std::cosh(x);
+    case Operation::hyperbolic_tangent:
+      return std::tanh(x);
+    case Operation::power:
+      return std::pow(x, exponent);
+    case Operation::sine:
+    case Operation::cosine:
+    case Operation::constant:  // a value that is an output as it stands: copied
+    case Operation::input:
+      return x;
   }
+}
+
+template <Combination combination>
+inline double value_of(double x, double y) {
+  switch (combination) {
+    case Combination::add:
+      return x + y;
+    case Combination::subtract:
+      return x - y;
+    case Combination::multiply:
+      return x * y;
+    case Combination::subtract_from:
+      return y - x;
+  }
+}
+
+/// Carries out one instruction.
+template <class Width>
+using Handler = void (*)(const TapeInstruction& instruction, double* const* columns, Width width);
+
+template <Operation operation, class Width>
+void run_alone(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* result = columns[instruction.result];
+  const double* x = columns[instruction.operands[0]];
+  const double exponent = instruction.exponent;
+  if constexpr (operand_count(operation) > 1) {
+    const double* y = columns[instruction.operands[1]];
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<operation>(x[i], y[i], exponent);
+  } else {
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<operation>(x[i], 0.0, exponent);
+  }
+}
+
+/// (a ∘ b) ∘ c
+template <Combination inner, Combination outer, class Width>
+void run_pair(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* result = columns[instruction.result];
+  const double* a = columns[instruction.operands[0]];
+  const double* b = columns[instruction.operands[1]];
+  const double* c = columns[instruction.operands[2]];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<outer>(value_of<inner>(a[i], b[i]), c[i]);
+}
+
+/// ((a ∘ b) ∘ c) ∘ d
+template <Combination inner, Combination middle, Combination outer, class Width>
+void run_chain(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* result = columns[instruction.result];
+  const double* a = columns[instruction.operands[0]];
+  const double* b = columns[instruction.operands[1]];
+  const double* c = columns[instruction.operands[2]];
+  const double* d = columns[instruction.operands[3]];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < width.value; ++i) {
+    result[i] = value_of<outer>(value_of<middle>(value_of<inner>(a[i], b[i]), c[i]), d[i]);
+  }
+}
+
+/// (a ∘ b) ∘ (c ∘ d)
+template <Combination left, Combination right, Combination outer, class Width>
+void run_tree(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* result = columns[instruction.result];
+  const double* a = columns[instruction.operands[0]];
+  const double* b = columns[instruction.operands[1]];
+  const double* c = columns[instruction.operands[2]];
+  const double* d = columns[instruction.operands[3]];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < width.value; ++i) {
+    result[i] = value_of<outer>(value_of<left>(a[i], b[i]), value_of<right>(c[i], d[i]));
+  }
+}
+
+using Vector = xsimd::batch<double>;
+
+/// Hands a column over to `function(vector, i)`, vector by vector. The remainder comes in a padded vector, of which
+/// `count` numbers count, so that every number takes the same path whatever its place.
+template <class Width, class Function>
+inline void for_each_vector(Width width, const double* x, Function function) {
+  std::size_t i = 0;
+  for (; i + Vector::size <= width.value; i += Vector::size) function(Vector::load_unaligned(x + i), i, Vector::size);
   if constexpr (!Width::is_full) {
     if (i == width.value) return;
     alignas(64) std::array<double, Vector::size> padded{};
     for (std::size_t j = i; j < width.value; ++j) padded[j - i] = x[j];
-    function(Vector::load_aligned(padded.data())).store_aligned(padded.data());
-    for (std::size_t j = i; j < width.value; ++j) result[j] = padded[j - i];
+    function(Vector::load_aligned(padded.data()), i, width.value - i);
   }
 }
 
+/// The first `count` numbers of a vector.
+inline void store(const Vector& values, double* result, std::size_t count) {
+  if (count == Vector::size) return values.store_unaligned(result);
+  alignas(64) std::array<double, Vector::size> padded{};
+  values.store_aligned(padded.data());
+  for (std::size_t j = 0; j < count; ++j) result[j] = padded[j];
+}
+
 template <class Width>
-inline void run(const TapeInstruction& instruction, double* const* columns, Width width) {
+void run_sine(const TapeInstruction& instruction, double* const* columns, Width width) {
   double* result = columns[instruction.result];
-  const double* x = columns[instruction.left];
-  const double* y = columns[instruction.right];
-  switch (instruction.operation) {
-    case Operation::add:
-      return for_each(width, result, x, y, [](double a, double b) { return a + b; });
-    case Operation::subtract:
-      return for_each(width, result, x, y, [](double a, double b) { return a - b; });
-    case Operation::multiply:
-      return for_each(width, result, x, y, [](double a, double b) { return a * b; });
-    case Operation::divide:
-      return for_each(width, result, x, y, [](double a, double b) { return a / b; });
-    case Operation::negate:
-      return for_each(width, result, x, [](double a) { return -a; });
-    case Operation::reciprocal:
-      return for_each(width, result, x, [](double a) { return 1.0 / a; });
-    case Operation::square_root:
-      return for_each(width, result, x, [](double a) { return std::sqrt(a); });
-    case Operation::sine:
-      return for_each_vector(width, result, x, [](const auto& a) { return xsimd::sin(a); });
-    case Operation::cosine:
-      return for_each_vector(width, result, x, [](const auto& a) { return xsimd::cos(a); });
-    case Operation::exponential:
-      return for_each(width, result, x, [](double a) { return std::exp(a); });
-    case Operation::logarithm:
-      return for_each(width, result, x, [](double a) { return std::log(a); });
-    case Operation::tangent:
-      return for_each(width, result, x, [](double a) { return std::tan(a); });
-    case Operation::arc_sine:
-      return for_each(width, result, x, [](double a) { return std::asin(a); });
-    case Operation::arc_cosine:
-      return for_each(width, result, x, [](double a) { return std::acos(a); });
-    case Operation::arc_tangent:
-      return for_each(width, result, x, [](double a) { return std::atan(a); });
-    case Operation::arc_tangent2:
-      return for_each(width, result, x, y, [](double a, double b) { return std::atan2(a, b); });
-    case Operation::hyperbolic_sine:
-      return for_each(width, result, x, [](double a) { return std::sinh(a); });
-    case Operation::hyperbolic_cosine:
-      return for_each(width, result, x, [](double a) { return std::cosh(a); });
-    case Operation::hyperbolic_tangent:
-      return for_each(width, result, x, [](double a) { return std::tanh(a); });
-    case Operation::power: {
-      const double exponent = instruction.exponent;
-      return for_each(width, result, x, [exponent](double a) { return std::pow(a, exponent); });
-    }
-    case Operation::constant:  // a value that is an output as it stands: copied
-    case Operation::input:
-      return for_each(width, result, x, [](double a) { return a; });
-  }
+  for_each_vector(width, columns[instruction.operands[0]],
+                  [&](const Vector& x, std::size_t i, std::size_t count) { store(xsimd::sin(x), result + i, count); });
+}
+
+template <class Width>
+void run_cosine(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* result = columns[instruction.result];
+  for_each_vector(width, columns[instruction.operands[0]],
+                  [&](const Vector& x, std::size_t i, std::size_t count) { store(xsimd::cos(x), result + i, count); });
+}
+
+template <class Width>
+void run_sine_and_cosine(const TapeInstruction& instruction, double* const* columns, Width width) {
+  double* sines = columns[instruction.result];
+  double* cosines = columns[instruction.second_result];
+  for_each_vector(width, columns[instruction.operands[0]], [&](const Vector& x, std::size_t i, std::size_t count) {
+    const auto [sines_of_x, cosines_of_x] = xsimd::sincos(x);
+    store(sines_of_x, sines + i, count);
+    store(cosines_of_x, cosines + i, count);
+  });
+}
+
+template <class Width>
+using Handlers = std::array<Handler<Width>, instruction_code::count>;
+
+constexpr Combination combination(std::size_t number) { return static_cast<Combination>(number); }
+
+template <class Width, std::size_t... k>
+constexpr void add_operations(Handlers<Width>& handlers, std::index_sequence<k...> /*operations*/) {
+  ((handlers[k] = run_alone<static_cast<Operation>(k), Width>), ...);
+  handlers[instruction_code::of(Operation::sine)] = run_sine<Width>;
+  handlers[instruction_code::of(Operation::cosine)] = run_cosine<Width>;
+  handlers[instruction_code::sine_and_cosine] = run_sine_and_cosine<Width>;
+}
+
+template <class Width, std::size_t... k>
+constexpr void add_pairs(Handlers<Width>& handlers, std::index_sequence<k...> /*pairs*/) {
+  using instruction_code::combinations;
+  ((handlers[instruction_code::first_pair + k] =
+        run_pair<combination(k / combinations), combination(k % combinations), Width>),
+   ...);
+}
+
+template <class Width, std::size_t... k>
+constexpr void add_chains(Handlers<Width>& handlers, std::index_sequence<k...> /*chains*/) {
+  using instruction_code::combinations;
+  ((handlers[instruction_code::first_chain + k] =
+        run_chain<combination(k / combinations / combinations), combination(k / combinations % combinations),
+                  combination(k % combinations), Width>),
+   ...);
+}
+
+template <class Width, std::size_t... k>
+constexpr void add_trees(Handlers<Width>& handlers, std::index_sequence<k...> /*trees*/) {
+  using instruction_code::innermost;
+  ((handlers[instruction_code::first_tree + k] =
+        run_tree<combination(k / innermost / innermost), combination(k / innermost % innermost),
+                 combination(k % innermost), Width>),
+   ...);
+}
+
+/// By the codes of instructions.
+template <class Width>
+constexpr Handlers<Width> all_handlers() {
+  Handlers<Width> handlers{};
+  add_operations(handlers, std::make_index_sequence<instruction_code::sine_and_cosine>{});
+  add_pairs(handlers, std::make_index_sequence<instruction_code::pairs>{});
+  add_chains(handlers, std::make_index_sequence<instruction_code::chains>{});
+  add_trees(handlers, std::make_index_sequence<instruction_code::trees>{});
+  return handlers;
+}
+
+template <class Width>
+inline void run(const TapeInstruction* instructions, std::size_t count, double* const* columns, Width width) {
+  static constexpr Handlers<Width> handlers = all_handlers<Width>();
+  for (std::size_t i = 0; i < count; ++i) handlers[instructions[i].code](instructions[i], columns, width);
 }
 
 }  // namespace
@@ -117,9 +260,9 @@ inline void run(const TapeInstruction& instruction, double* const* columns, Widt
 void DMOCBENCH_TAPE_KERNEL(const TapeInstruction* instructions, std::size_t count, double* const* columns,
                            std::size_t width) {
   if (width == tape_block_width) {
-    for (std::size_t i = 0; i < count; ++i) run(instructions[i], columns, FullWidth{});
+    run(instructions, count, columns, FullWidth{});
   } else {
-    for (std::size_t i = 0; i < count; ++i) run(instructions[i], columns, PartialWidth{width});
+    run(instructions, count, columns, PartialWidth{width});
   }
 }
 

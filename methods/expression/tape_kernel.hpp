@@ -1,21 +1,23 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "methods/expression/operation.hpp"
-
 namespace dmocbench {
 
-/// Intervals evaluated together: 64 numbers are 512 bytes, so some 60 columns stay in a first-level cache.
-inline constexpr std::size_t tape_block_width = 64;
+/// Intervals evaluated together: 128 numbers are a kilobyte, so some 30 columns stay in a first-level cache.
+inline constexpr std::size_t tape_block_width = 128;
 
-/// One operation on whole columns of numbers; `result`, `left` and `right` are positions in a table of columns.
+/// Operands an instruction has at most.
+inline constexpr std::size_t most_operands = 4;
+
+/// What is done with whole columns of numbers; results and operands are positions in a table of columns.
 struct TapeInstruction {
-  Operation operation;
+  std::uint32_t code;  ///< see `instruction_code`
   std::uint32_t result;
-  std::uint32_t left;
-  std::uint32_t right;
+  std::uint32_t second_result;  ///< the cosine beside a sine
+  std::array<std::uint32_t, most_operands> operands;
   double exponent;  ///< of a power
 };
 
