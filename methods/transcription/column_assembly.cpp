@@ -59,7 +59,7 @@ void ColumnAssembly::close(VectorOut& result) const {
     double* target = result.data() + addition.place.first;
     const double* source = scratch_.data() + addition.scratch;
     if (addition.place.shared) {
-      *target = std::accumulate(source, source + intervals_, *target);
+      *target += Eigen::Map<const Eigen::VectorXd>(source, static_cast<Eigen::Index>(intervals_)).sum();
       continue;
     }
     for_each_part(parts, [&](std::size_t part) {

@@ -19,9 +19,9 @@ double pushed_inside(double value, double lower, double upper, double share) {
 }
 
 void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double share) {
-  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+  for_each_bounded(lower, upper, [&](Eigen::Index i) {
     vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i], share);
-  }
+  });
 }
 
 std::vector<Eigen::Index> rows_with_slack(const NonlinearProgram& program) {
@@ -45,8 +45,8 @@ Eigen::VectorXd values_of_equalities(const NonlinearProgram& program, const std:
 
 BarrierProgram::BarrierProgram(NonlinearProgram& program, const ProgramRuns& runs)
     : program_(program),
-      x_lower_(bounds_of(program.variable_lower(), program.variable_upper())),
-      x_upper_(bounds_of(program.variable_upper(), program.variable_lower())),
+      x_lower_(bounds_of(program.variable_lower(), program.variable_upper(), 1.0)),
+      x_upper_(bounds_of(program.variable_lower(), program.variable_upper(), -1.0)),
       inequalities_(rows_with_slack(program)),
       values_(values_of_equalities(program, inequalities_)),
       slope_of_rows_(MatrixProduct::transposed(runs.jacobian)) {
@@ -55,8 +55,8 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program, const ProgramRuns& run
   resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));
   const Eigen::VectorXd lower = program.constraint_lower()(inequalities_);
   const Eigen::VectorXd upper = program.constraint_upper()(inequalities_);
-  s_lower_ = bounds_of(lower, upper);
-  s_upper_ = bounds_of(upper, lower);
+  s_lower_ = bounds_of(lower, upper, 1.0);
+  s_upper_ = bounds_of(lower, upper, -1.0);
   for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
 }
 

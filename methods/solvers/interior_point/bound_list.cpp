@@ -5,19 +5,28 @@
 
 namespace dmocbench::interior_point {
 
-BoundList bounds_of(const Eigen::VectorXd& bounds, const Eigen::VectorXd& others) {
+BoundList bounds_of(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double side) {
+  const Eigen::VectorXd& bounds = side > 0.0 ? lower : upper;
   BoundList list;
   std::vector<double> values;
-  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
-    if (!std::isfinite(bounds[i]) || bounds[i] == others[i]) continue;
+  for_each_bounded(lower, upper, [&](Eigen::Index i) {
+    if (!std::isfinite(bounds[i]) || lower[i] == upper[i]) return;
     if (list.stretches.empty() || list.stretches.back().entry + list.stretches.back().length != i) {
       list.stretches.push_back({i, static_cast<Eigen::Index>(values.size()), 0});
     }
     ++list.stretches.back().length;
     values.push_back(bounds[i]);
-  }
+  });
   list.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return list;
+}
+
+std::vector<Eigen::Index> fixed_entries(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  std::vector<Eigen::Index> fixed;
+  for_each_bounded(lower, upper, [&](Eigen::Index i) {
+    if (lower[i] == upper[i]) fixed.push_back(i);
+  });
+  return fixed;
 }
 
 namespace {

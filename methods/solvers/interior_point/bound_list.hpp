@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -39,8 +42,27 @@ struct BoundList {
   }
 };
 
-/// The bounds of a vector on the side of `bounds`; `others` are those of the other side.
-[[nodiscard]] BoundList bounds_of(const Eigen::VectorXd& bounds, const Eigen::VectorXd& others);
+/// Calls `visit(i)` for every entry i that has a bound on one side at least. Most have none: those are passed over many
+/// at a time.
+template <class Visit>
+void for_each_bounded(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Visit& visit) {
+  constexpr Eigen::Index at_once = 32;
+  for (Eigen::Index begin = 0; begin < lower.size(); begin += at_once) {
+    const Eigen::Index count = std::min(at_once, lower.size() - begin);
+    const double highest_lower = lower.segment(begin, count).maxCoeff();
+    const double lowest_upper = upper.segment(begin, count).minCoeff();
+    if (highest_lower == -unbounded && lowest_upper == unbounded) continue;
+    for (Eigen::Index i = begin; i < begin + count; ++i) {
+      if (lower[i] != -unbounded || upper[i] != unbounded) visit(i);
+    }
+  }
+}
+
+/// The bounds of a vector on one side.
+[[nodiscard]] BoundList bounds_of(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double side);
+
+/// Entries whose bounds are equal.
+[[nodiscard]] std::vector<Eigen::Index> fixed_entries(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
 /// -Σ ln(distances).
 [[nodiscard]] double barrier_of(const Eigen::VectorXd& vector, const BoundList& bounds, double side);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/solvers/interior_point/bound_list.hpp"
 #include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
@@ -23,13 +24,8 @@ NewtonResidual::NewtonResidual(const NonlinearProgram& program, const ProgramRun
     : hessian_(MatrixProduct::symmetric(runs.hessian)),
       jacobian_(MatrixProduct::plain(runs.jacobian)),
       transposed_jacobian_(MatrixProduct::transposed(runs.jacobian)),
-      floor_(program.rounding_floor()) {
-  const Eigen::VectorXd& lower = program.variable_lower();
-  const Eigen::VectorXd& upper = program.variable_upper();
-  for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    if (lower[i] == upper[i]) fixed_.push_back(i);
-  }
-}
+      floor_(program.rounding_floor()),
+      fixed_(fixed_entries(program.variable_lower(), program.variable_upper())) {}
 
 void NewtonResidual::compute(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                              const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step) {
