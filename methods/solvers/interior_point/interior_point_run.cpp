@@ -46,15 +46,11 @@ InteriorPointRun::InteriorPointRun(NonlinearProgram& program, const ProgramRuns&
       options_(options),
       program_(program, runs),
       newton_(program_, kkt),
+      fixed_(fixed_entries(program.variable_lower(), program.variable_upper())),
       tolerance_(options.tolerance),
       allowed_(program, options.tolerance),
       begin_(Clock::now()) {
   point_ = is_warm() ? program_.interior(start, push_of_warm_start) : program_.interior(start);
-  const Eigen::VectorXd& lower = program.variable_lower();
-  const Eigen::VectorXd& upper = program.variable_upper();
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    if (lower[i] == upper[i]) fixed_.push_back(i);
-  }
   resize_unwritten(rows_, point_.multipliers.size());
   resize_unwritten(trial_rows_, point_.multipliers.size());
 }
