@@ -83,6 +83,7 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
   const auto may_be_weight = [&] {
     return (verdict == Verdict::wrong_inertia || verdict == Verdict::singular) && !has_certain_inertia_;
   };
+  if (verdict == Verdict::singular) weights_.believe_no_failure();  // another weight costs less than another factorisation
   while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict != Verdict::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);

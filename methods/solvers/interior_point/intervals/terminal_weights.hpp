@@ -28,6 +28,8 @@ class TerminalWeights {
   void follow(const NewtonArrays& arrays);
   /// After a failure: takes the next multiple, which stays if it succeeds; false if none is left for this matrix.
   [[nodiscard]] bool try_another();
+  /// The next failure is not believed: all multiples are tried.
+  void believe_no_failure() noexcept { believed_ = 0; }
   /// Learns the stiffness from the reach Γ of a segment that was eliminated with these weights.
   void learn(const Eigen::MatrixXd& reach);
 
