@@ -15,8 +15,9 @@ namespace {
 constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
 /// Where a failure is most to be believed: the smallest may be too small, the largest may drown the stiffness.
 constexpr std::size_t middle = 2;
-/// Failures that are believed, after all multiples were tried in vain.
-constexpr int patience = 6;
+/// Failures that are believed, after all multiples were tried in vain: fewer than it takes for the sparse factorisation
+/// to be asked (`RefinedKkt`), which costs more than they do.
+constexpr int patience = 2;
 /// Of a weight that drowned the stiffness: what it may have been at most.
 constexpr double drowned_share = 1e-3;
 constexpr double smallest_curvature = 1e-12;
