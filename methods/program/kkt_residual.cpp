@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/error.hpp"
+#include "methods/program/large_pages.hpp"
 
 namespace dmocbench {
 
@@ -41,18 +42,33 @@ double row_stationarity(double multiplier, double row, double lower, double uppe
   return lower == upper ? 0.0 : bounded_stationarity(-multiplier, std::clamp(row, lower, upper), lower, upper);
 }
 
+Eigen::VectorXd rows_at(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  Eigen::VectorXd rows;
+  resize_unwritten(rows, static_cast<Eigen::Index>(program.constraint_count()));
+  program.constraints(primal, rows);
+  return rows;
+}
+
+double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& rows) {
+  return largest(outside(rows, program.constraint_lower(), program.constraint_upper()),
+                 outside(primal, program.variable_lower(), program.variable_upper()));
+}
+
 }  // namespace
 
 KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
   require_size(primal.size(), program.variable_count(), "variables");
   require_size(multipliers.size(), program.constraint_count(), "multipliers");
+  const Eigen::VectorXd rows = rows_at(program, primal);
   KktResidual residual;
-  residual.constraint_violation = constraint_violation(program, primal);
+  residual.constraint_violation = violation_of(program, primal, rows);
 
-  Eigen::VectorXd slope(primal.size());
+  Eigen::VectorXd slope;
+  resize_unwritten(slope, primal.size());
   program.gradient(primal, slope);
   const SparsityPattern& pattern = program.jacobian_structure();
-  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(pattern.size()));
+  Eigen::VectorXd jacobian;
+  resize_unwritten(jacobian, static_cast<Eigen::Index>(pattern.size()));
   program.jacobian(primal, jacobian);
   for (std::size_t e = 0; e < pattern.size(); ++e) {
     slope[pattern.columns[e]] += jacobian[static_cast<Eigen::Index>(e)] * multipliers[pattern.rows[e]];
@@ -64,8 +80,6 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
     residual.stationarity = largest(residual.stationarity,
                                     bounded_stationarity(slope[i], std::clamp(primal[i], lower, upper), lower, upper));
   }
-  Eigen::VectorXd rows(multipliers.size());
-  program.constraints(primal, rows);
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     residual.stationarity = largest(
         residual.stationarity,
@@ -76,10 +90,7 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
 
 double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
   require_size(primal.size(), program.variable_count(), "variables");
-  Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
-  program.constraints(primal, rows);
-  return largest(outside(rows, program.constraint_lower(), program.constraint_upper()),
-                 outside(primal, program.variable_lower(), program.variable_upper()));
+  return violation_of(program, primal, rows_at(program, primal));
 }
 
 }  // namespace dmocbench

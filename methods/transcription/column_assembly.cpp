@@ -6,6 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/program/parallel.hpp"
+#include "methods/program/vector_loops.hpp"
 
 namespace dmocbench {
 
@@ -63,8 +64,9 @@ void ColumnAssembly::close(VectorOut& result) const {
       continue;
     }
     for_each_part(parts, [&](std::size_t part) {
-      const std::size_t end = begin_of_part(part + 1, parts, intervals_);
-      for (std::size_t k = begin_of_part(part, parts, intervals_); k < end; ++k) target[k] += source[k];
+      const std::size_t begin = begin_of_part(part, parts, intervals_);
+      const auto count = static_cast<std::ptrdiff_t>(begin_of_part(part + 1, parts, intervals_) - begin);
+      vector_loops().set_to_sum(target + begin, target + begin, 1.0, source + begin, count);
     });
   }
 }

@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
+#include "methods/program/long_vectors.hpp"
 #include "methods/solvers/clock.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
-#include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench::interior_point {

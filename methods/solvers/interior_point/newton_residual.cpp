@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/program/long_vectors.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
-#include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

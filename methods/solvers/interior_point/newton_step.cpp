@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/program/long_vectors.hpp"
 #include "methods/solvers/clock.hpp"
-#include "methods/solvers/interior_point/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

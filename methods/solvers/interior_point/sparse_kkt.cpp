@@ -1,7 +1,7 @@
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
+#include "methods/program/long_vectors.hpp"
 #include "methods/solvers/interior_point/dissection_order.hpp"
-#include "methods/solvers/interior_point/long_vectors.hpp"
 #include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::interior_point {

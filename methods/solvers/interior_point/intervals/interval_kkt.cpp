@@ -6,7 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/program/parallel.hpp"
-#include "methods/solvers/interior_point/long_vectors.hpp"
+#include "methods/program/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

@@ -9,9 +9,9 @@
 
 #include "methods/program/large_pages.hpp"
 #include "methods/program/parallel.hpp"
-#include "methods/solvers/interior_point/vector_loops.hpp"
+#include "methods/program/vector_loops.hpp"
 
-namespace dmocbench::interior_point {
+namespace dmocbench {
 
 /// Entries of a vector that are worth a thread of their own.
 inline constexpr std::size_t entries_per_stretch = 65536;
@@ -91,4 +91,4 @@ inline void set_zero(Eigen::VectorXd& target, Eigen::Index size) {
                 [&](std::size_t, Eigen::Index begin, Eigen::Index length) { target.segment(begin, length).setZero(); });
 }
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench

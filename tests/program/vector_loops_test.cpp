@@ -1,4 +1,4 @@
-#include "methods/solvers/interior_point/vector_loops.hpp"
+#include "methods/program/vector_loops.hpp"
 
 #include <limits>
 
@@ -7,7 +7,7 @@
 
 #include "tests/support/random_points.hpp"
 
-namespace dmocbench::interior_point {
+namespace dmocbench {
 namespace {
 
 /// Sizes with and without a rest behind the last eight numbers.
@@ -54,4 +54,4 @@ TEST(VectorLoops, FindWhatIsNotANumberWhereverItStands) {
 }
 
 }  // namespace
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace dmocbench::interior_point {
+namespace dmocbench {
 
 /// Loops over stretches of vectors, compiled for one instruction set. Sums are those of eight interleaved parts, in the
 /// same order in every set.
@@ -32,4 +32,4 @@ extern const VectorLoops vector_loops_baseline;
 extern const VectorLoops vector_loops_avx2;
 extern const VectorLoops vector_loops_avx512;
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace dmocbench::interior_point {
+namespace dmocbench {
 
 #ifdef DMOCBENCH_X86_KERNELS
 /// Whether this processor has what a source that `dmocbench_kernel` (methods/CMakeLists.txt) compiled for a set needs.
@@ -10,4 +10,4 @@ namespace dmocbench::interior_point {
 }
 #endif
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench

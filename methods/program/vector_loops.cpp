@@ -1,8 +1,8 @@
-#include "methods/solvers/interior_point/vector_loops.hpp"
+#include "methods/program/vector_loops.hpp"
 
 // Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name of what it defines. Everything else is in
 // an unnamed namespace, since a linker may take either of two functions of the same name.
-namespace dmocbench::interior_point {
+namespace dmocbench {
 
 namespace {
 
@@ -78,4 +78,4 @@ void set_to_sum(double* result, const double* x, double factor, const double* y,
 
 const VectorLoops DMOCBENCH_VECTOR_LOOPS{largest, sum_of_magnitudes, dot, sum_of_zeros, add_products, set_to_sum};
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench
