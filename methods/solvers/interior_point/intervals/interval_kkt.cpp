@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/program/parallel.hpp"
 #include "methods/program/long_vectors.hpp"
+#include "methods/program/parallel.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -83,7 +83,8 @@ Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope
   const auto may_be_weight = [&] {
     return (verdict == Verdict::wrong_inertia || verdict == Verdict::singular) && !has_certain_inertia_;
   };
-  if (verdict == Verdict::singular) weights_.believe_no_failure();  // another weight costs less than another factorisation
+  // To try the other weights costs less than the factorisation that is asked otherwise.
+  if (verdict == Verdict::singular) weights_.believe_no_failure();
   while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
   if (verdict != Verdict::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);

@@ -1,5 +1,5 @@
-#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 #include "methods/program/processor.hpp"
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 
 namespace dmocbench::interior_point {
 
