@@ -69,7 +69,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
         options_(options),
         solution_(solution),
         allowed_(program, options.tolerance),
-        has_rule_of_its_own_(options.passed_on.count("tol") > 0) {}
+        has_rule_of_its_own_(options.passed_on.contains("tol")) {}
 
   /// Whether Ipopt was told to stop because its point fulfils our rule.
   [[nodiscard]] bool has_converged() const { return has_converged_; }

@@ -59,7 +59,7 @@ Expression shaped(int shape, const Operator& f, const Operator& g, const Operato
   const ExpressionVector x = input_vector(0, 4);
   const Expression pair = f(x[0], x[1]);
   if (shape == 0) return h(pair, g(x[2], x[3]));
-  const Expression triple = (shape & 2) != 0 ? g(pair, x[2]) : g(x[2], pair);
+  Expression triple = (shape & 2) != 0 ? g(pair, x[2]) : g(x[2], pair);
   if (shape < 4) return (shape & 1) != 0 ? h(triple, x[3]) : h(x[3], triple);
   return triple;
 }
