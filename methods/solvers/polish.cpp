@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "methods/solvers/confirm.hpp"
@@ -33,6 +34,12 @@ double residual_of(const Solution& solution) {
   const double residual =
       std::max(solution.kkt_residual.value_or(unbounded), solution.constraint_violation.value_or(unbounded));
   return std::isfinite(residual) ? residual : unbounded;
+}
+
+/// True if what is left is no more than the rounding of the program's terms.
+bool is_rounding(const NonlinearProgram& program, const Solution& solution) {
+  constexpr double nothing = std::numeric_limits<double>::min();
+  return times_the_tolerance(program, nothing, solution) <= 1.0;
 }
 
 /// The solution after one Newton step; with an infinite residual if there is none.
@@ -73,9 +80,11 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
   Evaluator evaluator(program);
   SymmetricFactorisation factorisation;
   int steps = 0;
-  while (steps < most_steps) {
+  bool is_better = true;
+  while (is_better && steps < most_steps) {
     Solution next = stepped(evaluator, program, factorisation, solution);
-    if (!(residual_of(next) < residual_of(solution))) break;
+    is_better = residual_of(next) < residual_of(solution);
+    if (!is_better && !is_rounding(program, next)) break;
     solution = std::move(next);
     ++steps;
   }
