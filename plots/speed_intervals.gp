@@ -47,7 +47,7 @@ if (words(drawn) > 0) {
       eval power_axis("y")
       set format y (i == 1 ? "%g" : "")
       set xrange [0.5:way_count + 0.5]
-      set yrange [1:20000]
+      set yrange [0.2:20000]
       unset mxtics
       set xtics () font ",13"
       do for [w = 1:way_count] { set xtics add (way_label(w) w) }

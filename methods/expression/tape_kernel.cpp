@@ -181,7 +181,7 @@ void run_tree(const TapeInstruction& instruction, double* const* columns, Width 
   }
 }
 
-/// Hands a column over to `function(vector, i)`, vector by vector. The remainder comes in a padded vector, of which
+/// Hands a column over to `function(vector, i, count)`, vector by vector. The remainder comes in a padded one, of which
 /// `count` numbers count, so that every number takes the same path whatever its place.
 template <class Width, class Function>
 inline void for_each_vector(Width width, const double* x, Function function) {
