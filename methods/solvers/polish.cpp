@@ -24,16 +24,18 @@ bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd&
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double lower = program.variable_lower()[j];
     const double upper = program.variable_upper()[j];
-    if (lower != upper && !(x[j] > lower + margin && x[j] < upper - margin)) return false;
+    const bool is_inside = x[j] > lower + margin && x[j] < upper - margin;
+    if (lower != upper && !is_inside) return false;
   }
   return true;
 }
 
 /// The larger of both residuals; infinity where they are no numbers.
 double residual_of(const Solution& solution) {
-  const double residual =
-      std::max(solution.kkt_residual.value_or(unbounded), solution.constraint_violation.value_or(unbounded));
-  return std::isfinite(residual) ? residual : unbounded;
+  const double stationarity = solution.kkt_residual.value_or(unbounded);
+  const double violation = solution.constraint_violation.value_or(unbounded);
+  if (!std::isfinite(stationarity) || !std::isfinite(violation)) return unbounded;
+  return std::max(stationarity, violation);
 }
 
 /// True if what is left is no more than the rounding of the program's terms.
