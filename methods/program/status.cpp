@@ -14,7 +14,8 @@ struct Entry {
 
 constexpr std::array entries{
     Entry{Status::not_run, "not run", "No solver has been called."},
-    Entry{Status::solved, "solved", "KKT residual and constraint violation are below the tolerance."},
+    Entry{Status::solved, "solved",
+          "KKT residual and constraint violation are below the tolerance, or below rounding where that is more."},
     Entry{Status::acceptable, "acceptable",
           "The solver could not reach the tolerance, but came within a hundred times of it."},
     Entry{Status::infeasible, "infeasible",

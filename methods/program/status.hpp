@@ -8,7 +8,7 @@ namespace dmocbench {
 /// How a solve ended. Only `solved` is an answer that our own residual confirms.
 enum class Status : std::uint8_t {
   not_run,            ///< no solver has been called
-  solved,             ///< KKT residual and constraint violation are below the tolerance
+  solved,             ///< KKT residual and constraint violation are below the tolerance, or rounding (`StopRule`)
   acceptable,         ///< the solver stopped short of the tolerance, but within a hundred times of it
   infeasible,         ///< converged to a point of least constraint violation
   diverged,           ///< iterates grew without bound
