@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "bench/experiment/result_file.hpp"
-#include "methods/expression/instruction_set.hpp"
+#include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {

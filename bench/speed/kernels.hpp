@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "methods/expression/instruction_set.hpp"
+#include "methods/runtime/instruction_set.hpp"
 
 /// What is compiled once per instruction set, with the flags of the tape's kernel, DMOCBENCH_KERNELS naming the
 /// namespace: formulas written by hand and loops that show what the machine can do. As in tape_kernel.cpp only headers

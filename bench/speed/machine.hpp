@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/speed/measurements.hpp"
-#include "methods/expression/instruction_set.hpp"
+#include "methods/runtime/instruction_set.hpp"
 
 namespace dmocbench::speed {
 

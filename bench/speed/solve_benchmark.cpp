@@ -8,7 +8,7 @@
 #include "bench/speed/solve_reporter.hpp"
 #include "bench/speed/two_link_manipulator_bounded.hpp"
 #include "methods/error.hpp"
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

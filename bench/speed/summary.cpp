@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/speed/benchmarks.hpp"
-#include "methods/expression/instruction_set.hpp"
+#include "methods/runtime/instruction_set.hpp"
 
 namespace dmocbench::speed {
 

@@ -9,7 +9,7 @@
 namespace dmocbench::interior_point::counting {
 
 namespace uncounted {
-#include "methods/solvers/interior_point/intervals/lanes.hpp"
+#include "methods/runtime/lanes.inc"
 }  // namespace uncounted
 
 struct Counts {

@@ -1,8 +1,8 @@
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 
 #include "methods/expression/derivatives.hpp"
-#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/dmoc_element.hpp"
 
 namespace dmocbench {

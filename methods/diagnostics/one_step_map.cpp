@@ -1,7 +1,7 @@
 #include "methods/diagnostics/one_step_map.hpp"
 
 #include "methods/expression/derivatives.hpp"
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/adaptive_integration.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
 #include "methods/transcription/interpolation.hpp"
 
 namespace dmocbench {

@@ -11,7 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

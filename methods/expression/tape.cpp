@@ -1,6 +1,7 @@
 #include "methods/expression/tape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <string>
 
@@ -14,14 +15,11 @@ namespace dmocbench {
 
 namespace {
 
-TapeKernel kernel_of(InstructionSet set) {
 #ifdef DMOCBENCH_X86_KERNELS
-  if (set == InstructionSet::avx512) return run_tape_avx512;
-  if (set == InstructionSet::avx2) return run_tape_avx2;
+constexpr std::array kernels{run_tape_baseline, run_tape_avx2, run_tape_avx512};
+#else
+constexpr std::array kernels{run_tape_baseline};
 #endif
-  static_cast<void>(set);
-  return run_tape_baseline;
-}
 
 std::uint64_t next_serial() {
   static std::atomic<std::uint64_t> last{0};
@@ -36,7 +34,7 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
       operation_count_(schedule.operation_count()),
       serial_(next_serial()),
       set_(set) {
-  const auto& available = available_instruction_sets();
+  const auto available = available_instruction_sets();
   if (std::find(available.begin(), available.end(), set) == available.end()) {
     throw Error("this processor lacks the instruction set " + std::string(name_of(set)));
   }
@@ -100,7 +98,7 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     std::fill_n(spread, block_width, *inputs[input.index].data);
     workspace.columns_[input.column] = spread;
   }
-  const TapeKernel kernel = kernel_of(set_);
+  const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
     kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(), std::min(block_width, end - first));

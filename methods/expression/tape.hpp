@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "methods/expression/instruction_set.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/tape_kernel.hpp"
+#include "methods/runtime/instruction_set.hpp"
 
 namespace dmocbench {
 

@@ -8,22 +8,12 @@
 #include <Eigen/SparseLU>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
+#include "methods/numerics/lagrange_basis.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// The Lagrange polynomials of the nodes c at τ.
-Eigen::VectorXd basis_at(const Eigen::VectorXd& c, double tau) {
-  Eigen::VectorXd values = Eigen::VectorXd::Ones(c.size());
-  for (Eigen::Index j = 0; j < c.size(); ++j) {
-    for (Eigen::Index i = 0; i < c.size(); ++i) {
-      if (i != j) values[j] *= (tau - c[i]) / (c[j] - c[i]);
-    }
-  }
-  return values;
-}
 
 /// Newton's method for one grid.
 class NewtonOnGrid {
@@ -160,11 +150,11 @@ ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tablea
   const double step = extremal.horizon / static_cast<double>(intervals);
   // s Gauss points integrate the Lagrange polynomials, of degree s - 1, exactly.
   Eigen::VectorXd integrals = Eigen::VectorXd::Zero(s);
-  for (Eigen::Index i = 0; i < s; ++i) integrals += tau * tableau.b[i] * basis_at(tableau.c, tau * tableau.c[i]);
+  for (Eigen::Index i = 0; i < s; ++i) integrals += tau * tableau.b[i] * lagrange_basis(tableau.c, tau * tableau.c[i]);
   ExtremalPoint point;
   point.y = extremal.nodes.col(k) + step * (extremal.slopes.middleCols(k * s, s) * integrals);
   if (tau == 1.0) point.y = extremal.nodes.col(k + 1);
-  point.z = extremal.algebraic.middleCols(k * s, s) * basis_at(tableau.c, tau);
+  point.z = extremal.algebraic.middleCols(k * s, s) * lagrange_basis(tableau.c, tau);
   return point;
 }
 

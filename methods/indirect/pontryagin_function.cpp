@@ -5,8 +5,8 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/traced_problem.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

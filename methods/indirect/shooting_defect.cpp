@@ -5,7 +5,7 @@
 
 #include "methods/error.hpp"
 #include "methods/indirect/pontryagin_function.hpp"
-#include "methods/mechanics/adaptive_integration.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
 
 namespace dmocbench {
 

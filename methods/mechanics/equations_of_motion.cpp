@@ -1,7 +1,7 @@
 #include "methods/mechanics/equations_of_motion.hpp"
 
 #include "methods/error.hpp"
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

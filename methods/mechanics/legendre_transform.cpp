@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "methods/error.hpp"
-#include "methods/program/large_pages.hpp"
+#include "methods/runtime/resize_unwritten.hpp"
 
 namespace dmocbench {
 

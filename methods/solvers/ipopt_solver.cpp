@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/stop_rule.hpp"
 

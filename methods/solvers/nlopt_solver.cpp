@@ -16,7 +16,7 @@
 #include <nlopt.h>
 
 #include "methods/error.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/one_sided_rows.hpp"

@@ -1,7 +1,7 @@
 #include "methods/transcription/assembled_tape.hpp"
 
 #include "methods/error.hpp"
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 
 namespace dmocbench {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/program/parallel.hpp"
-#include "methods/program/vector_loops.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/runtime/vector_loops.hpp"
 
 namespace dmocbench {
 

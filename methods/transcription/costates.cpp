@@ -1,7 +1,7 @@
 #include "methods/transcription/costates.hpp"
 
-#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/numerics/dense_solve.hpp"
 #include "methods/transcription/columns.hpp"
 
 namespace dmocbench {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/dense_solve.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 

@@ -8,6 +8,8 @@
 
 #include <boost/math/interpolators/cubic_hermite.hpp>
 
+#include "methods/numerics/lagrange_basis.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -21,23 +23,12 @@ Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
   return std::clamp<Eigen::Index>(above - times.begin() - 1, 0, times.size() - 2);
 }
 
-/// The Lagrange polynomials of the nodes c at τ.
-Eigen::VectorXd lagrange(const Eigen::VectorXd& c, double tau) {
-  Eigen::VectorXd values = Eigen::VectorXd::Ones(c.size());
-  for (Eigen::Index j = 0; j < c.size(); ++j) {
-    for (Eigen::Index i = 0; i < c.size(); ++i) {
-      if (i != j) values[j] *= (tau - c[i]) / (c[j] - c[i]);
-    }
-  }
-  return values;
-}
-
 /// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
 Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
   const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
   Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
   for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
-    integral += tau * quadrature.b[i] * lagrange(c, tau * quadrature.c[i]);
+    integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
   }
   return integral;
 }
@@ -48,7 +39,7 @@ Eigen::VectorXd stage_polynomial(const Trajectory& trajectory, const Eigen::Matr
   const Eigen::Index s = trajectory.stages();
   const double left = trajectory.node_times[interval];
   const double tau = (t - left) / (trajectory.node_times[interval + 1] - left);
-  return stages.middleRows(interval * s, s).transpose() * lagrange(trajectory.tableau.c, tau);
+  return stages.middleRows(interval * s, s).transpose() * lagrange_basis(trajectory.tableau.c, tau);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/instruction_set.hpp"
+#include "methods/runtime/instruction_set.hpp"
 #include "tests/expression/columns.hpp"
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 
 namespace dmocbench::tests {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 #include "methods/transcription/assembled_tape.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

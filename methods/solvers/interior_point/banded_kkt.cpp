@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <lapacke.h>
 
-#include "methods/program/long_vectors.hpp"
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::interior_point {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "methods/program/long_vectors.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
 #include "methods/solvers/least_violation.hpp"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/solution.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"

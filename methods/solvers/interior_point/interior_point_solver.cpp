@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "methods/program/long_vectors.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

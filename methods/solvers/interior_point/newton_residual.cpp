@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "methods/program/long_vectors.hpp"
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/interior_point/bound_list.hpp"
 
 namespace dmocbench::interior_point {

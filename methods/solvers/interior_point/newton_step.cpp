@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/program/long_vectors.hpp"
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

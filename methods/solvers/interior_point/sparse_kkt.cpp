@@ -1,6 +1,6 @@
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
-#include "methods/program/long_vectors.hpp"
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/interior_point/dissection_order.hpp"
 #include "methods/solvers/linearisation.hpp"
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "methods/solvers/clock.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/sqp/linearised_program.hpp"

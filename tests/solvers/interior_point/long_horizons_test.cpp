@@ -200,14 +200,13 @@ void expect_same_sweeps_by_chunks(const Problem& problem, const tests::Scheme& s
   const auto program = long_program(problem, scheme, intervals);
   const KktNumbers numbers = tests::shifted_system(*program, sample(*program, guessed_motion(problem)));
   const GroupSweeps sweeps(*program, numbers);
-  const auto choices = available_segment_kernels();
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const auto whole = sweeps.sweep(choices[i], static_cast<std::size_t>(intervals), true);
-    const auto chunks = sweeps.sweep(choices[i], static_cast<std::size_t>(intervals), false);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto whole = sweeps.sweep(segment_kernels_of(set), static_cast<std::size_t>(intervals), true);
+    const auto chunks = sweeps.sweep(segment_kernels_of(set), static_cast<std::size_t>(intervals), false);
     EXPECT_EQ(whole.recorded_steps, whole.steps_of_group);
     EXPECT_EQ(chunks.recorded_steps<chunks.steps_of_group, intervals> 128);
-    EXPECT_EQ(whole.value, chunks.value) << "instruction set " << i;
-    EXPECT_TRUE(whole.steps == chunks.steps) << "instruction set " << i;
+    EXPECT_EQ(whole.value, chunks.value) << name_of(set);
+    EXPECT_TRUE(whole.steps == chunks.steps) << name_of(set);
   }
 }
 

@@ -18,33 +18,27 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
   SCOPED_TRACE(problem.name() + ", " + scheme.label() + ", N = " + std::to_string(intervals));
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
   const tests::KktNumbers numbers = tests::shifted_system(program, sample(program, guessed_motion(problem)));
-  const auto choices = available_segment_kernels();
   Eigen::VectorXd baseline;
-  for (std::size_t i = 0; i < choices.size(); ++i) {
+  for (const InstructionSet set : available_instruction_sets()) {
     std::string why;
-    const auto kkt = IntervalKkt::make(program, why, choices[i]);
+    const auto kkt = IntervalKkt::make(program, why, segment_kernels_of(set));
     ASSERT_NE(kkt, nullptr) << why;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers), Verdict::solved);
     Eigen::VectorXd steps(primal.size() + multipliers.size());
     steps << primal, multipliers;
-    if (i == 0) {
+    if (set == InstructionSet::baseline) {
       baseline = steps;
       continue;
     }
     const Eigen::Index n = primal.size();
     EXPECT_LT((steps - baseline).head(n).lpNorm<Eigen::Infinity>(), 1e-9 * baseline.head(n).lpNorm<Eigen::Infinity>())
-        << "instruction set " << i;
+        << name_of(set);
     EXPECT_LT((steps - baseline).tail(steps.size() - n).lpNorm<Eigen::Infinity>(),
               1e-9 * baseline.tail(steps.size() - n).lpNorm<Eigen::Infinity>())
-        << "instruction set " << i;
+        << name_of(set);
   }
-}
-
-TEST(SegmentKernels, HaveOneForEveryProcessor) {
-  ASSERT_FALSE(available_segment_kernels().empty());
-  EXPECT_EQ(available_segment_kernels().front(), &segment_kernel_baseline);
 }
 
 /// Shapes known to the compiler and shapes that are not; whole blocks of eight steps, and what is left of them.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 
 namespace dmocbench::interior_point {
 

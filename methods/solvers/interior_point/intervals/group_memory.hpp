@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "methods/solvers/interior_point/intervals/lane_array.hpp"
+#include "methods/runtime/lane_array.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 
 namespace dmocbench::interior_point {

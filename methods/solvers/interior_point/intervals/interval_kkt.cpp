@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/program/long_vectors.hpp"
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/long_vectors.hpp"
+#include "methods/runtime/parallel.hpp"
 
 namespace dmocbench::interior_point {
 

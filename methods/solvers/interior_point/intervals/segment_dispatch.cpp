@@ -1,17 +1,16 @@
-#include "methods/program/processor.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 
 namespace dmocbench::interior_point {
 
-std::vector<SegmentKernelChoice> available_segment_kernels() {
-  std::vector<SegmentKernelChoice> choices{segment_kernel_baseline};
+SegmentKernelChoice segment_kernels_of(InstructionSet set) {
 #ifdef DMOCBENCH_X86_KERNELS
-  if (has_avx2()) choices.push_back(segment_kernel_avx2);
-  if (has_avx512()) choices.push_back(segment_kernel_avx512);
+  static constexpr std::array choices{segment_kernel_baseline, segment_kernel_avx2, segment_kernel_avx512};
+#else
+  static constexpr std::array choices{segment_kernel_baseline};
 #endif
-  return choices;
+  return compiled_for(set, choices);
 }
 
-SegmentKernel segment_kernel_for(const Shape& shape) { return available_segment_kernels().back()(shape); }
+SegmentKernel segment_kernel_for(const Shape& shape) { return segment_kernels_of(preferred_instruction_set())(shape); }
 
 }  // namespace dmocbench::interior_point

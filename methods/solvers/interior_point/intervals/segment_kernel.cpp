@@ -11,7 +11,7 @@
 namespace dmocbench::interior_point {
 namespace DMOCBENCH_SEGMENT_NAMESPACE {
 
-#include "methods/solvers/interior_point/intervals/lanes.hpp"
+#include "methods/runtime/lanes.inc"
 //
 #include "methods/solvers/interior_point/intervals/collect.hpp"
 //

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
+#include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/interior_point/intervals/shape.hpp"
 
 namespace dmocbench::interior_point {
@@ -95,10 +95,10 @@ struct SegmentKernel {
 /// Gives the kernel for a shape.
 using SegmentKernelChoice = SegmentKernel (*)(const Shape& shape);
 
-/// The fastest kernel for a shape on this processor.
+/// The kernel for a shape of the preferred instruction set.
 [[nodiscard]] SegmentKernel segment_kernel_for(const Shape& shape);
-/// The choices among the kernels of one instruction set, for every one that this processor has; the fastest last.
-[[nodiscard]] std::vector<SegmentKernelChoice> available_segment_kernels();
+/// The choice among the kernels of a set.
+[[nodiscard]] SegmentKernelChoice segment_kernels_of(InstructionSet set);
 
 // The same source, segment_kernel.cpp, compiled once per instruction set.
 [[nodiscard]] SegmentKernel segment_kernel_baseline(const Shape& shape);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "methods/program/long_vectors.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 

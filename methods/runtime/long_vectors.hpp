@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "methods/program/large_pages.hpp"
-#include "methods/program/parallel.hpp"
-#include "methods/program/vector_loops.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/runtime/resize_unwritten.hpp"
+#include "methods/runtime/vector_loops.hpp"
 
 namespace dmocbench {
 

@@ -1,4 +1,4 @@
-#include "methods/mechanics/dense_solve.hpp"
+#include "methods/numerics/dense_solve.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "methods/program/vector_loops.hpp"
+#include "methods/runtime/vector_loops.hpp"
 
 #include <limits>
 
@@ -16,7 +16,8 @@ constexpr double rounding = 1e-14;
 
 TEST(VectorLoops, AreThoseOfTheDefinitionsOnEveryInstructionSet) {
   tests::RandomPoints random;
-  for (const VectorLoops* loops : available_vector_loops()) {
+  for (const InstructionSet set : available_instruction_sets()) {
+    const VectorLoops* loops = &vector_loops_of(set);
     for (Eigen::Index size = 0; size <= most_numbers; ++size) {
       const Eigen::VectorXd x = random.vector(size);
       const Eigen::VectorXd y = random.vector(size);
@@ -42,7 +43,8 @@ TEST(VectorLoops, AreThoseOfTheDefinitionsOnEveryInstructionSet) {
 
 TEST(VectorLoops, FindWhatIsNotANumberWhereverItStands) {
   tests::RandomPoints random;
-  for (const VectorLoops* loops : available_vector_loops()) {
+  for (const InstructionSet set : available_instruction_sets()) {
+    const VectorLoops* loops = &vector_loops_of(set);
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       for (Eigen::Index at = 0; at < most_numbers; ++at) {
         Eigen::VectorXd x = random.vector(most_numbers - 3);

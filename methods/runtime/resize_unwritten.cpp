@@ -1,4 +1,4 @@
-#include "methods/program/large_pages.hpp"
+#include "methods/runtime/resize_unwritten.hpp"
 
 #include <cstddef>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "methods/mechanics/adaptive_integration.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
 
 #include <boost/numeric/odeint.hpp>
 

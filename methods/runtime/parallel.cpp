@@ -1,4 +1,4 @@
-#include "methods/program/parallel.hpp"
+#include "methods/runtime/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

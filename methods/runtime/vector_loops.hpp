@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+
+#include "methods/runtime/instruction_set.hpp"
 
 namespace dmocbench {
 
@@ -22,10 +23,10 @@ struct VectorLoops {
   void (*set_to_sum)(double* result, const double* x, double factor, const double* y, std::ptrdiff_t size);
 };
 
-/// Those of the widest instruction set that this processor has.
+/// Those of the instruction set that was preferred when they were first asked for.
 [[nodiscard]] const VectorLoops& vector_loops();
-/// Those of every one that it has; the widest last.
-[[nodiscard]] std::vector<const VectorLoops*> available_vector_loops();
+/// Those of a set.
+[[nodiscard]] const VectorLoops& vector_loops_of(InstructionSet set);
 
 // The same source, vector_loops.cpp, compiled once per instruction set.
 extern const VectorLoops vector_loops_baseline;

@@ -1,4 +1,4 @@
-#include "methods/program/vector_loops.hpp"
+#include "methods/runtime/vector_loops.hpp"
 
 // Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name of what it defines. Everything else is in
 // an unnamed namespace, since a linker may take either of two functions of the same name.
@@ -6,27 +6,29 @@ namespace dmocbench {
 
 namespace {
 
-constexpr std::ptrdiff_t lanes = 8;
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+#include "methods/runtime/lanes.inc"
 
-inline Lanes load(const double* from) {
-  Lanes values;
+constexpr std::ptrdiff_t lanes = 8;
+using Vector = Lanes::Vector;
+
+inline Vector load(const double* from) {
+  Vector values;
   __builtin_memcpy(&values, from, sizeof values);
   return values;
 }
-inline void store(const Lanes& values, double* to) { __builtin_memcpy(to, &values, sizeof values); }
+inline void store(const Vector& values, double* to) { __builtin_memcpy(to, &values, sizeof values); }
 
-inline Lanes magnitudes(const Lanes& values) { return values < 0.0 ? -values : values; }
+inline Vector magnitudes(const Vector& values) { return values < 0.0 ? -values : values; }
 
-inline double sum_of(const Lanes& values) {
+inline double sum_of(const Vector& values) {
   return ((values[0] + values[4]) + (values[2] + values[6])) + ((values[1] + values[5]) + (values[3] + values[7]));
 }
 
 double largest(const double* x, std::ptrdiff_t size) {
-  Lanes most{};
+  Vector most{};
   std::ptrdiff_t i = 0;
   for (; i + lanes <= size; i += lanes) {
-    const Lanes some = magnitudes(load(x + i));
+    const Vector some = magnitudes(load(x + i));
     most = most > some ? most : some;
   }
   double result = 0.0;
@@ -36,7 +38,7 @@ double largest(const double* x, std::ptrdiff_t size) {
 }
 
 double sum_of_magnitudes(const double* x, std::ptrdiff_t size) {
-  Lanes sums{};
+  Vector sums{};
   std::ptrdiff_t i = 0;
   for (; i + lanes <= size; i += lanes) sums += magnitudes(load(x + i));
   double rest = 0.0;
@@ -45,7 +47,7 @@ double sum_of_magnitudes(const double* x, std::ptrdiff_t size) {
 }
 
 double dot(const double* x, const double* y, std::ptrdiff_t size) {
-  Lanes sums{};
+  Vector sums{};
   std::ptrdiff_t i = 0;
   for (; i + lanes <= size; i += lanes) sums += load(x + i) * load(y + i);
   double rest = 0.0;
@@ -54,7 +56,7 @@ double dot(const double* x, const double* y, std::ptrdiff_t size) {
 }
 
 double sum_of_zeros(const double* x, std::ptrdiff_t size) {
-  Lanes sums{};
+  Vector sums{};
   std::ptrdiff_t i = 0;
   for (; i + lanes <= size; i += lanes) sums += load(x + i) * 0.0;
   double rest = 0.0;

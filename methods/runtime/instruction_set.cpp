@@ -1,0 +1,52 @@
+#include "methods/runtime/instruction_set.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr std::array every_set{InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512};
+
+/// How many of `every_set` this processor can run: what the flags of `dmocbench_kernel` allow the compiler to use.
+std::size_t count_of_sets() {
+#ifdef DMOCBENCH_X86_KERNELS
+  const auto has = [](int supported) { return supported != 0; };
+  if (!has(__builtin_cpu_supports("avx2")) || !has(__builtin_cpu_supports("fma"))) return 1;
+  const bool has_avx512 = has(__builtin_cpu_supports("avx512f")) && has(__builtin_cpu_supports("avx512dq")) &&
+                          has(__builtin_cpu_supports("avx512cd")) && has(__builtin_cpu_supports("avx512bw"));
+  return has_avx512 ? 3 : 2;
+#else
+  return 1;
+#endif
+}
+
+}  // namespace
+
+std::string_view name_of(InstructionSet set) noexcept {
+  constexpr std::array<std::string_view, every_set.size()> names{"baseline", "avx2", "avx512"};
+  return names.at(static_cast<std::size_t>(set));
+}
+
+std::span<const InstructionSet> available_instruction_sets() {
+  static const std::size_t count = count_of_sets();
+  return std::span(every_set).first(count);
+}
+
+InstructionSet preferred_instruction_set() {
+  const auto available = available_instruction_sets();
+  const char* wanted = std::getenv("DMOCBENCH_INSTRUCTION_SET");  // NOLINT(concurrency-mt-unsafe): only read
+  if (wanted == nullptr) return available.back();
+  std::string names;
+  for (const InstructionSet set : available) {
+    if (name_of(set) == wanted) return set;
+    names += names.empty() ? "" : ", ";
+    names += name_of(set);
+  }
+  throw Error("DMOCBENCH_INSTRUCTION_SET=" + std::string(wanted) + " is not available here; choose one of " + names);
+}
+
+}  // namespace dmocbench
