@@ -42,10 +42,11 @@ void print(const std::vector<Claim>& claims) {
     fmt::print("{:12}paper:    {}\n", "", claim.paper);
     fmt::print("{:12}measured: {}\n", "", claim.measured);
   }
-  for (const Verdict verdict : {Verdict::reproduced, Verdict::differs, Verdict::floor, Verdict::not_yet}) {
+  for (const ClaimVerdict verdict :
+       {ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::floor, ClaimVerdict::not_yet}) {
     const auto count =
         std::count_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.verdict == verdict; });
-    fmt::print("{}{} {}", verdict == Verdict::reproduced ? "" : ", ", count, name_of(verdict));
+    fmt::print("{}{} {}", verdict == ClaimVerdict::reproduced ? "" : ", ", count, name_of(verdict));
   }
   fmt::print("\n");
 }

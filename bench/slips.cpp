@@ -8,7 +8,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -55,7 +55,7 @@ Slip potential_without_sine() {
 Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
   constexpr long long intervals = 128;
   const Case what{problem, "dmoc", "gauss", 1, "ipopt", "tape", Grid::uniform(intervals), ""};
-  StartSource starts("common", {});
+  StartProvider starts("common", {});
   SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
   if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");
   return std::move(*solved.trajectory);

@@ -8,7 +8,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
@@ -104,7 +104,7 @@ Table transfer_table(Table& slopes) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "h", "energy_change", "work", "gap",
                "largest_gap", "largest_work"});
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
-  StartSource starts("common", {});
+  StartProvider starts("common", {});
   for (const std::string& method : element_names()) {
     Row curve;
     std::vector<GridError> points;

@@ -67,7 +67,7 @@ Claim expense_claim(const ResultTables& tables, const std::string& problem) {
                   "twice as many state variables and (Ns + 1)n more constraints make collocation of Hamilton's "
                   "equations numerically more expensive",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const double intervals = finest_grid(tables.rows("structure_advantage_ratios", problem));
   const Rows systems = ratios_on(tables, problem, intervals, "seconds_per_linear_system");
   const Rows ipopt = rows_with(ratios_on(tables, problem, intervals, "seconds_per_iteration"), "solver", "ipopt");
@@ -83,7 +83,7 @@ Claim factorisation_claim(const ResultTables& tables, const std::string& problem
               .where = "rem:savings",
               .paper = "more expensive by its size, as a property of the formulation and not of the solver",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const double intervals = finest_grid(tables.rows("structure_advantage_ratios", problem));
   const Rows eliminations = ratios_on(tables, problem, intervals, "elimination_operations");
   if (!has(eliminations, by_intervals) || !has(eliminations, recombined)) return claim;

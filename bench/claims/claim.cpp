@@ -7,15 +7,15 @@
 
 namespace dmocbench {
 
-std::string_view name_of(Verdict verdict) noexcept {
+std::string_view name_of(ClaimVerdict verdict) noexcept {
   switch (verdict) {
-    case Verdict::reproduced:
+    case ClaimVerdict::reproduced:
       return "reproduced";
-    case Verdict::differs:
+    case ClaimVerdict::differs:
       return "differs";
-    case Verdict::floor:
+    case ClaimVerdict::floor:
       return "floor";
-    case Verdict::not_yet:
+    case ClaimVerdict::not_yet:
       return "not yet";
   }
   return "unknown";

@@ -11,7 +11,7 @@
 namespace dmocbench {
 
 /// What the measurement says of a statement of the paper.
-enum class Verdict : std::uint8_t {
+enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
   floor,       ///< all that was measured is rounding: nothing can be said
@@ -19,7 +19,7 @@ enum class Verdict : std::uint8_t {
 };
 
 /// "reproduced", "differs", "floor" or "not yet".
-[[nodiscard]] std::string_view name_of(Verdict verdict) noexcept;
+[[nodiscard]] std::string_view name_of(ClaimVerdict verdict) noexcept;
 
 /// The tables of a results folder by their names without ".csv".
 class ResultTables {
@@ -44,7 +44,7 @@ struct Claim {
   std::string where;     ///< label or section in the paper
   std::string paper;     ///< what the paper states
   std::string measured;  ///< what was found, in words and numbers
-  Verdict verdict = Verdict::not_yet;
+  ClaimVerdict verdict = ClaimVerdict::not_yet;
 };
 
 }  // namespace dmocbench

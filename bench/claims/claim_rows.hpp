@@ -19,7 +19,9 @@ inline constexpr double near_order = 0.3;
 
 using Rows = std::vector<const Row*>;
 
-[[nodiscard]] inline Verdict verdict_of(bool holds) { return holds ? Verdict::reproduced : Verdict::differs; }
+[[nodiscard]] inline ClaimVerdict verdict_of(bool holds) {
+  return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
+}
 
 /// Midpoint rows of one method.
 [[nodiscard]] Rows midpoint_rows(const Rows& rows, const std::string& method);

@@ -28,7 +28,7 @@ Claim slope_claim(const ResultTables& tables, const std::string& problem, const 
               .where = problem == orbit ? "fig:kepler_error" : "fig:twolink_error",
               .paper = against_paper ? "O(h^2) for all three methods, against N = 512" : "O(h^2) for all three methods",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   std::vector<std::string> found;
   bool holds = true;
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
@@ -56,7 +56,7 @@ Claim step_claim(const ResultTables& tables, const std::string& problem) {
               .where = is_orbit ? "section 4.2.1" : "section 4.2.2",
               .paper = is_orbit ? "h = 2.9e-3 at N = 1024" : "h = 1.9e-3 at N = 512",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Row* row = on_grid(midpoint_rows(tables.rows("convergence", problem), "dmoc"), intervals);
   if (row == nullptr) return claim;
   const double step = row->number("step").value_or(0.0);

@@ -31,7 +31,7 @@ Claim variable_claim(const ResultTables& tables, const std::string& problem) {
       .where = problem == orbit ? "section 4.2.1, rem:savings" : "section 4.2.2, rem:savings",
       .paper = problem == orbit ? "DMOC uses 3/5 of the variables of collocation" : "DMOC uses 2/3 of the variables",
       .measured = "",
-      .verdict = Verdict::not_yet};
+      .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("convergence", problem);
   const Rows dmoc = midpoint_rows(rows, "dmoc");
   if (dmoc.empty()) return claim;
@@ -56,7 +56,7 @@ Claim objective_claim(const ResultTables& tables, const std::string& problem) {
               .where = problem == orbit ? "(not shown in the paper)" : "fig:twolink_obj a)",
               .paper = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("objective", problem);
   const Rows dmoc = midpoint_rows(rows, "dmoc");
   if (dmoc.size() < 2) return claim;
@@ -69,7 +69,7 @@ Claim objective_claim(const ResultTables& tables, const std::string& problem) {
     const Row* tangent = on_grid(midpoint_rows(rows, "tangent"), intervals);
     if (hamiltonian == nullptr || tangent == nullptr || !is_usable(*row)) {
       claim.measured = fmt::format("not all methods are solved on the same branch at N = {}", intervals);
-      claim.verdict = Verdict::differs;
+      claim.verdict = ClaimVerdict::differs;
       return claim;
     }
     const double of_dmoc = row->number("objective").value_or(0.0);

@@ -65,7 +65,7 @@ Claim derivatives_claim(const ResultTables& tables, const std::string& problem) 
               .where = "section 4.1",
               .paper = "faster and more robust than finite differences",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = rows_with(tables.rows("derivatives", problem), "solver", "ipopt");
   const Record tape = record_of(rows, "tape", "exact");
   const Record adolc = record_of(rows, "adolc", "exact");
@@ -93,7 +93,7 @@ Claim adolc_claim(const ResultTables& tables, const std::string& problem) {
               .where = "section 4.1",
               .paper = "faster, by the package ADOL-C",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = rows_with(tables.rows("derivatives", problem), "solver", "ipopt");
   const auto adolc = record_of(rows, "adolc", "exact").median_slowdown();
   const auto central = record_of(rows, "finite_differences", "exact").median_slowdown();

@@ -83,7 +83,7 @@ Claim minor_iterations_claim(const ResultTables& tables, const std::string& prob
               .where = stated.where,
               .paper = fmt::format("DMOC needs {}", stated.words),
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Ratios ratios = ratios_of(tables, problem, "none", "minor_iterations", stated.coarsest);
   if (ratios.grids == 0) return claim;
   claim.measured = fmt::format("from the slack basis, collocation to DMOC {}", described(ratios, stated.coarsest));
@@ -97,7 +97,7 @@ Claim agreement_claim(const ResultTables& tables, const std::string& problem) {
               .paper = problem == orbit ? "in exact agreement with the reduced number of variables"
                                         : "this factor reflects that DMOC uses 2/3 of the variables",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   int rows = 0;
   int exact = 0;
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
@@ -126,7 +126,7 @@ Claim crash_claim(const ResultTables& tables, const std::string& problem) {
               .where = stated.where,
               .paper = fmt::format("{}, as a property of DMOC and not of how the solver starts", stated.words),
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Ratios ratios = ratios_of(tables, problem, "basis", "minor_iterations", stated.coarsest);
   if (ratios.grids == 0) return claim;
   claim.measured =

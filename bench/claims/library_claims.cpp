@@ -30,7 +30,7 @@ Claim library_claim(const ResultTables& tables, const std::string& measure) {
               .where = "rem:savings",
               .paper = "DMOC needs less than collocation",
               .measured = "no table profile_summary.csv (bench/reproduce --all)",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("profile_summary");
   if (rows.empty()) return claim;
   std::vector<std::string> wins;

@@ -19,7 +19,7 @@ Claim local_minima_claim(const ResultTables& tables, const std::string& problem)
               .where = "section 4.1, Global Minima",
               .paper = "local minima depend on the initial guess",
               .measured = "no table local_minima_minima.csv",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("local_minima_minima", problem);
   if (rows.empty()) return claim;
   std::vector<std::string> shared;
@@ -42,7 +42,7 @@ Claim best_minimum_claim(const ResultTables& tables, const std::string& problem)
               .where = "section 4.1, Global Minima",
               .paper = "(not stated) one method finds the best minimum more often than another",
               .measured = "no table local_minima_shares.csv",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("local_minima_shares", problem);
   if (rows.empty()) return claim;
   std::vector<std::string> shares;

@@ -74,9 +74,9 @@ class Orders {
   int slopes_ = 0;
 };
 
-Verdict verdict_of(const Orders& orders, bool holds) {
-  if (!holds) return Verdict::differs;
-  return orders.has_slopes() ? Verdict::reproduced : Verdict::floor;
+ClaimVerdict verdict_of(const Orders& orders, bool holds) {
+  if (!holds) return ClaimVerdict::differs;
+  return orders.has_slopes() ? ClaimVerdict::reproduced : ClaimVerdict::floor;
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ Claim convergence_order_claim(const ResultTables& tables, const std::string& pro
               .where = "main_theorem",
               .paper = "order kappa for state, costate and u(x, psi) at the nodes",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Orders orders(tables, problem, {"state", "momentum", "costate", "control_from_costate"});
   if (orders.empty()) return claim;
   claim.measured = "slopes of DMOC against the indirect solution: " + orders.text();
@@ -99,7 +99,7 @@ Claim adjoint_order_claim(const ResultTables& tables, const std::string& problem
               .where = "th:orderapp, eq:stateco5-eq:stateco9",
               .paper = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Orders orders(tables, problem, {"costate"});
   Rows rows;
   for (const Row* row : tables.rows("equivalence", problem)) {
@@ -124,7 +124,7 @@ Claim stage_control_claim(const ResultTables& tables, const std::string& problem
               .where = "remark behind main_theorem",
               .paper = "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   std::vector<std::string> found;
   bool holds = true;
   for (const Row* row : rows_with(tables.rows("convergence_indirect_slopes", problem), "quantity", "control")) {

@@ -37,7 +37,7 @@ Claim consistency_claim(const ResultTables& tables, const std::string& problem) 
           "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, not "
           "for tangent-space collocation",
       .measured = "",
-      .verdict = Verdict::not_yet};
+      .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("consistency", problem);
   const Rows dmoc = midpoint_rows(rows, "dmoc");
   const Rows hamiltonian = midpoint_rows(rows, "hamiltonian");
@@ -72,7 +72,7 @@ Claim equality_claim(const ResultTables& tables, const std::string& problem) {
               .where = "th:equi, equ_L_RK, ex:RK",
               .paper = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = rows_with(tables.rows("equivalence", problem), "method", "hamiltonian");
   if (rows.empty()) return claim;
   bool rows_agree = true;
@@ -111,7 +111,7 @@ Claim difference_claim(const ResultTables& tables, const std::string& problem) {
       .where = "section 4.2",
       .paper = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
       .measured = "",
-      .verdict = Verdict::not_yet};
+      .verdict = ClaimVerdict::not_yet};
   const Rows rows = midpoint_rows(tables.rows("equivalence", problem), "tangent");
   if (rows.size() < 2) return claim;
   const double coarse = largest({rows.front()}, "configuration_difference");
@@ -125,7 +125,7 @@ Claim difference_claim(const ResultTables& tables, const std::string& problem) {
     claim.measured += fmt::format("{} s = {}: {:.2f}", has_order ? "," : "; slopes", row->text("stages"), slope);
     has_order = true;
     if (!(std::abs(slope - 2.0 * row->number("stages").value_or(0.0)) < near_order)) {
-      claim.verdict = Verdict::differs;
+      claim.verdict = ClaimVerdict::differs;
       return claim;
     }
   }
@@ -140,7 +140,7 @@ Claim coincidence_claim(const ResultTables& tables) {
               .where = "section 4.2, ex:RK",
               .paper = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows =
       rows_with(rows_with(tables.rows("equivalence", oscillator), "method", "tangent"), "tableau", "gauss");
   if (rows.empty()) return claim;

@@ -32,7 +32,7 @@ Claim consistency_order_claim(const ResultTables& tables, const std::string& pro
               .where = what.where,
               .paper = what.paper,
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   std::vector<std::string> found;
   bool holds = true;
   for (const std::string& quantity : what.quantities) {
@@ -57,7 +57,7 @@ Claim noether_claim(const ResultTables& tables, const char* force) {
               .paper = orthogonal ? "a force orthogonal to the group action preserves the momentum"
                                   : "the momentum changes by the work of the discrete forces along the group action",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = rows_with(rows_with(tables.rows("structure_momentum"), "force", force), "method", "dmoc");
   if (rows.empty()) return claim;
   const double defect = largest(rows, "defect");
@@ -74,7 +74,7 @@ Claim symplecticity_claim(const ResultTables& tables) {
               .where = "section 2.2, equ_L_RK",
               .paper = "the unforced discrete flow is symplectic",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = tables.rows("structure_symplecticity");
   if (rows.empty()) return claim;
   constexpr double within_rounding = 100.0;
@@ -97,7 +97,7 @@ Claim modified_energy_claim(const ResultTables& tables) {
               .where = "section 2.2",
               .paper = "energy oscillates but does not drift",
               .measured = "",
-              .verdict = Verdict::not_yet};
+              .verdict = ClaimVerdict::not_yet};
   const Rows rows = rows_with(tables.rows("structure_energy_behaviour"), "periods", "10000");
   if (rows.empty()) return claim;
   constexpr double bounded = 1.05;

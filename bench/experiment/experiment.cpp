@@ -10,10 +10,10 @@
 
 #include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"
-#include "bench/experiment/problem_workers.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/progress.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -194,7 +194,7 @@ class Run {
   const ExperimentOptions& options_;
   SolverOptions solver_options_;
   std::vector<Case> cases_;
-  StartSource starts_;
+  StartProvider starts_;
   std::vector<std::optional<Row>> rows_;
   std::filesystem::path prefix_;
   nlohmann::ordered_json metadata_;

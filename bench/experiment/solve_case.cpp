@@ -6,9 +6,9 @@
 #include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
+#include "methods/transcription/describe_violation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
-#include "methods/transcription/violation_in_words.hpp"
 
 namespace dmocbench {
 
@@ -129,7 +129,7 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
     }
   }
 
-  const std::string missed = violation_in_words(*what.problem, transcription, solution, options.tolerance);
+  const std::string missed = describe_violation(*what.problem, transcription, solution, options.tolerance);
   if (!missed.empty()) solution.message += " " + missed;
   describe(result);
   Row& row = result.row;

@@ -11,7 +11,7 @@
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/progress.hpp"
 #include "bench/experiment/solve_case.hpp"
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 
 namespace dmocbench {
 
@@ -55,7 +55,7 @@ class AdvantageRun {
   const ExperimentOptions& options_;
   SolverOptions solver_options_;
   std::vector<Subject> subjects_;
-  StartSource starts_;
+  StartProvider starts_;
   IndirectReference reference_;
   std::filesystem::path prefix_;
   nlohmann::ordered_json metadata_;

@@ -17,9 +17,9 @@ class System {
       : hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())),
         jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
         diagonal_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.variable_count()))),
-        softness_((program.constraint_lower().array() != program.constraint_upper().array()).cast<double>()),
+        compliance_((program.constraint_lower().array() != program.constraint_upper().array()).cast<double>()),
         slope_(Eigen::VectorXd::Ones(diagonal_.size())),
-        rows_(Eigen::VectorXd::Ones(softness_.size())) {
+        rows_(Eigen::VectorXd::Ones(compliance_.size())) {
     program.hessian(solution.primal, 1.0, solution.multipliers, hessian_);
     program.jacobian(solution.primal, jacobian_);
   }
@@ -31,8 +31,8 @@ class System {
     for (const double shift : {0.0, 1.0}) {
       diagonal_.setConstant(shift);
       const auto verdict =
-          kkt.solve({hessian_, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step, multiplier_step);
-      if (verdict == interior_point::Verdict::solved) return true;
+          kkt.solve({hessian_, jacobian_, diagonal_, compliance_}, slope_, rows_, primal_step, multiplier_step);
+      if (verdict == interior_point::FactorisationStatus::solved) return true;
     }
     return false;
   }
@@ -41,7 +41,7 @@ class System {
   Eigen::VectorXd hessian_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd diagonal_;
-  Eigen::VectorXd softness_;
+  Eigen::VectorXd compliance_;
   Eigen::VectorXd slope_;
   Eigen::VectorXd rows_;
 };

@@ -11,7 +11,7 @@ namespace dmocbench {
 struct DiscreteLagrangian::Formulas {
   Eigen::Index n;
   Eigen::Index stages;
-  ExpressionVector private_rows;
+  ExpressionVector stage_equations;
   std::vector<Expression> outputs;
 
   Formulas(const Problem& problem, const Tableau& tableau) : n(problem.configuration_size()), stages(tableau.stages()) {
@@ -31,7 +31,7 @@ struct DiscreteLagrangian::Formulas {
     unknowns.h = take(1)[0];
     unknowns.t = take(1)[0];
     const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);
-    private_rows = trace.private_rows;
+    stage_equations = trace.stage_equations;
 
     const ExpressionVector slopes = input_vector(static_cast<std::size_t>(2 * n), n * (stages - 1));
     const auto virtual_work = [&](const ExpressionVector& x) {
@@ -54,9 +54,9 @@ struct DiscreteLagrangian::Formulas {
     append(outputs, virtual_work(unknowns.left_q));
     append(outputs, virtual_work(unknowns.right_q));
     append(outputs, virtual_work(slopes));
-    append(outputs, jacobian(private_rows, slopes));
-    append(outputs, jacobian(private_rows, unknowns.left_q));
-    append(outputs, jacobian(private_rows, unknowns.right_q));
+    append(outputs, jacobian(stage_equations, slopes));
+    append(outputs, jacobian(stage_equations, unknowns.left_q));
+    append(outputs, jacobian(stage_equations, unknowns.right_q));
   }
 };
 
@@ -66,7 +66,7 @@ DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& ta
 DiscreteLagrangian::DiscreteLagrangian(const Formulas& formulas)
     : n_(formulas.n),
       stages_(formulas.stages),
-      interior_slopes_(formulas.private_rows, static_cast<std::size_t>(2 * n_), formulas.private_rows.size()),
+      interior_slopes_(formulas.stage_equations, static_cast<std::size_t>(2 * n_), formulas.stage_equations.size()),
       objects_(formulas.outputs) {}
 
 DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& q_1, const LongMatrix& controls,

@@ -40,8 +40,8 @@ struct OneStepMap<Scalar>::Formulas {
     const ExpressionVector p_0 = take(n);
 
     const IntervalTrace trace = element.trace(problem, tableau, local);
-    residual.resize(n + trace.private_rows.size());
-    residual << trace.left_momentum - p_0, trace.private_rows;
+    residual.resize(n + trace.stage_equations.size());
+    residual << trace.left_momentum - p_0, trace.stage_equations;
     append(reading, trace.right_momentum);
     ExpressionVector impulse(n);
     for (std::size_t i = 0; i < trace.stages.size(); ++i) {

@@ -13,21 +13,21 @@ namespace dmocbench {
 
 namespace {
 
-using MadeBackEnd = std::unique_ptr<DerivativeBackEnd>;
+using BackEndPtr = std::unique_ptr<DerivativeBackEnd>;
 
 struct Entry {
   std::string_view name;
   std::string_view description;
-  MadeBackEnd (*make)(const LocalFunctions&, const DerivativePlaces&);
+  BackEndPtr (*make)(const LocalFunctions&, const DerivativePlaces&);
 };
 
 template <class Type>
-MadeBackEnd make(const LocalFunctions& functions, const DerivativePlaces& places) {
+BackEndPtr make(const LocalFunctions& functions, const DerivativePlaces& places) {
   return std::make_unique<Type>(functions, places);
 }
 
 template <DifferenceKind kind>
-MadeBackEnd make_differences(const LocalFunctions& functions, const DerivativePlaces& places) {
+BackEndPtr make_differences(const LocalFunctions& functions, const DerivativePlaces& places) {
   return std::make_unique<FiniteDifferences>(functions, places, kind);
 }
 
@@ -71,8 +71,8 @@ std::string derivative_back_end_description(std::string_view name) {
   return std::string(entry_named(name).description);
 }
 
-MadeBackEnd make_derivative_back_end(std::string_view name, const LocalFunctions& functions,
-                                     const DerivativePlaces& places) {
+BackEndPtr make_derivative_back_end(std::string_view name, const LocalFunctions& functions,
+                                    const DerivativePlaces& places) {
   return entry_named(name).make(functions, places);
 }
 

@@ -45,10 +45,10 @@ IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& ta
   trace.left_rows = vary(unknowns.left_q);
   trace.right_rows = vary(unknowns.right_q);
   const Eigen::Index n = problem.configuration_size();
-  trace.private_rows.resize(n * static_cast<Eigen::Index>(unknowns.slopes_q.size()));
+  trace.stage_equations.resize(n * static_cast<Eigen::Index>(unknowns.slopes_q.size()));
   for (std::size_t j = 0; j < unknowns.slopes_q.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
-    trace.private_rows.segment(row * n, n) = vary(unknowns.slopes_q[j]) / (h * Expression(tableau.b[row]));
+    trace.stage_equations.segment(row * n, n) = vary(unknowns.slopes_q[j]) / (h * Expression(tableau.b[row]));
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);
   trace.left_momentum = -trace.left_rows;

@@ -37,7 +37,7 @@ struct IntervalUnknowns {
 struct IntervalTrace {
   ExpressionVector left_rows;           ///< added to the rows of node k; n entries or none
   ExpressionVector right_rows;          ///< added to the rows of node k + 1
-  ExpressionVector private_rows;        ///< rows of this interval alone, each equal to 0
+  ExpressionVector stage_equations;     ///< rows of this interval alone, each equal to 0
   Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
   std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
   ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries

@@ -17,15 +17,15 @@ IntervalTrace HamiltonianElement::trace(const TracedProblem& problem, const Tabl
   IntervalTrace trace;
   const Eigen::Index n = problem.configuration_size();
   const auto stages = static_cast<Eigen::Index>(slopes_q.size());
-  trace.private_rows.resize(2 * n * stages);
+  trace.stage_equations.resize(2 * n * stages);
   std::vector<TracedProblem::Values> values;
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
     trace.stages.push_back({configurations[i], slopes_q[i], unknowns.controls[i], time});
     values.push_back(problem.at(trace.stages.back()));
-    trace.private_rows.segment(2 * row * n, n) = momenta[i] - values[i].momentum;
-    trace.private_rows.segment((2 * row + 1) * n, n) = slopes_p[i] - values[i].generalised_force;
+    trace.stage_equations.segment(2 * row * n, n) = momenta[i] - values[i].momentum;
+    trace.stage_equations.segment((2 * row + 1) * n, n) = slopes_p[i] - values[i].generalised_force;
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);
   trace.left_momentum = unknowns.left_y;

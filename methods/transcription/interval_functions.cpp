@@ -81,13 +81,13 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
   const Expression running = Expression(rules.cost_scale) * trace.cost;
   const ExpressionVector rows =
-      stacked({trace.left_rows, trace.right_rows, trace.private_rows, path, mayer_rows(unknowns, running)});
+      stacked({trace.left_rows, trace.right_rows, trace.stage_equations, path, mayer_rows(unknowns, running)});
   const Expression cost = rules.mayer ? Expression(0.0) : running;
 
   IntervalFunctions functions;
   static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns);
   functions.node_rows = trace.left_rows.size();
-  functions.private_rows = trace.private_rows.size();
+  functions.stage_equations = trace.stage_equations.size();
   functions.path_rows = path.size();
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;

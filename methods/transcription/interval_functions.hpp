@@ -25,7 +25,7 @@ struct IntervalRules {
 /// velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost.
 struct IntervalFunctions : LocalFunctions {
   Eigen::Index node_rows = 0;
-  Eigen::Index private_rows = 0;  ///< the element's own
+  Eigen::Index stage_equations = 0;  ///< the element's own
   Eigen::Index path_rows = 0;
   bool mayer = false;
   bool free_horizon = false;

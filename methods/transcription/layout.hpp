@@ -20,17 +20,17 @@ struct LayoutShape {
   NodeState node_state = NodeState::configuration;
   Eigen::Index stages = 1;
   bool shares_controls = false;
-  Eigen::Index node_rows = 0;       ///< per node
-  Eigen::Index private_rows = 0;    ///< per interval: the element's own
-  Eigen::Index path_rows = 0;       ///< per interval
-  bool mayer = false;               ///< nodes carry the cost so far, z_k, and intervals have a row for it
-  bool first_has_velocity = false;  ///< v_0, or v_N, is an unknown beside the nodes'
+  Eigen::Index node_rows = 0;        ///< per node
+  Eigen::Index stage_equations = 0;  ///< per interval: the element's own
+  Eigen::Index path_rows = 0;        ///< per interval
+  bool mayer = false;                ///< nodes carry the cost so far, z_k, and intervals have a row for it
+  bool first_has_velocity = false;   ///< v_0, or v_N, is an unknown beside the nodes'
   bool last_has_velocity = false;
   bool free_horizon = false;    ///< T is an unknown
   Eigen::Index conditions = 0;  ///< boundary conditions
 
   /// Rows per interval: the element's own, path rows, that of the Mayer form.
-  [[nodiscard]] Eigen::Index interval_rows() const noexcept { return private_rows + path_rows + (mayer ? 1 : 0); }
+  [[nodiscard]] Eigen::Index interval_rows() const noexcept { return stage_equations + path_rows + (mayer ? 1 : 0); }
 };
 
 /// Where the unknowns and rows of all intervals stand in the program's vectors.

@@ -109,7 +109,7 @@ void bound_controls(BoundsWriter& variables, const Bounds& u, const Layout& layo
 void bound_path_rows(BoundsWriter& rows, const ProblemBounds& bounds, Eigen::Index path_constraints,
                      const Layout& layout) {
   const std::vector<Eigen::Index> velocities = bounds.bounded_velocities();
-  Eigen::Index row = layout.shape().private_rows;
+  Eigen::Index row = layout.shape().stage_equations;
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : velocities) {
       rows.set_column(layout.private_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);

@@ -15,17 +15,17 @@ IntervalTrace TangentElement::trace(const TracedProblem& problem, const Tableau&
   IntervalTrace trace;
   const Eigen::Index n = problem.configuration_size();
   const auto stages = static_cast<Eigen::Index>(slopes_q.size());
-  trace.private_rows.resize(2 * n * stages);
+  trace.stage_equations.resize(2 * n * stages);
   std::vector<TracedProblem::Values> values;
   for (Eigen::Index row = 0; row < stages; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const Expression time = unknowns.t + Expression(tableau.c[row]) * h;
     trace.stages.push_back({configurations[i], velocities[i], unknowns.controls[i], time});
     values.push_back(problem.at(trace.stages.back()));
-    trace.private_rows.segment(2 * row * n, n) = slopes_q[i] - velocities[i];
+    trace.stage_equations.segment(2 * row * n, n) = slopes_q[i] - velocities[i];
     ExpressionVector momentum_rate = values[i].mass * slopes_v[i] + values[i].momentum_by_time;
     momentum_rate += values[i].momentum_by_configuration * velocities[i];
-    trace.private_rows.segment((2 * row + 1) * n, n) = momentum_rate - values[i].generalised_force;
+    trace.stage_equations.segment((2 * row + 1) * n, n) = momentum_rate - values[i].generalised_force;
   }
   trace.cost = quadrature_of_cost(values, tableau.b, h);
   trace.left_momentum = problem.at(State{unknowns.left_q, unknowns.left_y, unknowns.t}).momentum;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/transcription/guess_survey.hpp"
+#include "methods/transcription/guess_check.hpp"
 
 namespace dmocbench {
 
@@ -44,7 +44,7 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .stages = tableau.stages(),
           .shares_controls = tableau.shares_controls,
           .node_rows = functions.node_rows,
-          .private_rows = functions.private_rows,
+          .stage_equations = functions.stage_equations,
           .path_rows = functions.path_rows,
           .mayer = ends.mayer,
           .first_has_velocity = ends.first_has_velocity(),
@@ -85,8 +85,8 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       end_functions_(trace_ends(problem, traced_, end_rules_)),
       layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
       bounds_(program_bounds(problem, traced_, problem_bounds_, end_rules_, layout_)),
-      rounding_floor_(rounding_floor_of(survey_guess(problem, traced_, grid),
-                                        guessed_horizon_ * grid.relative_widths().minCoeff())),
+      rounding_floor_(
+          rounding_floor_of(check_guess(problem, traced_, grid), guessed_horizon_ * grid.relative_widths().minCoeff())),
       step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
       time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
       jacobian_pattern_(assemble_pattern(

@@ -43,22 +43,22 @@ Claim judged_factorisation(double banded, double by_intervals, double recombined
 }
 
 TEST(FactorisationClaim, HoldsIfItTakesMoreOperationsInEveryWay) {
-  EXPECT_EQ(judged_factorisation(2.3, 1.3, 1.2).verdict, Verdict::reproduced);
+  EXPECT_EQ(judged_factorisation(2.3, 1.3, 1.2).verdict, ClaimVerdict::reproduced);
 }
 
 TEST(FactorisationClaim, DiffersIfOneWayTakesNoMore) {
   const Claim claim = judged_factorisation(2.3, 1.3, 1.0);
-  EXPECT_EQ(claim.verdict, Verdict::differs);
+  EXPECT_EQ(claim.verdict, ClaimVerdict::differs);
   for (const char* part : {"N = 128", "banded 2.30", "intervals 1.30", "recombined 1.00", "1.09 with"}) {
     EXPECT_NE(claim.measured.find(part), std::string::npos) << claim.measured;
   }
 }
 
 TEST(FactorisationClaim, IsNotJudgedWithoutTheRecombinedElimination) {
-  EXPECT_EQ(factorisation_claim({}, "orbital_transfer").verdict, Verdict::not_yet);
+  EXPECT_EQ(factorisation_claim({}, "orbital_transfer").verdict, ClaimVerdict::not_yet);
   EXPECT_EQ(factorisation_claim(tables_of({ratio("intervals", "elimination_operations", 128, 1.3)}), "orbital_transfer")
                 .verdict,
-            Verdict::not_yet);
+            ClaimVerdict::not_yet);
 }
 
 TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
@@ -69,10 +69,10 @@ TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
                          "orbital_transfer")
         .verdict;
   };
-  EXPECT_EQ(judged(1.9, 1.2), Verdict::reproduced);
-  EXPECT_EQ(judged(1.9, 1.0), Verdict::differs);
-  EXPECT_EQ(judged(0.9, 1.2), Verdict::differs);
-  EXPECT_EQ(expense_claim({}, "orbital_transfer").verdict, Verdict::not_yet);
+  EXPECT_EQ(judged(1.9, 1.2), ClaimVerdict::reproduced);
+  EXPECT_EQ(judged(1.9, 1.0), ClaimVerdict::differs);
+  EXPECT_EQ(judged(0.9, 1.2), ClaimVerdict::differs);
+  EXPECT_EQ(expense_claim({}, "orbital_transfer").verdict, ClaimVerdict::not_yet);
 }
 
 }  // namespace

@@ -148,12 +148,12 @@ ResultTables tables(const std::string& doctored = "", const std::function<void(R
   return result;
 }
 
-Verdict verdict_on(const std::string& claim, const ResultTables& results) {
+ClaimVerdict verdict_on(const std::string& claim, const ResultTables& results) {
   for (const Claim& judged : judge_claims(results)) {
     if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << claim;
-  return Verdict::not_yet;
+  return ClaimVerdict::not_yet;
 }
 
 bool is(const Row& row, const std::string& method) { return row.text("method") == method; }
@@ -163,7 +163,7 @@ TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
        {"state_slope", "control_slope", "momentum_consistency", "equal_solutions", "tangent_differs", "variable_ratio",
         "objective_evolution", "order_of_convergence", "order_of_adjoint_scheme", "reference_step",
         "minor_iteration_ratio", "minor_iterations_equal_variable_ratio", "automatic_differentiation"}) {
-    EXPECT_EQ(verdict_on(claim, tables()), Verdict::reproduced) << claim;
+    EXPECT_EQ(verdict_on(claim, tables()), ClaimVerdict::reproduced) << claim;
   }
 }
 
@@ -188,20 +188,20 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
     }
     equivalence.append(solve);
     results.add("equivalence", equivalence);
-    std::map<std::string, Verdict> verdicts;
+    std::map<std::string, ClaimVerdict> verdicts;
     for (const Claim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
     return verdicts;
   };
   auto good = judged(2.95, 1e-13);
-  EXPECT_EQ(good["two_link_manipulator/order_of_stage_controls"], Verdict::reproduced);
-  EXPECT_EQ(good["forced_oscillator/tangent_coincides"], Verdict::reproduced);
+  EXPECT_EQ(good["two_link_manipulator/order_of_stage_controls"], ClaimVerdict::reproduced);
+  EXPECT_EQ(good["forced_oscillator/tangent_coincides"], ClaimVerdict::reproduced);
   auto bad = judged(4.0, 1e-6);
-  EXPECT_EQ(bad["two_link_manipulator/order_of_stage_controls"], Verdict::differs);
-  EXPECT_EQ(bad["forced_oscillator/tangent_coincides"], Verdict::differs);
+  EXPECT_EQ(bad["two_link_manipulator/order_of_stage_controls"], ClaimVerdict::differs);
+  EXPECT_EQ(bad["forced_oscillator/tangent_coincides"], ClaimVerdict::differs);
 }
 
 TEST(Claims, WithoutTablesNothingIsReproducedOrRefuted) {
-  for (const Claim& claim : judge_claims(ResultTables())) EXPECT_EQ(claim.verdict, Verdict::not_yet) << claim.id;
+  for (const Claim& claim : judge_claims(ResultTables())) EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << claim.id;
 }
 
 TEST(Claims, OrdersOneAndThreeDiffer) {
@@ -209,14 +209,14 @@ TEST(Claims, OrdersOneAndThreeDiffer) {
     const ResultTables doctored = tables("convergence_slopes", [&](Row& row) {
       if (is(row, "hamiltonian")) row.set("slope", slope);
     });
-    EXPECT_EQ(verdict_on("state_slope", doctored), Verdict::differs) << slope;
-    EXPECT_EQ(verdict_on("control_slope", doctored), Verdict::differs) << slope;
+    EXPECT_EQ(verdict_on("state_slope", doctored), ClaimVerdict::differs) << slope;
+    EXPECT_EQ(verdict_on("control_slope", doctored), ClaimVerdict::differs) << slope;
   }
 }
 
 TEST(Claims, ASlopeThroughTwoPointsIsNoEvidence) {
   EXPECT_EQ(verdict_on("state_slope", tables("convergence_slopes", [](Row& row) { row.set("points", 2LL); })),
-            Verdict::differs);
+            ClaimVerdict::differs);
 }
 
 TEST(Claims, AMomentumDefectAboveRoundingDiffers) {
@@ -224,13 +224,13 @@ TEST(Claims, AMomentumDefectAboveRoundingDiffers) {
     const ResultTables doctored = tables("consistency", [&](Row& row) {
       if (is(row, method) && row.text("intervals") == "1024") row.set("momentum_defect_max", 1e-8);
     });
-    EXPECT_EQ(verdict_on("momentum_consistency", doctored), Verdict::differs) << method;
+    EXPECT_EQ(verdict_on("momentum_consistency", doctored), ClaimVerdict::differs) << method;
   }
 }
 
 TEST(Claims, ATangentSpaceMethodThatKeepsTheBalanceDiffers) {
   const ResultTables doctored = tables("consistency", [](Row& row) { row.set("momentum_defect_max", 1e-15); });
-  EXPECT_EQ(verdict_on("momentum_consistency", doctored), Verdict::differs);
+  EXPECT_EQ(verdict_on("momentum_consistency", doctored), ClaimVerdict::differs);
 }
 
 TEST(Claims, UnequalSolutionsDiffer) {
@@ -240,14 +240,14 @@ TEST(Claims, UnequalSolutionsDiffer) {
     const ResultTables doctored = tables("equivalence", [&](Row& row) {
       if (is(row, "hamiltonian")) row.set(column, 1e-7);
     });
-    EXPECT_EQ(verdict_on("equal_solutions", doctored), Verdict::differs) << column;
+    EXPECT_EQ(verdict_on("equal_solutions", doctored), ClaimVerdict::differs) << column;
   }
 }
 
 TEST(Claims, ATangentSpaceDifferenceOfAnotherOrderDiffers) {
   const ResultTables doctored =
       tables("equivalence_slopes", [](Row& row) { row.set("slope", *row.number("stages") * 2.0 - 1.0); });
-  EXPECT_EQ(verdict_on("tangent_differs", doctored), Verdict::differs);
+  EXPECT_EQ(verdict_on("tangent_differs", doctored), ClaimVerdict::differs);
 }
 
 TEST(Claims, AMissedOrderOfAnyQuantityAtTheNodesDiffers) {
@@ -258,9 +258,9 @@ TEST(Claims, AMissedOrderOfAnyQuantityAtTheNodesDiffers) {
           row.set("slope", *row.number("slope") + wrong);
         }
       });
-      EXPECT_EQ(verdict_on("order_of_convergence", doctored), Verdict::differs) << quantity;
+      EXPECT_EQ(verdict_on("order_of_convergence", doctored), ClaimVerdict::differs) << quantity;
       EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored),
-                quantity == std::string("costate") ? Verdict::differs : Verdict::reproduced);
+                quantity == std::string("costate") ? ClaimVerdict::differs : ClaimVerdict::reproduced);
     }
   }
 }
@@ -270,7 +270,7 @@ TEST(Claims, OrdersOfWhichNoneRisesAboveTheFloorAreNeitherReproducedNorRefuted) 
     row.set("verdict", "floor");
     row.set("slope", Cell());
   });
-  EXPECT_EQ(verdict_on("order_of_convergence", floored), Verdict::floor);
+  EXPECT_EQ(verdict_on("order_of_convergence", floored), ClaimVerdict::floor);
 }
 
 TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
@@ -279,16 +279,16 @@ TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
       if (row.number("adjoint_residual")) row.set(column, value);
     });
   };
-  EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored("adjoint_residual", 1e-6)), Verdict::differs);
+  EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored("adjoint_residual", 1e-6)), ClaimVerdict::differs);
   EXPECT_EQ(verdict_on("order_of_adjoint_scheme", doctored("adjoint_residual_by_plain_coefficients", 1e-12)),
-            Verdict::differs);
+            ClaimVerdict::differs);
 }
 
 TEST(Claims, AnotherRatioOfVariablesDiffers) {
   const ResultTables doctored = tables("convergence", [](Row& row) {
     if (is(row, "dmoc")) row.set("free_variables", *row.number("intervals") * 4.0);
   });
-  EXPECT_EQ(verdict_on("variable_ratio", doctored), Verdict::differs);
+  EXPECT_EQ(verdict_on("variable_ratio", doctored), ClaimVerdict::differs);
 }
 
 TEST(Claims, AnotherRatioOfMinorIterationsDiffers) {
@@ -296,17 +296,17 @@ TEST(Claims, AnotherRatioOfMinorIterationsDiffers) {
     const ResultTables doctored = tables("iterations", [&](Row& row) {
       if (is(row, "dmoc")) row.set("minor_iterations", *row.number("minor_iterations") * factor);
     });
-    EXPECT_EQ(verdict_on("minor_iteration_ratio", doctored), Verdict::differs) << factor;
-    EXPECT_EQ(verdict_on("minor_iterations_equal_variable_ratio", doctored), Verdict::differs) << factor;
+    EXPECT_EQ(verdict_on("minor_iteration_ratio", doctored), ClaimVerdict::differs) << factor;
+    EXPECT_EQ(verdict_on("minor_iterations_equal_variable_ratio", doctored), ClaimVerdict::differs) << factor;
   }
 }
 
 TEST(Claims, EqualCountsFromACrashBasisSayThatTheSavingIsTheStarts) {
-  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", tables()), Verdict::differs);
+  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", tables()), ClaimVerdict::differs);
   const ResultTables doctored = tables("iterations", [](Row& row) {
     if (row.text("crash") == "basis") row.set("minor_iterations", *row.number("free_variables") + 3.0);
   });
-  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", doctored), Verdict::reproduced);
+  EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", doctored), ClaimVerdict::reproduced);
 }
 
 TEST(Claims, DifferencesThatAreAsRobustOrFasterThanExactDerivativesDiffer) {
@@ -315,19 +315,19 @@ TEST(Claims, DifferencesThatAreAsRobustOrFasterThanExactDerivativesDiffer) {
                                                            [&](Row& row) {
                                                              if (is_difference(row)) row.set("status", "solved");
                                                            })),
-            Verdict::differs);
+            ClaimVerdict::differs);
   EXPECT_EQ(verdict_on("automatic_differentiation", tables("derivatives",
                                                            [&](Row& row) {
                                                              if (is_difference(row)) row.set("seconds", 0.005);
                                                            })),
-            Verdict::differs);
+            ClaimVerdict::differs);
   EXPECT_EQ(verdict_on("automatic_differentiation", tables("derivatives",
                                                            [](Row& row) {
                                                              if (row.text("derivatives") == "adolc") {
                                                                row.set("status", "step failed");
                                                              }
                                                            })),
-            Verdict::differs);
+            ClaimVerdict::differs);
 }
 
 TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
@@ -335,18 +335,20 @@ TEST(Claims, AFailedOrStraySolveIsNeverReproduced) {
     const auto spoil = [&](Row& row) {
       if (is(row, "hamiltonian")) row.set(column, "other");
     };
-    EXPECT_NE(verdict_on("momentum_consistency", tables("consistency", spoil)), Verdict::reproduced) << column;
-    EXPECT_NE(verdict_on("equal_solutions", tables("equivalence", spoil)), Verdict::reproduced) << column;
-    EXPECT_NE(verdict_on("objective_evolution", tables("objective", spoil)), Verdict::reproduced) << column;
-    EXPECT_NE(verdict_on("variable_ratio", tables("convergence", spoil)), Verdict::reproduced) << column;
-    EXPECT_NE(verdict_on("minor_iteration_ratio", tables("iterations", spoil)), Verdict::reproduced) << column;
+    EXPECT_NE(verdict_on("momentum_consistency", tables("consistency", spoil)), ClaimVerdict::reproduced) << column;
+    EXPECT_NE(verdict_on("equal_solutions", tables("equivalence", spoil)), ClaimVerdict::reproduced) << column;
+    EXPECT_NE(verdict_on("objective_evolution", tables("objective", spoil)), ClaimVerdict::reproduced) << column;
+    EXPECT_NE(verdict_on("variable_ratio", tables("convergence", spoil)), ClaimVerdict::reproduced) << column;
+    EXPECT_NE(verdict_on("minor_iteration_ratio", tables("iterations", spoil)), ClaimVerdict::reproduced) << column;
   }
 }
 
 TEST(Claims, AMissingFieldIsNeverReproduced) {
   const auto erase = [](const char* column) { return [column](Row& row) { row.set(column, Cell()); }; };
-  EXPECT_EQ(verdict_on("momentum_consistency", tables("consistency", erase("momentum_defect_max"))), Verdict::differs);
-  EXPECT_EQ(verdict_on("equal_solutions", tables("equivalence", erase("configuration_difference"))), Verdict::differs);
+  EXPECT_EQ(verdict_on("momentum_consistency", tables("consistency", erase("momentum_defect_max"))),
+            ClaimVerdict::differs);
+  EXPECT_EQ(verdict_on("equal_solutions", tables("equivalence", erase("configuration_difference"))),
+            ClaimVerdict::differs);
 }
 
 TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
@@ -361,12 +363,12 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
   row.set("required_value", 1.0);
   slips.append(row);
   results.add("slips", slips);
-  EXPECT_EQ(verdict_on("boundary_momenta", results), Verdict::differs);
+  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::differs);
   row.set("value_as_printed", 1.0);
   slips.clear();
   slips.append(row);
   results.add("slips", slips);
-  EXPECT_EQ(verdict_on("boundary_momenta", results), Verdict::reproduced);
+  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::reproduced);
 }
 
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {

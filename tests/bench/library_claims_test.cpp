@@ -12,12 +12,12 @@ namespace dmocbench {
 namespace {
 
 /// The verdict on a claim by its whole id.
-Verdict verdict_of_claim(const ResultTables& results, const std::string& id) {
+ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id) {
   for (const Claim& judged : judge_claims(results)) {
     if (judged.id == id) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << id;
-  return Verdict::not_yet;
+  return ClaimVerdict::not_yet;
 }
 
 TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
@@ -36,8 +36,8 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
     results.add("local_minima_minima", minima);
     return verdict_of_claim(results, "two_link_manipulator/local_minima");
   };
-  EXPECT_EQ(verdict(1.0), Verdict::reproduced);
-  EXPECT_EQ(verdict(0.0), Verdict::differs);
+  EXPECT_EQ(verdict(1.0), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict(0.0), ClaimVerdict::differs);
 }
 
 TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreApart) {
@@ -55,9 +55,9 @@ TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreAp
     results.add("local_minima_shares", shares);
     return verdict_of_claim(results, "two_link_manipulator/best_minimum_share");
   };
-  EXPECT_EQ(verdict(0.3, 0.6), Verdict::differs);
-  EXPECT_EQ(verdict(0.5, 0.8), Verdict::reproduced);
-  EXPECT_EQ(verdict(0.05, 0.15), Verdict::reproduced);
+  EXPECT_EQ(verdict(0.3, 0.6), ClaimVerdict::differs);
+  EXPECT_EQ(verdict(0.5, 0.8), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict(0.05, 0.15), ClaimVerdict::reproduced);
 }
 
 TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOften) {
@@ -73,8 +73,8 @@ TEST(LibraryClaims, TheLibraryIsJudgedByWhoIsBestMostOften) {
     results.add("profile_summary", summary);
     return verdict_of_claim(results, "library/dmoc_best_by_seconds");
   };
-  EXPECT_EQ(verdict(30.0, 20.0), Verdict::reproduced);
-  EXPECT_EQ(verdict(20.0, 20.0), Verdict::differs);
+  EXPECT_EQ(verdict(30.0, 20.0), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict(20.0, 20.0), ClaimVerdict::differs);
 }
 
 }  // namespace

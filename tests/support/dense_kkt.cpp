@@ -19,7 +19,7 @@ Eigen::VectorX<long double> joined(const Eigen::VectorXd& primal, const Eigen::V
 DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
     : n_(static_cast<Eigen::Index>(program.variable_count())),
       m_(static_cast<Eigen::Index>(program.constraint_count())),
-      softness_(numbers.softness) {
+      compliance_(numbers.compliance) {
   matrix_.setZero(n_ + m_, n_ + m_);
   const SparsityPattern& hessian = program.hessian_structure();
   for (std::size_t e = 0; e < hessian.size(); ++e) {
@@ -32,7 +32,7 @@ DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
     matrix_(jacobian.columns[e], n_ + jacobian.rows[e]) = numbers.jacobian[static_cast<Eigen::Index>(e)];
   }
   matrix_.diagonal().head(n_) += numbers.diagonal;
-  matrix_.diagonal().tail(m_) -= numbers.softness;
+  matrix_.diagonal().tail(m_) -= numbers.compliance;
   right_hand_side_.resize(n_ + m_);
   right_hand_side_ << -numbers.slope, -numbers.rows;
   for (Eigen::Index i = 0; i < n_; ++i) {
@@ -50,7 +50,7 @@ DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
 DenseKkt::Inertia DenseKkt::inertia() const {
   std::vector<Eigen::Index> hard;
   std::vector<Eigen::Index> soft;
-  for (Eigen::Index i = 0; i < m_; ++i) (softness_[i] > 0.0 ? soft : hard).push_back(n_ + i);
+  for (Eigen::Index i = 0; i < m_; ++i) (compliance_[i] > 0.0 ? soft : hard).push_back(n_ + i);
   Inertia result;
   const auto unknowns = static_cast<Eigen::Index>(free_.size());
   const auto rows = static_cast<Eigen::Index>(hard.size());
@@ -59,9 +59,9 @@ DenseKkt::Inertia DenseKkt::inertia() const {
     return result;
   }
   Eigen::MatrixXd form = matrix_(free_, free_);
-  const Eigen::MatrixXd soft_rows = matrix_(soft, free_);
+  const Eigen::MatrixXd inequality_rows = matrix_(soft, free_);
   const Eigen::VectorXd weights = -matrix_.diagonal()(soft).cwiseInverse();
-  form += soft_rows.transpose() * weights.asDiagonal() * soft_rows;
+  form += inequality_rows.transpose() * weights.asDiagonal() * inequality_rows;
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(unknowns, unknowns);
   if (rows > 0) {
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix_(free_, hard));

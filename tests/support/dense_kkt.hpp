@@ -14,11 +14,11 @@ struct KktNumbers {
   Eigen::VectorXd hessian;
   Eigen::VectorXd jacobian;
   Eigen::VectorXd diagonal;
-  Eigen::VectorXd softness;
+  Eigen::VectorXd compliance;
   Eigen::VectorXd slope;
   Eigen::VectorXd rows;
 
-  [[nodiscard]] interior_point::KktMatrix matrix() const { return {hessian, jacobian, diagonal, softness}; }
+  [[nodiscard]] interior_point::KktMatrix matrix() const { return {hessian, jacobian, diagonal, compliance}; }
 };
 
 /// The KKT system of a program by dense linear algebra: the solution from an LU factorisation whose error is corrected
@@ -60,7 +60,7 @@ class DenseKkt {
 
   Eigen::Index n_;
   Eigen::Index m_;
-  Eigen::VectorXd softness_;
+  Eigen::VectorXd compliance_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_hand_side_;
   std::vector<Eigen::Index> free_;

@@ -30,7 +30,7 @@ struct RandomShape {
   std::array<bool, 2> velocity{};       ///< as many further unknowns at an end as a node has
   std::array<Eigen::Index, 2> fixed{};  ///< fixed unknowns of the first and the last node
   Eigen::Index conditions = 0;          ///< rows of the border, which read both ends
-  bool condition_is_soft = false;
+  bool condition_is_inequality = false;
   bool fixes_control = false;
   bool slopes_cost_nothing = false;  ///< as where the dynamics are linear and the cost reads states and controls only
   bool drops_entries = false;
@@ -44,7 +44,7 @@ struct RandomShape {
     return "N " + text(intervals) + ", node " + text(node) + (rows_at_nodes ? " rows at nodes" : " rows in intervals") +
            ", slopes " + text(slopes) + ", controls " + text(controls) + ", soft " + text(soft) + ", horizon " +
            text(horizon) + ", velocities " + text(velocity[0]) + text(velocity[1]) + ", fixed " + text(fixed[0]) + ' ' +
-           text(fixed[1]) + ", conditions " + text(conditions) + (condition_is_soft ? " soft" : "") +
+           text(fixed[1]) + ", conditions " + text(conditions) + (condition_is_inequality ? " soft" : "") +
            (fixes_control ? ", fixed control" : "") + (slopes_cost_nothing ? ", slopes cost nothing" : "") +
            (drops_entries ? ", dropped entries" : "") + (nearly_dependent ? ", nearly dependent" : "") +
            ", roughness " + text(roughness) + ", coupling " + text(coupling) + ", Hessian " +
@@ -152,7 +152,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     }
     for (std::size_t i = 0; !shape_.rows_at_nodes && i < node; ++i) append_own_row(i + node, column);
     for (std::size_t i = 0; i < size(shape_.slopes); ++i) append_own_row(2 * node + i, column);
-    first_soft_ = places.size();
+    first_inequality_ = places.size();
     for (Eigen::Index i = 0; i < shape_.soft; ++i) append_own_row(none, column);
     single_rows_ = places.size();
     for (const std::size_t end : {0U, 1U}) {
@@ -241,7 +241,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
   void make_nearly_dependent() {
     const std::size_t k = shape_.intervals / 2;
     const auto equalities = std::count_if(local_rows_.begin(), local_rows_.end(),
-                                          [&](const Local& row) { return row.place.first < first_soft_; });
+                                          [&](const Local& row) { return row.place.first < first_inequality_; });
     if (shape_.rows_at_nodes || equalities < 2) return;
     const std::size_t source = local_rows_[size(equalities) - 2].place.first + k;
     const std::size_t target = local_rows_[size(equalities) - 1].place.first + k;
@@ -322,7 +322,8 @@ class RandomStructuredProgram final : public NonlinearProgram {
     if (shape_.hessian != Hessian::hidden) return form;
     constexpr double weight = 5.0;
     for (const Local& row : local_rows_) {
-      if (row.place.first < node_rows_.size() * (shape_.intervals + 1) || row.place.first >= first_soft_) continue;
+      if (row.place.first < node_rows_.size() * (shape_.intervals + 1) || row.place.first >= first_inequality_)
+        continue;
       const Eigen::VectorXd derivatives = derivatives_of(row.place.first + interval, interval);
       form -= weight * derivatives * derivatives.transpose();
     }
@@ -361,8 +362,8 @@ class RandomStructuredProgram final : public NonlinearProgram {
     const auto soften = [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) row_upper_[static_cast<Eigen::Index>(i)] = 1.0;
     };
-    soften(first_soft_, single_rows_);
-    if (shape_.condition_is_soft) soften(first_condition_, structure_.rows.size());
+    soften(first_inequality_, single_rows_);
+    if (shape_.condition_is_inequality) soften(first_condition_, structure_.rows.size());
   }
 
   RandomShape shape_;
@@ -374,7 +375,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
   std::array<std::vector<std::size_t>, 2> ends_;  // unknowns of the first and of the last node, further ones behind
   std::vector<ColumnPlace> local_unknowns_;
   std::vector<Local> local_rows_;
-  std::size_t first_soft_ = 0;
+  std::size_t first_inequality_ = 0;
   std::size_t single_rows_ = 0;
   std::size_t first_condition_ = 0;
   SparsityPattern jacobian_pattern_;

@@ -19,9 +19,9 @@ inline KktNumbers shifted_system(Transcription& program, const Eigen::VectorXd& 
   program.hessian(x, 1.0, random.vector(m, -1e-2, 1e-2), numbers.hessian);
   program.jacobian(x, numbers.jacobian);
   numbers.diagonal = random.vector(start.size(), 10.0, 11.0);
-  numbers.softness = random.vector(m, 0.1, 1.0);
+  numbers.compliance = random.vector(m, 0.1, 1.0);
   for (Eigen::Index i = 0; i < m; ++i) {
-    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.softness[i] = 0.0;
+    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.compliance[i] = 0.0;
   }
   numbers.slope = random.vector(start.size());
   numbers.rows = random.vector(m);

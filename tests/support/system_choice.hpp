@@ -29,7 +29,7 @@ class SystemChoice {
       shape.fixed[end] = chance(0.6) ? shape.node : whole(0, shape.node);
     }
     shape.conditions = chance(0.7) ? 0 : whole(1, 2);
-    shape.condition_is_soft = chance(0.3);
+    shape.condition_is_inequality = chance(0.3);
     shape.fixes_control = shape.controls > 1 && chance(0.1);
     shape.slopes_cost_nothing = shape.slopes > 0 && chance(0.5);
     shape.drops_entries = chance(0.3);
@@ -50,10 +50,10 @@ class SystemChoice {
     program.hessian(Eigen::VectorXd::Zero(n), 1.0, Eigen::VectorXd::Zero(m), numbers.hessian);
     program.jacobian(Eigen::VectorXd::Zero(n), numbers.jacobian);
     numbers.diagonal = shift_for(hessian) * (1.0 + random_.vector(n, 0.0, 0.5).array());
-    numbers.softness.setZero(m);
+    numbers.compliance.setZero(m);
     for (Eigen::Index i = 0; i < m; ++i) {
       if (program.constraint_lower()[i] == program.constraint_upper()[i]) continue;
-      numbers.softness[i] = magnitude(1e-3, 10.0);
+      numbers.compliance[i] = magnitude(1e-3, 10.0);
     }
     numbers.slope = random_.vector(n);
     numbers.rows = random_.vector(m);

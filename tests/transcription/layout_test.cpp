@@ -83,7 +83,7 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
                          .node_state = state,
                          .stages = s,
                          .node_rows = second ? 0 : n,
-                         .private_rows = second ? 2 * n * s : n * (s - 1)});
+                         .stage_equations = second ? 2 * n * s : n * (s - 1)});
     std::multiset<std::size_t> covered;
     const auto cover = [&](std::size_t head, std::size_t length) {
       for (std::size_t k = 0; k < length; ++k) covered.insert(head + k);
@@ -125,7 +125,7 @@ TEST(Layout, SharedControlsOfNeighboursAreTheSameUnknown) {
                        .node_state = NodeState::velocity,
                        .stages = 3,
                        .shares_controls = true,
-                       .private_rows = 12});
+                       .stage_equations = 12});
   std::set<std::size_t> covered;
   for (Eigen::Index i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k + 1 < intervals; ++k) {

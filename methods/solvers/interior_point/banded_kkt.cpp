@@ -114,7 +114,7 @@ void BandedKkt::assemble(const KktMatrix& matrix) {
     *diagonal_[i] += is_free_[i] ? matrix.diagonal[static_cast<Eigen::Index>(i)] : 1.0;
   }
   for (std::size_t i = unknowns; i < diagonal_.size(); ++i) {
-    *diagonal_[i] -= matrix.softness_of(static_cast<Eigen::Index>(i - unknowns));
+    *diagonal_[i] -= matrix.compliance_of(static_cast<Eigen::Index>(i - unknowns));
   }
 }
 
@@ -192,7 +192,7 @@ void BandedKkt::read_step(Eigen::Index side, Eigen::VectorXd& primal_step, Eigen
 void BandedKkt::multiply(const KktMatrix& matrix, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
   unknown_products_ = matrix.diagonal.cwiseProduct(primal);
   row_products_.setZero(multipliers.size());
-  if (matrix.softness.size() > 0) row_products_ -= matrix.softness.cwiseProduct(multipliers);
+  if (matrix.compliance.size() > 0) row_products_ -= matrix.compliance.cwiseProduct(multipliers);
   const SparsityPattern& hessian = program_.hessian_structure();
   for (const Target& target : hessian_) {
     const int i = hessian.rows[target.entry];
@@ -217,8 +217,8 @@ bool BandedKkt::curves_upwards(const KktMatrix& matrix) {
   multiply(matrix, tangential_, tangential_multipliers_);
   double curvature = tangential_.dot(unknown_products_);
   for (Eigen::Index i = 0; i < row_products_.size(); ++i) {
-    const double softness = matrix.softness_of(i);
-    if (softness > 0.0) curvature += row_products_[i] * row_products_[i] / softness;
+    const double compliance = matrix.compliance_of(i);
+    if (compliance > 0.0) curvature += row_products_[i] * row_products_[i] / compliance;
   }
   return curvature >= smallest_curvature * tangential_.squaredNorm();
 }
@@ -238,20 +238,21 @@ bool BandedKkt::is_solution(const KktMatrix& matrix, const Eigen::VectorXd& slop
   return left <= largest_share * size;
 }
 
-Verdict BandedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+FactorisationStatus BandedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                                     Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
   const bool has_border = order_.border_size > 0;
   assemble(matrix);
-  if (!factorise()) return has_border ? Verdict::untrusted : Verdict::singular;
+  if (!factorise()) return has_border ? FactorisationStatus::untrusted : FactorisationStatus::singular;
   write_right_hand_sides(slope, rows);
-  if (!substitute()) return Verdict::singular;
+  if (!substitute()) return FactorisationStatus::singular;
   read_step(the_tangential_step, tangential_, tangential_multipliers_);
-  if (!is_finite(tangential_)) return Verdict::singular;
-  if (!curves_upwards(matrix)) return Verdict::wrong_inertia;
+  if (!is_finite(tangential_)) return FactorisationStatus::singular;
+  if (!curves_upwards(matrix)) return FactorisationStatus::wrong_inertia;
   read_step(the_step, primal_step, multiplier_step);
-  if (!is_finite(primal_step) || !is_finite(multiplier_step)) return Verdict::singular;
-  if (has_border && !is_solution(matrix, slope, rows, primal_step, multiplier_step)) return Verdict::untrusted;
-  return Verdict::solved;
+  if (!is_finite(primal_step) || !is_finite(multiplier_step)) return FactorisationStatus::singular;
+  if (has_border && !is_solution(matrix, slope, rows, primal_step, multiplier_step))
+    return FactorisationStatus::untrusted;
+  return FactorisationStatus::solved;
 }
 
 }  // namespace dmocbench::interior_point

@@ -33,8 +33,9 @@ class BandedKkt final : public KktSystem {
 
   BandedKkt(const NonlinearProgram& program, NodeOrder order);
 
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                          Eigen::VectorXd& multiplier_step) override;
 
   [[nodiscard]] const NodeOrder& order() const noexcept { return order_; }
   /// Multiplications that the last factorisation of the band took, each with a subtraction, and its divisions: known

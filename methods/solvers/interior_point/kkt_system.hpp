@@ -18,13 +18,13 @@ struct KktMatrix {
   const Eigen::VectorXd& jacobian;  ///< one value per entry of jacobian_structure()
   const Eigen::VectorXd& diagonal;  ///< d, one per variable
   /// e >= 0, one per row, zero for exactly the equalities; empty if there is nothing else.
-  const Eigen::VectorXd& softness;
+  const Eigen::VectorXd& compliance;
 
-  [[nodiscard]] double softness_of(Eigen::Index row) const { return softness.size() > 0 ? softness[row] : 0.0; }
+  [[nodiscard]] double compliance_of(Eigen::Index row) const { return compliance.size() > 0 ? compliance[row] : 0.0; }
 };
 
 /// What a factorisation found.
-enum class Verdict : std::uint8_t {
+enum class FactorisationStatus : std::uint8_t {
   solved,         ///< H + diag(d) is positive definite where the equalities hold, and the step is there
   wrong_inertia,  ///< it is not
   singular,       ///< the rows depend on each other, or a number is not finite
@@ -46,9 +46,9 @@ class KktSystem {
 
   /// `slope` and `primal_step`: variable_count() entries; `rows` and `multiplier_step`: constraint_count() entries. The
   /// steps are written if the verdict is `solved`.
-  [[nodiscard]] virtual Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                      const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                      Eigen::VectorXd& multiplier_step) = 0;
+  [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                                  const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                                  Eigen::VectorXd& multiplier_step) = 0;
 
  protected:
   KktSystem() = default;

@@ -41,7 +41,7 @@ void NewtonResidual::compute(const KktMatrix& matrix, const Eigen::VectorXd& slo
   transposed_jacobian_.add(matrix.jacobian, multiplier_step, slope_);
   for (const Eigen::Index i : fixed_) slope_[i] = 0.0;
   copy_to(rows_, rows);
-  if (matrix.softness.size() > 0) rows_ -= matrix.softness.cwiseProduct(multiplier_step);
+  if (matrix.compliance.size() > 0) rows_ -= matrix.compliance.cwiseProduct(multiplier_step);
   jacobian_.add(matrix.jacobian, primal_step, rows_);
 }
 
@@ -62,8 +62,8 @@ double NewtonResidual::excess(const KktMatrix& matrix, const Eigen::VectorXd& pr
   const double allowed_slope = floor_ * std::max(1.0, largest_of(multiplier_step)) + accuracy * largest_slope_ +
                                rounding * (largest_product(matrix.diagonal, primal_step) +
                                            largest_of(matrix.hessian) * step + jacobian * largest_of(multiplier_step));
-  const double of_softness = matrix.softness.size() > 0 ? largest_product(matrix.softness, multiplier_step) : 0.0;
-  const double allowed_row = floor_ + accuracy * largest_row_ + rounding * (of_softness + jacobian * step);
+  const double of_compliance = matrix.compliance.size() > 0 ? largest_product(matrix.compliance, multiplier_step) : 0.0;
+  const double allowed_row = floor_ + accuracy * largest_row_ + rounding * (of_compliance + jacobian * step);
   return std::max(slope > 0.0 ? slope / allowed_slope : 0.0, row > 0.0 ? row / allowed_row : 0.0);
 }
 

@@ -38,8 +38,8 @@ NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_
     set_zero(slope_, diagonal_.size());
   }
   if (!program.inequalities().empty()) {
-    set_zero(softness_, static_cast<Eigen::Index>(program.program().constraint_count()));
-    set_zero(right_rows_, softness_.size());
+    set_zero(compliance_, static_cast<Eigen::Index>(program.program().constraint_count()));
+    set_zero(right_rows_, compliance_.size());
     slack_sigma_.setZero(static_cast<Eigen::Index>(program.inequalities().size()));
     slack_slope_.setZero(slack_sigma_.size());
   }
@@ -69,23 +69,24 @@ void NewtonStep::fill_diagonal(double constant) {
   });
 }
 
-Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
-                          const Eigen::VectorXd& rows, Direction& direction) {
+FactorisationStatus NewtonStep::solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
+                                      const Eigen::VectorXd& rows, Direction& direction) {
   fill_diagonal(constant);
   const std::vector<Eigen::Index>& inequalities = program_.inequalities();
   if (!inequalities.empty()) copy_to(right_rows_, rows);
   for (std::size_t j = 0; j < inequalities.size(); ++j) {
     const Eigen::Index row = inequalities[j];
     const auto slack = static_cast<Eigen::Index>(j);
-    softness_[row] = 1.0 / (slack_sigma_[slack] + constant);
-    right_rows_[row] += softness_[row] * slack_slope_[slack];
+    compliance_[row] = 1.0 / (slack_sigma_[slack] + constant);
+    right_rows_[row] += compliance_[row] * slack_slope_[slack];
   }
   resize_unwritten(direction.x, diagonal_.size());
   resize_unwritten(direction.multipliers, rows.size());
   ++factorisations_;
   const Clock::time_point begin = Clock::now();
-  const Verdict verdict = kkt_.solve({hessian, program_.jacobian(), diagonal_, softness_}, slope,
-                                     inequalities.empty() ? rows : right_rows_, direction.x, direction.multipliers);
+  const FactorisationStatus verdict =
+      kkt_.solve({hessian, program_.jacobian(), diagonal_, compliance_}, slope,
+                 inequalities.empty() ? rows : right_rows_, direction.x, direction.multipliers);
   linear_seconds_ += seconds_since(begin);
   return verdict;
 }
@@ -93,7 +94,7 @@ Verdict NewtonStep::solve(const Eigen::VectorXd& hessian, double constant, const
 void NewtonStep::complete(const Point& point, double mu, Direction& direction) const {
   if (!program_.has_bounds()) return;
   direction.s =
-      softness_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()) - slack_slope_);
+      compliance_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()) - slack_slope_);
   set_bound_step(point.x, direction.x, program_.x_lower(), point.x_lower, 1.0, mu, direction.x_lower);
   set_bound_step(point.x, direction.x, program_.x_upper(), point.x_upper, -1.0, mu, direction.x_upper);
   set_bound_step(point.s, direction.s, program_.s_lower(), point.s_lower, 1.0, mu, direction.s_lower);
@@ -105,7 +106,7 @@ bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& s
   fill_barrier(point, mu, slope);
   const Eigen::VectorXd& of_barrier = program_.has_bounds() ? slope_ : slope;
   shift_.begin();
-  while (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != Verdict::solved) {
+  while (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != FactorisationStatus::solved) {
     // A number that is not finite shows in the verdict; to look for it before every step would take as long as a sweep.
     if (!is_finite(program_.hessian()) || !shift_.raise()) return false;
   }
@@ -117,7 +118,8 @@ bool NewtonStep::compute(const Point& point, double mu, const Eigen::VectorXd& s
 bool NewtonStep::correct(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                          Direction& direction) {
   const Eigen::VectorXd& of_barrier = program_.has_bounds() ? slope_ : slope;
-  if (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != Verdict::solved) return false;
+  if (solve(program_.hessian(), shift_.value(), of_barrier, rows, direction) != FactorisationStatus::solved)
+    return false;
   complete(point, mu, direction);
   return true;
 }
@@ -139,9 +141,9 @@ bool NewtonStep::towards_rows(const Point& point, double mu, const Eigen::Vector
   add_nearness(point.s, program_.s_lower(), mu, slack_sigma_);
   add_nearness(point.s, program_.s_upper(), mu, slack_sigma_);
   shift_.clear();
-  if (solve(no_hessian(), of_a_unit_of_length, no_slope, rows, direction) != Verdict::solved) return false;
+  if (solve(no_hessian(), of_a_unit_of_length, no_slope, rows, direction) != FactorisationStatus::solved) return false;
   if (program_.inequalities().empty()) return true;
-  direction.s = softness_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()));
+  direction.s = compliance_(program_.inequalities()).cwiseProduct(direction.multipliers(program_.inequalities()));
   return true;
 }
 
@@ -165,9 +167,9 @@ void NewtonStep::estimate_multipliers(Point& point) {
   sigma_.setZero();
   slack_sigma_.setZero();
   shift_.clear();
-  const Verdict verdict =
+  const FactorisationStatus verdict =
       solve(no_hessian(), of_a_unit_of_slope, slope, Eigen::VectorXd::Zero(point.multipliers.size()), direction);
-  if (verdict != Verdict::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return;
+  if (verdict != FactorisationStatus::solved || !(direction.multipliers.lpNorm<Eigen::Infinity>() <= largest)) return;
   point.multipliers = direction.multipliers;
 }
 

@@ -72,8 +72,8 @@ class NewtonStep {
  private:
   void fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope);
   /// With Σ + `constant` on the diagonal, of unknowns and of slacks.
-  [[nodiscard]] Verdict solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
-                              const Eigen::VectorXd& rows, Direction& direction);
+  [[nodiscard]] FactorisationStatus solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Direction& direction);
   [[nodiscard]] const Eigen::VectorXd& no_hessian();
   void fill_diagonal(double constant);
   void complete(const Point& point, double mu, Direction& direction) const;
@@ -85,7 +85,7 @@ class NewtonStep {
   // horizon are fetched from memory.
   Eigen::VectorXd sigma_;        // Σ of the unknowns
   Eigen::VectorXd slack_sigma_;  // Σ of the slacks
-  Eigen::VectorXd softness_;     // one per row
+  Eigen::VectorXd compliance_;   // one per row
   Eigen::VectorXd slope_;        // of the barrier function and the rows, with respect to the unknowns
   Eigen::VectorXd slack_slope_;  // with respect to the slacks
   Eigen::VectorXd right_rows_;

@@ -27,23 +27,25 @@ RefinedKkt::RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs,
                        double accuracy)
     : program_(program), fast_(std::move(fast)), residual_(program, runs), accuracy_(accuracy) {}
 
-Verdict RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                          Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
-  const Verdict verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
+FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                      const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                      Eigen::VectorXd& multiplier_step) {
+  const FactorisationStatus verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
   // Usually a refusal is right, and a shift of the Hessian cheaper than to ask another; after several it is doubtful.
-  refusals_ = verdict == Verdict::wrong_inertia ? refusals_ + 1 : 0;
+  refusals_ = verdict == FactorisationStatus::wrong_inertia ? refusals_ + 1 : 0;
   if (refusals_ % refusals_to_doubt != 0) return verdict;
-  if (verdict == Verdict::solved && unlooked_ > 0) {
+  if (verdict == FactorisationStatus::solved && unlooked_ > 0) {
     --unlooked_;
     return verdict;
   }
-  if (verdict == Verdict::solved && refine(*fast_, matrix, slope, rows, primal_step, multiplier_step)) return verdict;
+  if (verdict == FactorisationStatus::solved && refine(*fast_, matrix, slope, rows, primal_step, multiplier_step))
+    return verdict;
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
   ++fallbacks_;
-  const Verdict robust = robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
-  if (robust != Verdict::solved) return robust;
+  const FactorisationStatus robust = robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
+  if (robust != FactorisationStatus::solved) return robust;
   // Rounding may hide from it that rows depend on each other, but then its step solves nothing.
-  return refine(*robust_, matrix, slope, rows, primal_step, multiplier_step) ? robust : Verdict::singular;
+  return refine(*robust_, matrix, slope, rows, primal_step, multiplier_step) ? robust : FactorisationStatus::singular;
 }
 
 /// False if the step stays worse than tolerable.
@@ -55,7 +57,7 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::Ve
   if (is_fast && excess <= 1.0) unlooked_ = excess <= to_spare ? more_steps_to_pass : steps_to_pass;
   if (is_fast && excess > tolerable) {
     // The elimination by intervals learns from every system (its terminal weights): once more, from nothing.
-    if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != Verdict::solved) return false;
+    if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != FactorisationStatus::solved) return false;
     residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
     excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
   }
@@ -64,7 +66,7 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::Ve
     multiplier_correction_.resizeLike(multiplier_step);
     ++refinements_;
     if (kkt.solve(matrix, residual_.slope(), residual_.rows(), primal_correction_, multiplier_correction_) !=
-        Verdict::solved) {
+        FactorisationStatus::solved) {
       break;
     }
     primal_step += primal_correction_;

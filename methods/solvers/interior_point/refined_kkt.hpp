@@ -29,8 +29,9 @@ class RefinedKkt : public KktSystem {
   RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy)
       : RefinedKkt(program, ProgramRuns(program), std::move(fast), accuracy) {}
 
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                          Eigen::VectorXd& multiplier_step) override;
 
   [[nodiscard]] int refinements() const noexcept { return refinements_; }
   [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }

@@ -31,28 +31,28 @@ Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) c
   }
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, is_free(i) ? matrix.diagonal[i] : 1.0);
   for (int i = 0; i < m; ++i) {
-    entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.softness_of(i));
+    entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.compliance_of(i));
   }
   Eigen::SparseMatrix<double> lower(n + m, n + m);
   lower.setFromTriplets(entries.begin(), entries.end());
   return lower;
 }
 
-Verdict SparseKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
-  if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return Verdict::singular;
-  if (!factorisation_.factorise(lower_triangle(matrix))) return Verdict::singular;
-  if (factorisation_.negative_eigenvalues() != rows.size()) return Verdict::wrong_inertia;
+FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                                     Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+  if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return FactorisationStatus::singular;
+  if (!factorisation_.factorise(lower_triangle(matrix))) return FactorisationStatus::singular;
+  if (factorisation_.negative_eigenvalues() != rows.size()) return FactorisationStatus::wrong_inertia;
   Eigen::VectorXd right_hand_side(slope.size() + rows.size());
   right_hand_side << -slope, -rows;
   for (Eigen::Index i = 0; i < slope.size(); ++i) {
     if (!is_free_[static_cast<std::size_t>(i)]) right_hand_side[i] = 0.0;
   }
   const Eigen::VectorXd solution = factorisation_.solve(std::move(right_hand_side));
-  if (!solution.allFinite()) return Verdict::singular;
+  if (!solution.allFinite()) return FactorisationStatus::singular;
   primal_step = solution.head(slope.size());
   multiplier_step = solution.tail(rows.size());
-  return Verdict::solved;
+  return FactorisationStatus::solved;
 }
 
 }  // namespace dmocbench::interior_point

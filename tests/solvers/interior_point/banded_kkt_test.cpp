@@ -63,13 +63,13 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     ASSERT_NE(kkt, nullptr) << why;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    const Verdict verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    const FactorisationStatus verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
     // A band that is singular without its border: too few unknowns for its rows.
-    if (verdict == Verdict::untrusted && kkt->order().border_size > 0) {
+    if (verdict == FactorisationStatus::untrusted && kkt->order().border_size > 0) {
       ++untrusted;
       continue;
     }
-    ASSERT_EQ(verdict, Verdict::solved);
+    ASSERT_EQ(verdict, FactorisationStatus::solved);
     EXPECT_LT(dense.backward_error(primal, multipliers), 1e-13);
     Eigen::VectorXd found(primal.size() + multipliers.size());
     found << primal, multipliers;
@@ -95,9 +95,11 @@ TEST(BandedKkt, SeesCurvatureDownwardsWhereTheSlopePointsThere) {
   Eigen::VectorXd primal(numbers.slope.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
   numbers.diagonal.setConstant(-1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers), Verdict::wrong_inertia);
+  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers),
+            FactorisationStatus::wrong_inertia);
   numbers.diagonal.setConstant(1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers), Verdict::solved);
+  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers),
+            FactorisationStatus::solved);
 }
 
 /// The bandwidth of one-stage methods: rows and unknowns of two nodes and of the interval between them.
@@ -130,10 +132,11 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   numbers.jacobian.resize(static_cast<Eigen::Index>(program->jacobian_structure().size()));
   program->jacobian(sample(*program, tests::common_start(orbit)), numbers.jacobian);
   numbers.diagonal.setOnes(n);
-  numbers.softness.setZero(m);
+  numbers.compliance.setZero(m);
   numbers.slope.setOnes(n);
   numbers.rows.setOnes(m);
-  ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, numbers.slope, numbers.rows), Verdict::solved);
+  ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, numbers.slope, numbers.rows),
+            FactorisationStatus::solved);
   const auto lines = static_cast<double>(n + m);
   const auto width = static_cast<double>(kkt->order().half_bandwidth);
   EXPECT_GT(kkt->factorisation_operations(), 0.9 * lines * width * width);

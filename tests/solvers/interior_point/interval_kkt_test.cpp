@@ -35,9 +35,9 @@ KktNumbers numbers_at(NonlinearProgram& program, const Eigen::VectorXd& x, doubl
   program.hessian(x, 1.0, multipliers, numbers.hessian);
   program.jacobian(x, numbers.jacobian);
   numbers.diagonal = random_vector(program.variable_count(), 0.5, generator).array() + 0.5 + shift;
-  numbers.softness = random_vector(program.constraint_count(), 0.4, generator).array() + 0.5;
-  for (Eigen::Index i = 0; i < numbers.softness.size(); ++i) {
-    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.softness[i] = 0.0;
+  numbers.compliance = random_vector(program.constraint_count(), 0.4, generator).array() + 0.5;
+  for (Eigen::Index i = 0; i < numbers.compliance.size(); ++i) {
+    if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.compliance[i] = 0.0;
   }
   numbers.slope = random_vector(program.variable_count(), 1.0, generator);
   numbers.rows = random_vector(program.constraint_count(), 1.0, generator);
@@ -65,9 +65,9 @@ void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   const auto m = static_cast<Eigen::Index>(program.constraint_count());
   Eigen::VectorXd primal(n);
   Eigen::VectorXd multipliers(m);
-  const Verdict verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
-  EXPECT_EQ(verdict == Verdict::solved, is_minimum) << static_cast<int>(verdict);
-  if (verdict != Verdict::solved) return;
+  const FactorisationStatus verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+  EXPECT_EQ(verdict == FactorisationStatus::solved, is_minimum) << static_cast<int>(verdict);
+  if (verdict != FactorisationStatus::solved) return;
   const Eigen::VectorXd wanted = dense.solution();
   EXPECT_LT((primal - wanted.head(n)).lpNorm<Eigen::Infinity>(),
             1e-8 * (1.0 + wanted.head(n).lpNorm<Eigen::Infinity>()));

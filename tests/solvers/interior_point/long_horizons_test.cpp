@@ -34,7 +34,7 @@ struct Steps {
       : primal(Eigen::VectorXd::Constant(numbers.slope.size(), 1e300)),
         multipliers(Eigen::VectorXd::Constant(numbers.rows.size(), 1e300)) {}
 
-  [[nodiscard]] Verdict solve_with(KktSystem& kkt, const KktNumbers& numbers) {
+  [[nodiscard]] FactorisationStatus solve_with(KktSystem& kkt, const KktNumbers& numbers) {
     return kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
   }
   /// Every bit.
@@ -62,7 +62,7 @@ KktNumbers left_by(const Steps& steps, const NonlinearProgram& program, const Kk
   const LongVector primal = steps.primal.cast<long double>();
   const LongVector multipliers = steps.multipliers.cast<long double>();
   LongVector slope = numbers.diagonal.cast<long double>().cwiseProduct(primal) + numbers.slope.cast<long double>();
-  LongVector rows = numbers.rows.cast<long double>() - numbers.softness.cast<long double>().cwiseProduct(multipliers);
+  LongVector rows = numbers.rows.cast<long double>() - numbers.compliance.cast<long double>().cwiseProduct(multipliers);
   const SparsityPattern& hessian = program.hessian_structure();
   for (std::size_t e = 0; e < hessian.size(); ++e) {
     const auto value = static_cast<long double>(numbers.hessian[static_cast<Eigen::Index>(e)]);
@@ -95,12 +95,12 @@ void expect_nothing_to_correct(const Problem& problem, const tests::Scheme& sche
     const auto kkt = IntervalKkt::make(*program, why);
     ASSERT_NE(kkt, nullptr) << why;
     found.emplace_back(numbers);
-    ASSERT_EQ(found.back().solve_with(*kkt, numbers), Verdict::solved);
+    ASSERT_EQ(found.back().solve_with(*kkt, numbers), FactorisationStatus::solved);
     EXPECT_TRUE(found.back() == found.front()) << threads << " threads";
   }
   SparseKkt sparse(*program);
   Steps correction(numbers);
-  ASSERT_EQ(correction.solve_with(sparse, left_by(found.front(), *program, numbers)), Verdict::solved);
+  ASSERT_EQ(correction.solve_with(sparse, left_by(found.front(), *program, numbers)), FactorisationStatus::solved);
   const auto relative = [](const Eigen::VectorXd& error, const Eigen::VectorXd& of) {
     return error.lpNorm<Eigen::Infinity>() / of.lpNorm<Eigen::Infinity>();
   };
@@ -143,7 +143,7 @@ class GroupSweeps {
     give(Source::jacobian, numbers_.jacobian);
     give(Source::hessian, numbers_.hessian);
     give(Source::diagonal, numbers_.diagonal);
-    give(Source::softness, numbers_.softness);
+    give(Source::compliance, numbers_.compliance);
     give(Source::slope, numbers_.slope);
     give(Source::rows, numbers_.rows);
     give(Source::padded, padded_);
@@ -249,7 +249,7 @@ double relative_rest_of_slope(Transcription& program, const KktNumbers& numbers)
   std::string why;
   const auto kkt = IntervalKkt::make(program, why);
   Steps found(numbers);
-  EXPECT_EQ(found.solve_with(*kkt, numbers), Verdict::solved);
+  EXPECT_EQ(found.solve_with(*kkt, numbers), FactorisationStatus::solved);
   NewtonResidual residual(program);
   residual.compute(numbers.matrix(), numbers.slope, numbers.rows, found.primal, found.multipliers);
   return residual.slope().lpNorm<Eigen::Infinity>() /

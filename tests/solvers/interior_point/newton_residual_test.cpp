@@ -167,7 +167,7 @@ struct DenseResidual {
     const Eigen::MatrixXd H = written_as_dense(program.hessian_structure(), numbers.hessian, n, n, true);
     const Eigen::MatrixXd J = written_as_dense(program.jacobian_structure(), numbers.jacobian, m, n, false);
     slope = numbers.slope + H * primal + numbers.diagonal.cwiseProduct(primal) + J.transpose() * multipliers;
-    rows = numbers.rows + J * primal - numbers.softness.cwiseProduct(multipliers);
+    rows = numbers.rows + J * primal - numbers.compliance.cwiseProduct(multipliers);
     for (Eigen::Index i = 0; i < n; ++i) {
       if (program.variable_lower()[i] == program.variable_upper()[i]) slope[i] = 0.0;
     }
@@ -247,12 +247,12 @@ TEST(NewtonResidual, MayBeAsLargeAsTheRoundingOfTheProgram) {
   const Eigen::VectorXd jacobian =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(variables);
-  const Eigen::VectorXd softness = Eigen::VectorXd::Zero(rows);
+  const Eigen::VectorXd compliance = Eigen::VectorXd::Zero(rows);
   const Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables);
   const Eigen::VectorXd no_step = Eigen::VectorXd::Zero(variables);
   const Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(rows);
   NewtonResidual residual(program);
-  const KktMatrix matrix{hessian, jacobian, diagonal, softness};
+  const KktMatrix matrix{hessian, jacobian, diagonal, compliance};
   for (const double left : {0.5 * floor, 2.0 * floor}) {
     residual.compute(matrix, slope, Eigen::VectorXd::Constant(rows, left), no_step, no_multipliers);
     EXPECT_NEAR(residual.excess(matrix, no_step, no_multipliers, 1e-9), left / floor, 1e-6);

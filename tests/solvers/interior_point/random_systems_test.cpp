@@ -62,7 +62,8 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
   Eigen::VectorXd primal_step(primal.size());
   Eigen::VectorXd multiplier_step(multipliers.size());
   for (int corrections = 0; corrections <= most; ++corrections) {
-    if (kkt.solve(left.matrix(), left.slope, left.rows, primal_step, multiplier_step) != Verdict::solved) return -1;
+    if (kkt.solve(left.matrix(), left.slope, left.rows, primal_step, multiplier_step) != FactorisationStatus::solved)
+      return -1;
     primal += primal_step;
     multipliers += multiplier_step;
     Eigen::VectorXd found(wanted.size());
@@ -74,7 +75,7 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
   return -1;
 }
 
-Verdict verdict_of(IntervalKkt& kkt, const KktNumbers& numbers) {
+FactorisationStatus verdict_of(IntervalKkt& kkt, const KktNumbers& numbers) {
   Eigen::VectorXd primal(numbers.slope.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
   return kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
@@ -99,8 +100,9 @@ TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
     ++kinds.at(static_cast<std::size_t>(wanted));
     if (wanted == DenseVerdict::in_between) continue;
     if (wanted != DenseVerdict::minimum) {
-      const Verdict verdict = verdict_of(*kkt, numbers);
-      EXPECT_TRUE(verdict == Verdict::wrong_inertia || verdict == Verdict::singular) << static_cast<int>(verdict);
+      const FactorisationStatus verdict = verdict_of(*kkt, numbers);
+      EXPECT_TRUE(verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular)
+          << static_cast<int>(verdict);
       continue;
     }
     const int corrections = corrections_needed(*kkt, numbers, dense, most_corrections);
@@ -141,14 +143,15 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
     if (wanted == DenseVerdict::in_between) continue;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    const Verdict verdict = kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    const FactorisationStatus verdict = kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
     if (wanted != DenseVerdict::minimum) {
-      EXPECT_TRUE(verdict == Verdict::wrong_inertia || verdict == Verdict::singular) << static_cast<int>(verdict);
+      EXPECT_TRUE(verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular)
+          << static_cast<int>(verdict);
       continue;
     }
     ++minima;
     fallbacks += kkt.fallbacks();
-    ASSERT_EQ(verdict, Verdict::solved);
+    ASSERT_EQ(verdict, FactorisationStatus::solved);
     Eigen::VectorXd found(primal.size() + multipliers.size());
     found << primal, multipliers;
     const double error = relative_error(found, dense.solution(), primal.size());
@@ -173,7 +176,7 @@ int shifts_too_many(IntervalKkt& kkt, const NonlinearProgram& program, KktNumber
     numbers.diagonal.setConstant(shift);
     const DenseVerdict wanted = dense_verdict(DenseKkt(program, numbers), full_rank);
     if (wanted == DenseVerdict::dependent_rows || wanted == DenseVerdict::in_between) return 0;
-    const bool is_solved = verdict_of(kkt, numbers) == Verdict::solved;
+    const bool is_solved = verdict_of(kkt, numbers) == FactorisationStatus::solved;
     if (wanted == DenseVerdict::indefinite) {
       EXPECT_FALSE(is_solved) << "shift " << shift;
       needs_shift = true;

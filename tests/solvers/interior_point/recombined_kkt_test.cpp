@@ -37,9 +37,9 @@ KktNumbers numbers_near(Transcription& program, const Motion& motion, double shi
   program.hessian(x, 1.0, random.vector(m, -1e-2, 1e-2), numbers.hessian);
   program.jacobian(x, numbers.jacobian);
   numbers.diagonal = random.vector(n, 0.0, 1.0).array() + shift;
-  numbers.softness.setZero(m);
+  numbers.compliance.setZero(m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    if (program.constraint_lower()[i] != program.constraint_upper()[i]) numbers.softness[i] = random.number(0.1, 1.0);
+    if (program.constraint_lower()[i] != program.constraint_upper()[i]) numbers.compliance[i] = random.number(0.1, 1.0);
   }
   numbers.slope = random.vector(n);
   numbers.rows = random.vector(m);
@@ -53,7 +53,7 @@ KktNumbers numbers_near(Transcription& program, const Motion& motion, double shi
 }
 
 struct Step {
-  Verdict verdict = Verdict::untrusted;
+  FactorisationStatus verdict = FactorisationStatus::untrusted;
   Eigen::VectorXd both;  // unknowns, then multipliers
 };
 
@@ -85,8 +85,8 @@ Shape expect_same_step(const Problem& problem, Eigen::Index intervals, const Mot
     shape = recombined->shape();
     const Step wanted = step_of(*own, numbers);
     const Step found = step_of(*recombined, numbers);
-    EXPECT_EQ(wanted.verdict, Verdict::solved);
-    EXPECT_EQ(found.verdict, Verdict::solved);
+    EXPECT_EQ(wanted.verdict, FactorisationStatus::solved);
+    EXPECT_EQ(found.verdict, FactorisationStatus::solved);
     const Eigen::VectorXd exact = DenseKkt(*program, numbers).solution();
     const auto error = [&](const Step& step, Eigen::Index first, Eigen::Index count) {
       return (step.both - exact).segment(first, count).lpNorm<Eigen::Infinity>() /

@@ -25,14 +25,16 @@ using tests::SystemChoice;
 /// The sparse factorisation, with what it finds spoilt.
 class SpoiltKkt final : public KktSystem {
  public:
-  using Spoil = std::function<Verdict(Verdict, Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step)>;
+  using Spoil = std::function<FactorisationStatus(FactorisationStatus, Eigen::VectorXd& primal_step,
+                                                  Eigen::VectorXd& multiplier_step)>;
   SpoiltKkt(const NonlinearProgram& program, Spoil spoil, int& solves)
       : exact_(program, SparseKkt::Order::along_the_horizon), spoil_(std::move(spoil)), solves_(solves) {}
 
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override {
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                          Eigen::VectorXd& multiplier_step) override {
     ++solves_;
-    const Verdict verdict = exact_.solve(matrix, slope, rows, primal_step, multiplier_step);
+    const FactorisationStatus verdict = exact_.solve(matrix, slope, rows, primal_step, multiplier_step);
     return spoil_(verdict, primal_step, multiplier_step);
   }
 
@@ -65,7 +67,7 @@ struct System {
 };
 
 struct Found {
-  Verdict verdict = Verdict::untrusted;
+  FactorisationStatus verdict = FactorisationStatus::untrusted;
   double error = 0.0;  // relative to the exact step
   double error_of_sparse = 0.0;
   int solves = 0;  // by the spoilt factorisation
@@ -79,7 +81,7 @@ Found found_with(System& system, const SpoiltKkt::Spoil& spoil, double accuracy)
   RefinedKkt kkt(system.program, std::make_unique<SpoiltKkt>(system.program, spoil, found.solves), accuracy);
   const DenseKkt dense(system.program, numbers);
   const Eigen::VectorXd wanted = dense.solution();
-  const auto error_of = [&](KktSystem& any, Verdict& verdict) {
+  const auto error_of = [&](KktSystem& any, FactorisationStatus& verdict) {
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     verdict = any.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
@@ -89,20 +91,23 @@ Found found_with(System& system, const SpoiltKkt::Spoil& spoil, double accuracy)
   };
   found.error = error_of(kkt, found.verdict);
   SparseKkt sparse(system.program, SparseKkt::Order::along_the_horizon);  // as it falls back to
-  Verdict of_sparse{};
+  FactorisationStatus of_sparse{};
   found.error_of_sparse = error_of(sparse, of_sparse);
   found.refinements = kkt.refinements();
   found.fallbacks = kkt.fallbacks();
   return found;
 }
 
-Verdict untouched(Verdict verdict, Eigen::VectorXd& /*primal*/, Eigen::VectorXd& /*multipliers*/) { return verdict; }
+FactorisationStatus untouched(FactorisationStatus verdict, Eigen::VectorXd& /*primal*/,
+                              Eigen::VectorXd& /*multipliers*/) {
+  return verdict;
+}
 
 TEST(RefinedKkt, LeavesAnExactStepAlone) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     System system(seed);
     const Found found = found_with(system, untouched, 1e-10);
-    EXPECT_EQ(found.verdict, Verdict::solved);
+    EXPECT_EQ(found.verdict, FactorisationStatus::solved);
     EXPECT_EQ(found.error, found.error_of_sparse);
     EXPECT_EQ(found.refinements, 0);
     EXPECT_EQ(found.fallbacks, 0);
@@ -114,13 +119,13 @@ TEST(RefinedKkt, MakesInaccurateStepsAsGoodAsThoseOfTheSparseFactorisationInAFew
     SCOPED_TRACE("seed " + std::to_string(seed));
     System system(seed);
     RandomPoints random(seed);
-    const auto spoil = [&](Verdict verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
+    const auto spoil = [&](FactorisationStatus verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
       primal.array() *= 1.0 + random.vector(primal.size(), -1e-3, 1e-3).array();
       multipliers.array() *= 1.0 + random.vector(multipliers.size(), -1e-3, 1e-3).array();
       return verdict;
     };
     const Found found = found_with(system, spoil, 1e-13);
-    EXPECT_EQ(found.verdict, Verdict::solved);
+    EXPECT_EQ(found.verdict, FactorisationStatus::solved);
     EXPECT_LE(found.error, found.error_of_sparse);
     EXPECT_GE(found.refinements, 2);
     EXPECT_LE(found.refinements, 5);
@@ -129,12 +134,12 @@ TEST(RefinedKkt, MakesInaccurateStepsAsGoodAsThoseOfTheSparseFactorisationInAFew
 }
 
 TEST(RefinedKkt, FallsBackToTheSparseFactorisationWhereRefinementDoesNotHelp) {
-  const auto doubled = [](Verdict verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
+  const auto doubled = [](FactorisationStatus verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
     primal *= 2.0;
     multipliers *= 2.0;
     return verdict;
   };
-  const auto infinite = [](Verdict verdict, Eigen::VectorXd& primal, Eigen::VectorXd& /*multipliers*/) {
+  const auto infinite = [](FactorisationStatus verdict, Eigen::VectorXd& primal, Eigen::VectorXd& /*multipliers*/) {
     primal[primal.size() / 2] = std::numeric_limits<double>::infinity();
     return verdict;
   };
@@ -142,7 +147,7 @@ TEST(RefinedKkt, FallsBackToTheSparseFactorisationWhereRefinementDoesNotHelp) {
     for (unsigned seed = 0; seed < 20; ++seed) {
       System system(seed);
       const Found found = found_with(system, spoil, 1e-6);
-      EXPECT_EQ(found.verdict, Verdict::solved);
+      EXPECT_EQ(found.verdict, FactorisationStatus::solved);
       EXPECT_EQ(found.fallbacks, 1);
       EXPECT_EQ(found.error, found.error_of_sparse);
       EXPECT_LE(found.solves, 3) << "it should have given up";
@@ -155,14 +160,14 @@ TEST(RefinedKkt, KeepsTheBestStep) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     System system(seed);
     int solves = 0;
-    const auto spoil = [&](Verdict verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
+    const auto spoil = [&](FactorisationStatus verdict, Eigen::VectorXd& primal, Eigen::VectorXd& multipliers) {
       const double factor = solves++ == 0 ? 1.0 + 1e-5 : 100.0;
       primal *= factor;
       multipliers *= factor;
       return verdict;
     };
     const Found found = found_with(system, spoil, 1e-6);  // good enough not to fall back
-    EXPECT_EQ(found.verdict, Verdict::solved);
+    EXPECT_EQ(found.verdict, FactorisationStatus::solved);
     EXPECT_EQ(found.refinements, 1);
     EXPECT_EQ(found.fallbacks, 0);
     EXPECT_NEAR(found.error, 1e-5, 1e-9);
@@ -170,14 +175,14 @@ TEST(RefinedKkt, KeepsTheBestStep) {
 }
 
 TEST(RefinedKkt, FallsBackWhereTheFastWayTrustsItselfNoMoreOrFindsDependentRows) {
-  for (const Verdict reported : {Verdict::untrusted, Verdict::singular}) {
+  for (const FactorisationStatus reported : {FactorisationStatus::untrusted, FactorisationStatus::singular}) {
     System system(1);
-    const auto spoil = [&](Verdict /*verdict*/, Eigen::VectorXd& primal, Eigen::VectorXd& /*multipliers*/) {
+    const auto spoil = [&](FactorisationStatus /*verdict*/, Eigen::VectorXd& primal, Eigen::VectorXd& /*multipliers*/) {
       primal.setConstant(std::numeric_limits<double>::quiet_NaN());
       return reported;
     };
     const Found found = found_with(system, spoil, 1e-6);
-    EXPECT_EQ(found.verdict, Verdict::solved);
+    EXPECT_EQ(found.verdict, FactorisationStatus::solved);
     EXPECT_EQ(found.fallbacks, 1);
     EXPECT_EQ(found.refinements, 0);
     EXPECT_EQ(found.error, found.error_of_sparse);
@@ -186,9 +191,11 @@ TEST(RefinedKkt, FallsBackWhereTheFastWayTrustsItselfNoMoreOrFindsDependentRows)
 
 TEST(RefinedKkt, BelievesAWrongInertia) {
   System system(1);
-  const auto spoil = [](Verdict, Eigen::VectorXd&, Eigen::VectorXd&) { return Verdict::wrong_inertia; };
+  const auto spoil = [](FactorisationStatus, Eigen::VectorXd&, Eigen::VectorXd&) {
+    return FactorisationStatus::wrong_inertia;
+  };
   const Found found = found_with(system, spoil, 1e-6);
-  EXPECT_EQ(found.verdict, Verdict::wrong_inertia);
+  EXPECT_EQ(found.verdict, FactorisationStatus::wrong_inertia);
   EXPECT_EQ(found.fallbacks, 0);
   EXPECT_EQ(found.refinements, 0);
   EXPECT_EQ(found.solves, 1);
@@ -212,10 +219,10 @@ TEST(RefinedKkt, RefusesRowsThatDependOnEachOtherWhereTheSparseFactorisationDoes
     };
     for (const auto order : {SparseKkt::Order::found, SparseKkt::Order::along_the_horizon}) {
       SparseKkt sparse(program, order);
-      if (verdict_of(sparse) == Verdict::solved) ++missed_by_sparse;
+      if (verdict_of(sparse) == FactorisationStatus::solved) ++missed_by_sparse;
       RefinedKkt refined(program, std::make_unique<SparseKkt>(program, order));
-      const Verdict verdict = verdict_of(refined);
-      EXPECT_TRUE(verdict == Verdict::singular || verdict == Verdict::wrong_inertia);
+      const FactorisationStatus verdict = verdict_of(refined);
+      EXPECT_TRUE(verdict == FactorisationStatus::singular || verdict == FactorisationStatus::wrong_inertia);
     }
   }
   EXPECT_GT(missed_by_sparse, 0) << "this test shows nothing";
@@ -224,9 +231,11 @@ TEST(RefinedKkt, RefusesRowsThatDependOnEachOtherWhereTheSparseFactorisationDoes
 TEST(RefinedKkt, FindsTheWrongInertiaOfTheSparseFactorisationThatItFallsBackTo) {
   System system(1);
   system.numbers.diagonal.setConstant(-1e3);
-  const auto spoil = [](Verdict, Eigen::VectorXd&, Eigen::VectorXd&) { return Verdict::untrusted; };
+  const auto spoil = [](FactorisationStatus, Eigen::VectorXd&, Eigen::VectorXd&) {
+    return FactorisationStatus::untrusted;
+  };
   const Found found = found_with(system, spoil, 1e-6);
-  EXPECT_EQ(found.verdict, Verdict::wrong_inertia);
+  EXPECT_EQ(found.verdict, FactorisationStatus::wrong_inertia);
   EXPECT_EQ(found.fallbacks, 1);
 }
 

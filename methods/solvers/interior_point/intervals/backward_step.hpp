@@ -245,7 +245,7 @@ DMOCBENCH_INLINE void weigh_inequality(const S& shape, const LocalBlocks<S>& blo
   const int w = free_size(shape);
   const int N = column_count(shape);
   Lanes* const line = work.line;
-  const Lanes weight = Lanes::all(1.0) / local[blocks.softness() + row];
+  const Lanes weight = Lanes::all(1.0) / local[blocks.compliance() + row];
   for (int j = 0; j < N; ++j) {
     Lanes sum = j < w ? local[blocks.soft(row, shape.rows + j)] : local[blocks.soft(row, Z + j - w)];
     for (int z = 0; z < shape.rows; ++z) sum += local[blocks.soft(row, z)] * dependent_entry(shape, work, z, j);

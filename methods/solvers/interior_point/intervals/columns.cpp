@@ -32,16 +32,16 @@ Member Columns::member(std::size_t place) const {
   if (behind != columns_.begin()) {
     const Column& column = *std::prev(behind);
     if (place - column.first < column.length) {
-      return {column.kind, place - column.first, column.number, column.is_soft};
+      return {column.kind, place - column.first, column.number, column.is_inequality};
     }
   }
   return {places_[place].kind, places_[place].index, -1, false};
 }
 
-void Columns::renumber(std::size_t first, int number, bool is_soft) {
+void Columns::renumber(std::size_t first, int number, bool is_inequality) {
   const auto found = std::ranges::find(columns_, first, &Column::first);
   found->number = number;
-  found->is_soft = is_soft;
+  found->is_inequality = is_inequality;
 }
 
 }  // namespace dmocbench::interior_point

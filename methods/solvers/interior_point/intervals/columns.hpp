@@ -10,9 +10,9 @@ namespace dmocbench::interior_point {
 /// Where an unknown or a row stands.
 struct Member {
   Place::Kind kind = Place::Kind::border;
-  std::size_t at = 0;    ///< node or interval
-  int column = -1;       ///< number among the columns of its kind; -1 for a single one
-  bool is_soft = false;  ///< rows only
+  std::size_t at = 0;          ///< node or interval
+  int column = -1;             ///< number among the columns of its kind; -1 for a single one
+  bool is_inequality = false;  ///< rows only
 };
 
 /// The columns of a program's unknowns or rows: stretches of places of one kind that count all nodes, or all intervals,
@@ -29,7 +29,7 @@ class Columns {
   [[nodiscard]] Member member(std::size_t place) const;
 
   /// Gives the column of intervals that begins at `first` another number, among those that are as soft.
-  void renumber(std::size_t first, int number, bool is_soft);
+  void renumber(std::size_t first, int number, bool is_inequality);
 
  private:
   struct Column {
@@ -37,7 +37,7 @@ class Columns {
     std::size_t length;
     Place::Kind kind;
     int number;
-    bool is_soft;
+    bool is_inequality;
   };
 
   const std::vector<Place>& places_;

@@ -106,7 +106,8 @@ class Slots {
       case LocalEntry::Block::carry:
         return twice(blocks_.carry(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
       case LocalEntry::Block::soft:
-        return twice(entry.column < 0 ? blocks_.softness() + entry.row : blocks_.soft(entry.row, column(entry.column)));
+        return twice(entry.column < 0 ? blocks_.compliance() + entry.row
+                                      : blocks_.soft(entry.row, column(entry.column)));
       case LocalEntry::Block::hessian:
         break;
     }

@@ -130,30 +130,30 @@ void EndSystem::assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, 
     right_hand_side_[unknown.at] -= value_at(slope, unknown.number);
   }
   for (const Bound& row : rows_) {
-    matrix_(row.at, row.at) -= matrix.softness_of(static_cast<Eigen::Index>(row.number));
+    matrix_(row.at, row.at) -= matrix.compliance_of(static_cast<Eigen::Index>(row.number));
     right_hand_side_[row.at] -= value_at(rows, row.number);
   }
 }
 
-Verdict EndSystem::factorise_and_solve() {
+FactorisationStatus EndSystem::factorise_and_solve() {
   reduced_ = matrix_(kept_, kept_);
   Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
   const DenseInertia inertia = solve_symmetric(reduced_, reduced_solution);
   is_certain_ = inertia.is_certain;
-  if (inertia.is_singular) return Verdict::singular;
+  if (inertia.is_singular) return FactorisationStatus::singular;
   const auto wanted = std::count_if(kept_.begin(), kept_.end(), [&](Eigen::Index at) { return at >= first_row_; });
-  if (inertia.negative != wanted) return Verdict::wrong_inertia;
+  if (inertia.negative != wanted) return FactorisationStatus::wrong_inertia;
   solution_.setZero(size_);
   solution_(kept_) = reduced_solution;
-  return Verdict::solved;
+  return FactorisationStatus::solved;
 }
 
-Verdict EndSystem::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                         const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
-                         const Eigen::VectorXd& terminal_weights) {
+FactorisationStatus EndSystem::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
+                                     const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
+                                     const Eigen::VectorXd& terminal_weights) {
   assemble(matrix, slope, rows, horizon, last_carry, terminal_weights);
-  const Verdict verdict = factorise_and_solve();
-  if (verdict != Verdict::solved) return verdict;
+  const FactorisationStatus verdict = factorise_and_solve();
+  if (verdict != FactorisationStatus::solved) return verdict;
   state_ = solution_.head(state_size_);
   multiplier_ = solution_.segment(multiplier_at_, state_size_);
   return verdict;

@@ -21,9 +21,9 @@ class EndSystem {
 
   /// Solves it for a horizon with the value `horizon`, in whose last state s_N is short of `last_carry` x_N (carried x
   /// node, see `moves_by_increment`).
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
-                              const Eigen::VectorXd& terminal_weights);
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, const SegmentValue& horizon,
+                                          const Eigen::MatrixXd& last_carry, const Eigen::VectorXd& terminal_weights);
 
   /// True if no rounding hides what the last system's inertia is. As the matrix is that of the program in other
   /// coordinates, whatever the terminal weights are, no others would find another one.
@@ -57,7 +57,7 @@ class EndSystem {
   void assemble(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
                 const SegmentValue& horizon, const Eigen::MatrixXd& last_carry,
                 const Eigen::VectorXd& terminal_weights);
-  [[nodiscard]] Verdict factorise_and_solve();
+  [[nodiscard]] FactorisationStatus factorise_and_solve();
 
   Eigen::Index state_size_ = 0;
   Eigen::Index size_ = 0;       // of all, before some are left out

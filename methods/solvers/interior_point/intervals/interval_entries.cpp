@@ -36,7 +36,7 @@ class Sorter {
                      .shared = count(result_.shared_unknowns),
                      .inner = count(result_.inner_unknowns),
                      .rows = count(result_.node_rows) + count(result_.interval_rows),
-                     .soft = count(result_.soft_rows)};
+                     .soft = count(result_.inequality_rows)};
     if (free_size(result_.shape) < 0) throw Irregular{"an interval has more equalities than unknowns"};
     require_free_between_ends();
     sort(Source::hessian, program_.hessian_structure(), runs.hessian,
@@ -84,14 +84,14 @@ class Sorter {
     result_.node_rows = rows_.nodes();
     for (const std::size_t first : rows_.nodes()) {
       for (std::size_t k = 0; k <= result_.intervals; ++k) {
-        if (is_soft(first + k)) throw Irregular{"a row of a node is an inequality"};
+        if (is_inequality(first + k)) throw Irregular{"a row of a node is an inequality"};
       }
     }
     for (const std::size_t first : rows_.inner()) {
-      const bool soft = is_soft(first);
-      auto& list = soft ? result_.soft_rows : result_.interval_rows;
+      const bool soft = is_inequality(first);
+      auto& list = soft ? result_.inequality_rows : result_.interval_rows;
       for (std::size_t k = 0; k < result_.intervals; ++k) {
-        if (is_soft(first + k) != soft) throw Irregular{"a row is an equality in some intervals only"};
+        if (is_inequality(first + k) != soft) throw Irregular{"a row is an equality in some intervals only"};
       }
       rows_.renumber(first, count(list), soft);
       list.push_back(first);
@@ -102,7 +102,7 @@ class Sorter {
     }
   }
 
-  [[nodiscard]] bool is_soft(std::size_t row) const {
+  [[nodiscard]] bool is_inequality(std::size_t row) const {
     const auto i = static_cast<Eigen::Index>(row);
     return constraint_lower_[i] != constraint_upper_[i];
   }
@@ -250,7 +250,7 @@ class Sorter {
   [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) const {
     const int column = seen_from(of, row.at);
     if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
-    if (row.is_soft) return {Destination::Where::interval, {LocalEntry::Block::soft, row.column, column}, row.at};
+    if (row.is_inequality) return {Destination::Where::interval, {LocalEntry::Block::soft, row.column, column}, row.at};
     const int number = result_.shape.carried + row.column;
     return {Destination::Where::interval, {LocalEntry::Block::equality, number, column}, row.at};
   }
@@ -303,9 +303,9 @@ class Sorter {
       result_.local.push_back({Block::equality, i, one, Source::rows, first});
     }
     for (int i = 0; i < shape.soft; ++i) {
-      const std::size_t first = result_.soft_rows[static_cast<std::size_t>(i)];
+      const std::size_t first = result_.inequality_rows[static_cast<std::size_t>(i)];
       result_.local.push_back({Block::soft, i, one, Source::rows, first});
-      result_.local.push_back({Block::soft, i, -1, Source::softness, first});
+      result_.local.push_back({Block::soft, i, -1, Source::compliance, first});
     }
   }
 

@@ -53,7 +53,7 @@ struct IntervalEntries {
   std::vector<std::size_t> inner_unknowns;
   std::vector<std::size_t> node_rows;
   std::vector<std::size_t> interval_rows;
-  std::vector<std::size_t> soft_rows;
+  std::vector<std::size_t> inequality_rows;
 
   std::vector<std::size_t> shared_unknowns;
   std::vector<bool> inner_is_fixed;                         ///< one per inner unknown

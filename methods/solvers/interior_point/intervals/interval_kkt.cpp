@@ -44,7 +44,7 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
   give(Source::jacobian, matrix.jacobian);
   give(Source::hessian, matrix.hessian);
   give(Source::diagonal, matrix.diagonal);
-  give(Source::softness, matrix.softness);
+  give(Source::compliance, matrix.compliance);
   give(Source::slope, slope);
   give(Source::rows, rows);
   give(Source::padded, padded_);
@@ -69,43 +69,46 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   return true;
 }
 
-Verdict IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                           Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                       const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                       Eigen::VectorXd& multiplier_step) {
   NewtonArrays arrays = arrays_of(matrix, slope, rows);
-  if (!has_plan_ && !choose_plan(arrays)) return Verdict::singular;
+  if (!has_plan_ && !choose_plan(arrays)) return FactorisationStatus::singular;
   weights_.follow(arrays);
-  Verdict verdict = eliminate(arrays, matrix, slope, rows);
-  if (verdict == Verdict::untrusted) {
-    if (!choose_plan(arrays)) return Verdict::singular;
+  FactorisationStatus verdict = eliminate(arrays, matrix, slope, rows);
+  if (verdict == FactorisationStatus::untrusted) {
+    if (!choose_plan(arrays)) return FactorisationStatus::singular;
     verdict = eliminate(arrays, matrix, slope, rows);
   }
   // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
   const auto may_be_weight = [&] {
-    return (verdict == Verdict::wrong_inertia || verdict == Verdict::singular) && !has_certain_inertia_;
+    return (verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular) &&
+           !has_certain_inertia_;
   };
   // To try the other weights costs less than the factorisation that is asked otherwise.
-  if (verdict == Verdict::singular) weights_.believe_no_failure();
+  if (verdict == FactorisationStatus::singular) weights_.believe_no_failure();
   while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
-  if (verdict != Verdict::solved) return verdict;
+  if (verdict != FactorisationStatus::solved) return verdict;
   substitute(arrays, rows, primal_step, multiplier_step);
-  return is_finite(primal_step) && is_finite(multiplier_step) ? Verdict::solved : Verdict::singular;
+  return is_finite(primal_step) && is_finite(multiplier_step) ? FactorisationStatus::solved
+                                                              : FactorisationStatus::singular;
 }
 
-Verdict IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                               const Eigen::VectorXd& rows) {
+FactorisationStatus IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                           const Eigen::VectorXd& rows) {
   arrays.terminal_weights = weights_.values().data();
   has_certain_inertia_ = false;
   ++eliminations_;
   for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
   for (const GroupMemory& memory : groups_) {
-    if (!(memory.group().smallest_ratio > smallest_ratio)) return Verdict::untrusted;
+    if (!(memory.group().smallest_ratio > smallest_ratio)) return FactorisationStatus::untrusted;
   }
   for (const GroupMemory& memory : groups_) {
-    if (!memory.group().pivots_hold) return Verdict::wrong_inertia;
+    if (!memory.group().pivots_hold) return FactorisationStatus::wrong_inertia;
   }
-  if (!join_segments()) return Verdict::wrong_inertia;
+  if (!join_segments()) return FactorisationStatus::wrong_inertia;
   find_last_carry(arrays);
-  const Verdict verdict = ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
+  const FactorisationStatus verdict = ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
   has_certain_inertia_ = ends_.is_certain();
   return verdict;
 }
@@ -172,7 +175,7 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
     kernel_.forward(plan_, arrays, groups_[g].group(), primal_step.data(), multiplier_step.data());
   });
   ends_.write(primal_step, multiplier_step);
-  write_soft_multipliers(arrays, rows, primal_step, multiplier_step);
+  write_inequality_multipliers(arrays, rows, primal_step, multiplier_step);
 }
 
 /// The sweep writes what moves, and `EndSystem` all that belongs to the ends.
@@ -193,18 +196,19 @@ std::size_t IntervalKkt::first_of(int column) const {
   return entries_.shared_unknowns[static_cast<std::size_t>(state - shape.node - shape.carried)];
 }
 
-void IntervalKkt::write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
-                                         const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const {
+void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
+                                               const Eigen::VectorXd& primal_step,
+                                               Eigen::VectorXd& multiplier_step) const {
   const auto count = static_cast<Eigen::Index>(entries_.intervals);
   const auto at = [](std::size_t first) { return static_cast<Eigen::Index>(first); };
-  for (const std::size_t row : entries_.soft_rows) {
+  for (const std::size_t row : entries_.inequality_rows) {
     multiplier_step.segment(at(row), count) = rows.segment(at(row), count);
   }
   const int first_shared = next_size(entries_.shape) + entries_.shape.node + entries_.shape.carried;
   const int one = next_size(entries_.shape) + state_size(entries_.shape);
   for (const LocalEntry& entry : entries_.local) {
     if (entry.block != LocalEntry::Block::soft || entry.column < 0 || entry.column == one) continue;
-    auto sum = multiplier_step.segment(at(entries_.soft_rows[static_cast<std::size_t>(entry.row)]), count);
+    auto sum = multiplier_step.segment(at(entries_.inequality_rows[static_cast<std::size_t>(entry.row)]), count);
     const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
     if (entry.column >= first_shared) {
       sum += derivative * primal_step[at(first_of(entry.column))];
@@ -212,9 +216,9 @@ void IntervalKkt::write_soft_multipliers(const NewtonArrays& arrays, const Eigen
       sum += derivative.cwiseProduct(primal_step.segment(at(first_of(entry.column)), count));
     }
   }
-  for (const std::size_t row : entries_.soft_rows) {
-    const Eigen::Map<const Eigen::ArrayXd> softness(arrays.of(Source::softness) + row, count);
-    multiplier_step.segment(at(row), count).array() /= softness;
+  for (const std::size_t row : entries_.inequality_rows) {
+    const Eigen::Map<const Eigen::ArrayXd> compliance(arrays.of(Source::compliance) + row, count);
+    multiplier_step.segment(at(row), count).array() /= compliance;
   }
 }
 

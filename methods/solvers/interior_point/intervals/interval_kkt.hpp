@@ -34,8 +34,9 @@ class IntervalKkt : public KktSystem {
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
 
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                          Eigen::VectorXd& multiplier_step) override;
 
   [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
   /// Backward sweeps so far, with those for other terminal weights and other orders of elimination.
@@ -45,16 +46,16 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
                                        const Eigen::VectorXd& rows);
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
-  [[nodiscard]] Verdict eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                  const Eigen::VectorXd& rows);
+  [[nodiscard]] FactorisationStatus eliminate(NewtonArrays& arrays, const KktMatrix& matrix,
+                                              const Eigen::VectorXd& slope, const Eigen::VectorXd& rows);
   [[nodiscard]] bool join_segments();
   void read_value(const SegmentGroup& group, int segment);
   void find_last_carry(const NewtonArrays& arrays);
   void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
                   Eigen::VectorXd& multiplier_step);
   void set_fixed_to_zero(Eigen::VectorXd& primal_step) const;
-  void write_soft_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
-                              const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
+  void write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
+                                    const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
   [[nodiscard]] std::size_t first_of(int column) const;
 
   IntervalEntries entries_;

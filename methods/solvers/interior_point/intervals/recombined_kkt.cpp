@@ -64,7 +64,7 @@ RecombinedKkt::RecombinedKkt(const NonlinearProgram& program, std::vector<Moment
   for (const RecombinedProgram::Constant& constant : recombined_.constants()) {
     jacobian_[constant.entry] = constant.value;
   }
-  softness_.setZero(rows);
+  compliance_.setZero(rows);
   rows_.setZero(rows);
   multiplier_step_.setZero(rows);
   primal_step_.setZero(unknowns);
@@ -184,21 +184,22 @@ void RecombinedKkt::read_multipliers(const Eigen::VectorXd& slope, Eigen::Vector
   kept_rows_.put_into(multiplier_step, multiplier_step_.tail(kept_rows_.size()));
 }
 
-Verdict RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                             Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
-  if (!find_combinations(matrix.jacobian)) return Verdict::singular;
+FactorisationStatus RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                         const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                         Eigen::VectorXd& multiplier_step) {
+  if (!find_combinations(matrix.jacobian)) return FactorisationStatus::singular;
   combine_jacobian(matrix.jacobian);
   combine_rows(rows);
   move_slope(slope);
   unknowns_.take_from(matrix.diagonal, diagonal_);
-  if (matrix.softness.size() > 0) kept_rows_.take_from(matrix.softness, softness_.tail(kept_rows_.size()));
-  const Verdict verdict =
-      system_->solve({matrix.hessian, jacobian_, diagonal_, softness_}, slope_, rows_, primal_step_, multiplier_step_);
-  if (verdict != Verdict::solved) return verdict;
+  if (matrix.compliance.size() > 0) kept_rows_.take_from(matrix.compliance, compliance_.tail(kept_rows_.size()));
+  const FactorisationStatus verdict = system_->solve({matrix.hessian, jacobian_, diagonal_, compliance_}, slope_, rows_,
+                                                     primal_step_, multiplier_step_);
+  if (verdict != FactorisationStatus::solved) return verdict;
   unknowns_.put_into(primal_step, primal_step_);
   read_momenta(rows, primal_step);
   read_multipliers(slope, multiplier_step);
-  return Verdict::solved;
+  return FactorisationStatus::solved;
 }
 
 }  // namespace dmocbench::interior_point

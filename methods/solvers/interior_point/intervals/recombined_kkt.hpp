@@ -35,8 +35,9 @@ class RecombinedKkt final : public KktSystem {
 
   RecombinedKkt(const NonlinearProgram& program, std::vector<MomentumPair> pairs, SegmentKernelChoice choose);
 
-  [[nodiscard]] Verdict solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                              Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
+                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
+                                          Eigen::VectorXd& multiplier_step) override;
 
   /// Multiplications and divisions per interval that combining the matrix takes, before it is eliminated.
   [[nodiscard]] double combination_operations() const;
@@ -73,7 +74,7 @@ class RecombinedKkt final : public KktSystem {
   // The system that is solved instead.
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd diagonal_;
-  Eigen::VectorXd softness_;
+  Eigen::VectorXd compliance_;
   Eigen::VectorXd slope_;
   Eigen::VectorXd rows_;
   Eigen::VectorXd primal_step_;

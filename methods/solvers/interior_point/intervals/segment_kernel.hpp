@@ -12,7 +12,7 @@ namespace dmocbench::interior_point {
 inline constexpr int lane_count = 8;
 
 /// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
-enum class Source : unsigned char { jacobian, hessian, diagonal, slope, rows, softness, padded };
+enum class Source : unsigned char { jacobian, hessian, diagonal, slope, rows, compliance, padded };
 inline constexpr std::size_t source_count = 7;
 
 /// One number of every interval: interval k reads entry `first` + k of an array and puts it into (or adds it to) the

@@ -100,10 +100,10 @@ struct LocalBlocks {
   }
   [[nodiscard]] constexpr int soft(int row, int column) const { return soft() + row + column * shape.soft; }
   /// soft: e.
-  [[nodiscard]] constexpr int softness() const {
+  [[nodiscard]] constexpr int compliance() const {
     return soft() + shape.soft * (next_size(shape) + state_size(shape) + 1);
   }
-  [[nodiscard]] constexpr int size() const { return softness() + shape.soft; }
+  [[nodiscard]] constexpr int size() const { return compliance() + shape.soft; }
 };
 
 /// What the backward sweep leaves for the forward sweep, per interval.

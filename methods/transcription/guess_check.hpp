@@ -15,6 +15,6 @@ struct GuessSurvey {
 /// Looks at the guess in 64 points between the ends. Throws `Error` that names the function, the interval of the grid
 /// with its time, and the quantity: a guess of the wrong size, a formula that is not a number there, an L_vv that is
 /// singular there.
-[[nodiscard]] GuessSurvey survey_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid);
+[[nodiscard]] GuessSurvey check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid);
 
 }  // namespace dmocbench

@@ -1,5 +1,5 @@
 // A solve that failed says which function, interval and quantity its point misses most.
-#include "methods/transcription/violation_in_words.hpp"
+#include "methods/transcription/describe_violation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/transcription/row_in_words.hpp"
+#include "methods/transcription/describe_constraint.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 
@@ -31,7 +31,7 @@ struct Ended {
     solution.status = status;
     solution.primal = sample(*transcription, guessed_motion(stated));
   }
-  std::string words() { return violation_in_words(problem, *transcription, solution, 1e-8); }
+  std::string words() { return describe_violation(problem, *transcription, solution, 1e-8); }
   double& control(Eigen::Index i, Eigen::Index interval) {
     return solution.primal[static_cast<Eigen::Index>(transcription->layout().control_column(0, i)) + interval];
   }
@@ -126,7 +126,7 @@ TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
   const IntervalStructure& structure = *ended.transcription->interval_structure();
   std::set<std::string> all;
   for (std::size_t i = 0; i < structure.rows.size(); ++i) {
-    const std::string words = row_in_words(problem, *ended.transcription, ended.solution.primal, i);
+    const std::string words = describe_constraint(problem, *ended.transcription, ended.solution.primal, i);
     EXPECT_PRED2(says, words, place_in_words(structure.rows[i]));
     all.insert(words);
   }

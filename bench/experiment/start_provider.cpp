@@ -1,4 +1,4 @@
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 
 #include <array>
 #include <cmath>
@@ -70,7 +70,7 @@ bool is_own_answer(const std::filesystem::path& nodes_file, const Case& solved_c
 
 }  // namespace
 
-StartSource::StartSource(std::string kind, SolverOptions options)
+StartProvider::StartProvider(std::string kind, SolverOptions options)
     : kind_(std::move(kind)), options_(std::move(options)) {
   options_.verbose = false;
   options_.passed_on.clear();  // the start must not depend on how a row is solved
@@ -78,7 +78,7 @@ StartSource::StartSource(std::string kind, SolverOptions options)
   options_.most_iterations = SolverOptions{}.most_iterations;
 }
 
-void StartSource::check(const std::vector<Case>& cases) const {
+void StartProvider::check(const std::vector<Case>& cases) const {
   if (kind_ == "common" || kind_ == "guess") return;
   const Problem* checked = nullptr;
   for (const Case& what : cases) {
@@ -87,7 +87,7 @@ void StartSource::check(const std::vector<Case>& cases) const {
   }
 }
 
-Motion StartSource::motion_for(const Case& solved_case) {
+Motion StartProvider::motion_for(const Case& solved_case) {
   if (kind_ == "guess") return guessed_motion(*solved_case.problem);
   if (kind_ != "common") {
     if (is_own_answer(kind_, solved_case)) {
@@ -101,7 +101,7 @@ Motion StartSource::motion_for(const Case& solved_case) {
   return own ? start.finer : start.motion;
 }
 
-std::optional<Motion> StartSource::branch_for(const Case& solved_case) {
+std::optional<Motion> StartProvider::branch_for(const Case& solved_case) {
   if (kind_ != "guess") return motion_for(solved_case);
   try {
     return common_start(solved_case).motion;
@@ -110,7 +110,7 @@ std::optional<Motion> StartSource::branch_for(const Case& solved_case) {
   }
 }
 
-const StartSource::CommonStart& StartSource::common_start(const Case& solved_case) {
+const StartProvider::CommonStart& StartProvider::common_start(const Case& solved_case) {
   const Key key{solved_case.problem->name(), solved_case.tableau, solved_case.stages};
   const auto found = common_.find(key);
   if (found != common_.end()) return found->second;
@@ -123,7 +123,7 @@ const StartSource::CommonStart& StartSource::common_start(const Case& solved_cas
   }
 }
 
-StartSource::CommonStart StartSource::find_common_start(const Case& solved_case) const {
+StartProvider::CommonStart StartProvider::find_common_start(const Case& solved_case) const {
   struct Candidate {
     std::string method;
     Trajectory trajectory;

@@ -1,11 +1,11 @@
-#include "methods/transcription/violation_in_words.hpp"
+#include "methods/transcription/describe_violation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
-#include "methods/transcription/row_in_words.hpp"
+#include "methods/transcription/describe_constraint.hpp"
 
 namespace dmocbench {
 
@@ -89,7 +89,7 @@ std::string contradiction(const Transcription& transcription) {
 
 }  // namespace
 
-std::string violation_in_words(const Problem& problem, Transcription& transcription, const Solution& solution,
+std::string describe_violation(const Problem& problem, Transcription& transcription, const Solution& solution,
                                double tolerance) {
   const Eigen::VectorXd& x = solution.primal;
   if (is_solved(solution.status) || static_cast<std::size_t>(x.size()) != transcription.variable_count()) return "";
@@ -101,7 +101,7 @@ std::string violation_in_words(const Problem& problem, Transcription& transcript
   const Worst worst = is_unknown ? unknown : row;
   if (worst.amount <= tolerance) return "";
   std::string text = missed(is_unknown ? unknown_in_words(problem, transcription, x, worst.entry)
-                                       : row_in_words(problem, transcription, x, worst.entry),
+                                       : describe_constraint(problem, transcription, x, worst.entry),
                             worst.amount);
   if (std::isnan(worst.amount)) return text;
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);

@@ -1,4 +1,4 @@
-#include "bench/experiment/start_source.hpp"
+#include "bench/experiment/start_provider.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 namespace dmocbench {
 namespace {
 
-TEST(StartSource, LooksOnceForACommonStartThatThereIsNot) {
+TEST(StartProvider, LooksOnceForACommonStartThatThereIsNot) {
   const tests::DoubleIntegrator base;
   const auto out_of_reach = std::make_shared<tests::Restated>(
       base, [](tests::Restated::Statement& s) { s.u = tests::all_between(1, -0.1, 0.1); });
-  StartSource source("common", SolverOptions{});
+  StartProvider source("common", SolverOptions{});
   int solves = 0;
   source.on_progress = [&](const std::string&) { ++solves; };
   for (const char* method : {"dmoc", "tangent"}) {

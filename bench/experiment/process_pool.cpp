@@ -1,4 +1,4 @@
-#include "bench/experiment/problem_workers.hpp"
+#include "bench/experiment/process_pool.hpp"
 
 #include <cerrno>
 #include <chrono>

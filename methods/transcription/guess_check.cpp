@@ -1,4 +1,4 @@
-#include "methods/transcription/guess_survey.hpp"
+#include "methods/transcription/guess_check.hpp"
 
 #include <algorithm>
 #include <string>
@@ -19,9 +19,9 @@ struct Quantity {
   Eigen::Index entries;
 };
 
-class Surveyor {
+class GuessCheck {
  public:
-  Surveyor(const Problem& problem, const TracedProblem& traced, const Grid& grid)
+  GuessCheck(const Problem& problem, const TracedProblem& traced, const Grid& grid)
       : problem_(&problem),
         grid_(&grid),
         n_(traced.configuration_size()),
@@ -63,11 +63,11 @@ class Surveyor {
 
   /// Of a state alone.
   void measure(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-    survey_.largest_configuration = std::max(survey_.largest_configuration, q.lpNorm<Eigen::Infinity>());
-    survey_.largest_mass = std::max(survey_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
+    check_.largest_configuration = std::max(check_.largest_configuration, q.lpNorm<Eigen::Infinity>());
+    check_.largest_mass = std::max(check_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
   }
 
-  [[nodiscard]] const GuessSurvey& survey() const { return survey_; }
+  [[nodiscard]] const GuessSurvey& survey() const { return check_; }
 
  private:
   [[nodiscard]] std::string where(double t) const {
@@ -100,19 +100,19 @@ class Surveyor {
   std::vector<Quantity> quantities_;
   PointFunction formulas_;
   LegendreTransform legendre_;
-  GuessSurvey survey_;
+  GuessSurvey check_;
 };
 
 }  // namespace
 
-GuessSurvey survey_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
+GuessSurvey check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
   constexpr int points = 64;
-  Surveyor surveyor(problem, traced, grid);
+  GuessCheck guess_check(problem, traced, grid);
   const double horizon = problem.horizon();
-  surveyor.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
-  surveyor.measure(problem.final_state().q, problem.final_state().v, horizon);
-  for (int i = 0; i < points; ++i) surveyor.look_at(horizon * (i + 0.5) / points);
-  return surveyor.survey();
+  guess_check.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
+  guess_check.measure(problem.final_state().q, problem.final_state().v, horizon);
+  for (int i = 0; i < points; ++i) guess_check.look_at(horizon * (i + 0.5) / points);
+  return guess_check.survey();
 }
 
 }  // namespace dmocbench

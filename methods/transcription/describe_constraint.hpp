@@ -12,8 +12,8 @@ namespace dmocbench {
 /// quantity, and where, "lagrangian and force: the Euler-Lagrange equation of q[1] (theta) in interval 17 (t = 0.53 to
 /// 0.5625)". Indices count from 0; times are those of the point `x` (variable_count() entries), in the units of the
 /// problem as solved. `problem` is the one that was transcribed.
-[[nodiscard]] std::string row_in_words(const Problem& problem, const Transcription& transcription,
-                                       const Eigen::VectorXd& x, std::size_t row);
+[[nodiscard]] std::string describe_constraint(const Problem& problem, const Transcription& transcription,
+                                              const Eigen::VectorXd& x, std::size_t row);
 [[nodiscard]] std::string unknown_in_words(const Problem& problem, const Transcription& transcription,
                                            const Eigen::VectorXd& x, std::size_t unknown);
 

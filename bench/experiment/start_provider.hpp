@@ -27,10 +27,10 @@ class NoStart : public Error {
 /// start of a problem and tableau is one motion for all methods and grids: each method solves from the guess at N = 48,
 /// 96 and 144, each answer is solved again at 144 and at 288, and of those that converge and whose replay error falls
 /// from 144 to 288 as the order predicts the one with the lowest objective is taken.
-class StartSource {
+class StartProvider {
  public:
   /// `kind` is "common", "guess" or the name of a node file.
-  StartSource(std::string kind, SolverOptions options);
+  StartProvider(std::string kind, SolverOptions options);
 
   /// Throws `Error` if a file does not fit one of the problems.
   void check(const std::vector<Case>& cases) const;

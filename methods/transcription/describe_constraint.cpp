@@ -1,4 +1,4 @@
-#include "methods/transcription/row_in_words.hpp"
+#include "methods/transcription/describe_constraint.hpp"
 
 #include <sstream>
 #include <vector>
@@ -100,8 +100,8 @@ class Wording {
 
   [[nodiscard]] std::string interval_row(Eigen::Index column, std::size_t k) const {
     const LayoutShape& shape = layout_->shape();
-    if (column < shape.private_rows) return private_row(column) + in_interval(k);
-    const Eigen::Index path = column - shape.private_rows;
+    if (column < shape.stage_equations) return private_row(column) + in_interval(k);
+    const Eigen::Index path = column - shape.stage_equations;
     if (path >= shape.path_rows) return "running_cost: the cost so far" + in_interval(k);
     const Eigen::Index per_stage = shape.path_rows / shape.stages;
     const std::vector<Eigen::Index> velocities = transcription_->bounds().bounded_velocities();
@@ -117,13 +117,13 @@ class Wording {
     const bool is_second = (column / n_) % 2 == 1;
     switch (shape.node_state) {
       case NodeState::configuration:
-        if (shape.private_rows != (shape.stages - 1) * n_) break;
+        if (shape.stage_equations != (shape.stages - 1) * n_) break;
         return equation_of(column % n_);
       case NodeState::momentum:
-        if (shape.private_rows != 2 * shape.stages * n_) break;
+        if (shape.stage_equations != 2 * shape.stages * n_) break;
         return is_second ? equation_of(column % n_) : "lagrangian: the momentum p = L_v of " + coordinate(column % n_);
       case NodeState::velocity:
-        if (shape.private_rows != 2 * shape.stages * n_) break;
+        if (shape.stage_equations != 2 * shape.stages * n_) break;
         return is_second ? equation_of(column % n_) : "the velocity as slope of " + coordinate(column % n_);
     }
     return "row " + std::to_string(column) + " of the method";
@@ -149,8 +149,8 @@ class Wording {
 
 }  // namespace
 
-std::string row_in_words(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
-                         std::size_t row) {
+std::string describe_constraint(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
+                                std::size_t row) {
   return Wording(problem, transcription, x).row(row);
 }
 
