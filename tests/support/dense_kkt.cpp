@@ -48,23 +48,23 @@ DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
 }
 
 DenseKkt::Inertia DenseKkt::inertia() const {
-  std::vector<Eigen::Index> hard;
-  std::vector<Eigen::Index> soft;
-  for (Eigen::Index i = 0; i < m_; ++i) (compliance_[i] > 0.0 ? soft : hard).push_back(n_ + i);
+  std::vector<Eigen::Index> equalities;
+  std::vector<Eigen::Index> inequalities;
+  for (Eigen::Index i = 0; i < m_; ++i) (compliance_[i] > 0.0 ? inequalities : equalities).push_back(n_ + i);
   Inertia result;
   const auto unknowns = static_cast<Eigen::Index>(free_.size());
-  const auto rows = static_cast<Eigen::Index>(hard.size());
+  const auto rows = static_cast<Eigen::Index>(equalities.size());
   if (rows > unknowns) {
     result.rank = 0.0;
     return result;
   }
   Eigen::MatrixXd form = matrix_(free_, free_);
-  const Eigen::MatrixXd inequality_rows = matrix_(soft, free_);
-  const Eigen::VectorXd weights = -matrix_.diagonal()(soft).cwiseInverse();
+  const Eigen::MatrixXd inequality_rows = matrix_(inequalities, free_);
+  const Eigen::VectorXd weights = -matrix_.diagonal()(inequalities).cwiseInverse();
   form += inequality_rows.transpose() * weights.asDiagonal() * inequality_rows;
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(unknowns, unknowns);
   if (rows > 0) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix_(free_, hard));
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix_(free_, equalities));
     const Eigen::VectorXd pivots = factors.matrixQR().diagonal().cwiseAbs();
     result.rank = pivots.minCoeff() / pivots.maxCoeff();
     basis = factors.householderQ();

@@ -25,7 +25,7 @@ struct RandomShape {
   bool rows_at_nodes = false;  ///< as many rows at nodes (DMOC), or in intervals (collocation)
   Eigen::Index slopes = 0;     ///< further unknowns of an interval with as many rows
   Eigen::Index controls = 1;
-  Eigen::Index soft = 0;                ///< inequalities of an interval
+  Eigen::Index inequalities = 0;        ///< inequalities of an interval
   bool horizon = false;                 ///< one unknown of the border, which all intervals read
   std::array<bool, 2> velocity{};       ///< as many further unknowns at an end as a node has
   std::array<Eigen::Index, 2> fixed{};  ///< fixed unknowns of the first and the last node
@@ -42,13 +42,13 @@ struct RandomShape {
   [[nodiscard]] std::string label() const {
     const auto text = [](auto number) { return std::to_string(number); };
     return "N " + text(intervals) + ", node " + text(node) + (rows_at_nodes ? " rows at nodes" : " rows in intervals") +
-           ", slopes " + text(slopes) + ", controls " + text(controls) + ", soft " + text(soft) + ", horizon " +
-           text(horizon) + ", velocities " + text(velocity[0]) + text(velocity[1]) + ", fixed " + text(fixed[0]) + ' ' +
-           text(fixed[1]) + ", conditions " + text(conditions) + (condition_is_inequality ? " soft" : "") +
-           (fixes_control ? ", fixed control" : "") + (slopes_cost_nothing ? ", slopes cost nothing" : "") +
-           (drops_entries ? ", dropped entries" : "") + (nearly_dependent ? ", nearly dependent" : "") +
-           ", roughness " + text(roughness) + ", coupling " + text(coupling) + ", Hessian " +
-           text(static_cast<int>(hessian));
+           ", slopes " + text(slopes) + ", controls " + text(controls) + ", inequalities " + text(inequalities) +
+           ", horizon " + text(horizon) + ", velocities " + text(velocity[0]) + text(velocity[1]) + ", fixed " +
+           text(fixed[0]) + ' ' + text(fixed[1]) + ", conditions " + text(conditions) +
+           (condition_is_inequality ? " inequality" : "") + (fixes_control ? ", fixed control" : "") +
+           (slopes_cost_nothing ? ", slopes cost nothing" : "") + (drops_entries ? ", dropped entries" : "") +
+           (nearly_dependent ? ", nearly dependent" : "") + ", roughness " + text(roughness) + ", coupling " +
+           text(coupling) + ", Hessian " + text(static_cast<int>(hessian));
   }
 };
 
@@ -153,7 +153,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     for (std::size_t i = 0; !shape_.rows_at_nodes && i < node; ++i) append_own_row(i + node, column);
     for (std::size_t i = 0; i < size(shape_.slopes); ++i) append_own_row(2 * node + i, column);
     first_inequality_ = places.size();
-    for (Eigen::Index i = 0; i < shape_.soft; ++i) append_own_row(none, column);
+    for (Eigen::Index i = 0; i < shape_.inequalities; ++i) append_own_row(none, column);
     single_rows_ = places.size();
     for (const std::size_t end : {0U, 1U}) {
       const bool own = !shape_.rows_at_nodes && shape_.velocity[end];

@@ -22,7 +22,7 @@ class SystemChoice {
     shape.rows_at_nodes = chance(0.5);
     shape.slopes = chance(0.5) ? 0 : whole(1, 4);
     shape.controls = whole(1, 3);
-    shape.soft = chance(0.6) ? 0 : whole(1, 3);
+    shape.inequalities = chance(0.6) ? 0 : whole(1, 3);
     shape.horizon = chance(0.3);
     for (const std::size_t end : {0U, 1U}) {
       shape.velocity[end] = chance(0.4);
@@ -75,7 +75,7 @@ class SystemChoice {
   /// 1 .. 40, fewer where intervals are large, so that dense linear algebra stays fast; often fewer than lanes. Where
   /// both ends have further unknowns a grid of one interval cannot tell them from a column of nodes.
   std::size_t intervals(const RandomShape& shape) {
-    const Eigen::Index of_interval = 2 * (shape.node + shape.slopes) + shape.controls + shape.soft;
+    const Eigen::Index of_interval = 2 * (shape.node + shape.slopes) + shape.controls + shape.inequalities;
     const Eigen::Index most = chance(0.3) ? 8 : std::min<Eigen::Index>(40, 240 / of_interval);
     return static_cast<std::size_t>(whole(shape.velocity[0] && shape.velocity[1] ? 2 : 1, most));
   }

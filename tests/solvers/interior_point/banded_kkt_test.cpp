@@ -35,7 +35,7 @@ RandomShape shape_of(unsigned seed) {
   shape.rows_at_nodes = turn(2) == 0;
   shape.slopes = turn(5) < 3 ? 0 : 2;
   shape.controls = 1 + turn(2);
-  shape.soft = turn(4) == 3 ? 2 : 0;
+  shape.inequalities = turn(4) == 3 ? 2 : 0;
   shape.horizon = turn(3) == 1;
   shape.velocity[0] = turn(7) == 2;
   shape.velocity[1] = turn(5) == 2;

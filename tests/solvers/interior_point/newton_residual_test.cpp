@@ -176,8 +176,8 @@ struct DenseResidual {
   Eigen::VectorXd rows;
 };
 
-/// Programs with rows of nodes and of intervals, soft rows, fixed unknowns, conditions of both ends, and an unknown of
-/// the whole horizon, which is a full row of the Hessian and a full column of the Jacobian.
+/// Programs with rows of nodes and of intervals, inequalities, fixed unknowns, conditions of both ends, and an unknown
+/// of the whole horizon, which is a full row of the Hessian and a full column of the Jacobian.
 TEST(NewtonResidual, IsThatOfDenseMatrices) {
   int horizons = 0;
   int fixed = 0;

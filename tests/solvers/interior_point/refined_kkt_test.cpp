@@ -44,7 +44,7 @@ class SpoiltKkt final : public KktSystem {
   int& solves_;
 };
 
-/// A system with a minimum, of a program with rows of intervals, soft rows, a free horizon and fixed ends.
+/// A system with a minimum, of a program with rows of intervals, inequalities, a free horizon and fixed ends.
 struct System {
   explicit System(unsigned seed, RandomShape::Hessian hessian = RandomShape::Hessian::definite)
       : program(shape_with(hessian), seed), numbers(SystemChoice(seed).numbers(program, hessian)) {}
@@ -54,7 +54,7 @@ struct System {
     shape.intervals = 12;
     shape.node = 2;
     shape.rows_at_nodes = true;
-    shape.soft = 1;
+    shape.inequalities = 1;
     shape.horizon = true;
     shape.fixed = {2, 1};
     shape.coupling = 0.2;

@@ -247,8 +247,8 @@ DMOCBENCH_INLINE void weigh_inequality(const S& shape, const LocalBlocks<S>& blo
   Lanes* const line = work.line;
   const Lanes weight = Lanes::all(1.0) / local[blocks.compliance() + row];
   for (int j = 0; j < N; ++j) {
-    Lanes sum = j < w ? local[blocks.soft(row, shape.rows + j)] : local[blocks.soft(row, Z + j - w)];
-    for (int z = 0; z < shape.rows; ++z) sum += local[blocks.soft(row, z)] * dependent_entry(shape, work, z, j);
+    Lanes sum = j < w ? local[blocks.inequality(row, shape.rows + j)] : local[blocks.inequality(row, Z + j - w)];
+    for (int z = 0; z < shape.rows; ++z) sum += local[blocks.inequality(row, z)] * dependent_entry(shape, work, z, j);
     line[j] = weight * sum;
   }
 }
@@ -263,7 +263,7 @@ DMOCBENCH_INLINE void add_inequality(const S& shape, const LocalBlocks<S>& block
     for (int z = 0; z < next_size(shape); ++z) {
       Lanes& slope = is_always_plain<S> && z < shape.rows ? work.weighted[z + j * state_size(shape)]
                                                           : work.slope[z + j * next_size(shape)];
-      slope += local[blocks.soft(row, z)] * work.line[j];
+      slope += local[blocks.inequality(row, z)] * work.line[j];
     }
   }
 }
@@ -275,7 +275,7 @@ DMOCBENCH_INLINE void add_direct_inequality(const S& shape, const LocalBlocks<S>
   const int N = column_count(shape);
   weigh_inequality(shape, blocks, local, row, work);
   for (int x = 0; x < state_size(shape); ++x) {
-    const Lanes derivative = local[blocks.soft(row, next_size(shape) + x)];
+    const Lanes derivative = local[blocks.inequality(row, next_size(shape) + x)];
     for (int i = w + x; i < N; ++i) work.condensed[i + (w + x) * N] += derivative * work.line[i];
   }
 }
@@ -290,7 +290,7 @@ DMOCBENCH_INLINE void condense(const S& shape, const LocalBlocks<S>& blocks, con
   const int N = column_count(shape);
   const Lanes* const hessian = local + blocks.hessian();
   differentiate_interval(shape, blocks, local, work);
-  for (int row = 0; row < shape.soft; ++row) add_inequality(shape, blocks, local, row, work);
+  for (int row = 0; row < shape.inequalities; ++row) add_inequality(shape, blocks, local, row, work);
   for (int j = 0; j < w + X; ++j) {
     for (int i = j; i < N; ++i) {
       Lanes sum{};
@@ -304,7 +304,7 @@ DMOCBENCH_INLINE void condense(const S& shape, const LocalBlocks<S>& blocks, con
       work.condensed[i + j * N] = sum;
     }
   }
-  for (int row = 0; row < shape.soft; ++row) add_direct_inequality(shape, blocks, local, row, work);
+  for (int row = 0; row < shape.inequalities; ++row) add_direct_inequality(shape, blocks, local, row, work);
   for (int j = 0; j < X; ++j) {
     for (int i = 0; i < N; ++i) {
       Lanes sum{};

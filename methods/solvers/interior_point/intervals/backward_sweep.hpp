@@ -5,7 +5,7 @@ S shape_of(const EliminationPlan& plan) {
   if constexpr (std::is_same_v<S, Shape>) {
     return plan.shape;
   } else {
-    return S{plan.shape.soft};
+    return S{plan.shape.inequalities};
   }
 }
 

@@ -28,7 +28,7 @@ class Columns {
 
   [[nodiscard]] Member member(std::size_t place) const;
 
-  /// Gives the column of intervals that begins at `first` another number, among those that are as soft.
+  /// Gives the column of intervals that begins at `first` another number, among those that are inequalities too, or are not.
   void renumber(std::size_t first, int number, bool is_inequality);
 
  private:

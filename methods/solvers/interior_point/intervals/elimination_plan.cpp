@@ -105,9 +105,9 @@ class Slots {
         return twice(blocks_.equality(row(entry.row), column(entry.column)));
       case LocalEntry::Block::carry:
         return twice(blocks_.carry(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
-      case LocalEntry::Block::soft:
+      case LocalEntry::Block::inequality:
         return twice(entry.column < 0 ? blocks_.compliance() + entry.row
-                                      : blocks_.soft(entry.row, column(entry.column)));
+                                      : blocks_.inequality(entry.row, column(entry.column)));
       case LocalEntry::Block::hessian:
         break;
     }

@@ -36,7 +36,7 @@ class Sorter {
                      .shared = count(result_.shared_unknowns),
                      .inner = count(result_.inner_unknowns),
                      .rows = count(result_.node_rows) + count(result_.interval_rows),
-                     .soft = count(result_.inequality_rows)};
+                     .inequalities = count(result_.inequality_rows)};
     if (free_size(result_.shape) < 0) throw Irregular{"an interval has more equalities than unknowns"};
     require_free_between_ends();
     sort(Source::hessian, program_.hessian_structure(), runs.hessian,
@@ -88,12 +88,12 @@ class Sorter {
       }
     }
     for (const std::size_t first : rows_.inner()) {
-      const bool soft = is_inequality(first);
-      auto& list = soft ? result_.inequality_rows : result_.interval_rows;
+      const bool inequality = is_inequality(first);
+      auto& list = inequality ? result_.inequality_rows : result_.interval_rows;
       for (std::size_t k = 0; k < result_.intervals; ++k) {
-        if (is_inequality(first + k) != soft) throw Irregular{"a row is an equality in some intervals only"};
+        if (is_inequality(first + k) != inequality) throw Irregular{"a row is an equality in some intervals only"};
       }
-      rows_.renumber(first, count(list), soft);
+      rows_.renumber(first, count(list), inequality);
       list.push_back(first);
     }
     for (const std::size_t i : rows_.singles()) {
@@ -250,7 +250,8 @@ class Sorter {
   [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) const {
     const int column = seen_from(of, row.at);
     if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
-    if (row.is_inequality) return {Destination::Where::interval, {LocalEntry::Block::soft, row.column, column}, row.at};
+    if (row.is_inequality)
+      return {Destination::Where::interval, {LocalEntry::Block::inequality, row.column, column}, row.at};
     const int number = result_.shape.carried + row.column;
     return {Destination::Where::interval, {LocalEntry::Block::equality, number, column}, row.at};
   }
@@ -302,10 +303,10 @@ class Sorter {
           i < shape.carried ? result_.node_rows[j] : result_.interval_rows[j - result_.node_rows.size()];
       result_.local.push_back({Block::equality, i, one, Source::rows, first});
     }
-    for (int i = 0; i < shape.soft; ++i) {
+    for (int i = 0; i < shape.inequalities; ++i) {
       const std::size_t first = result_.inequality_rows[static_cast<std::size_t>(i)];
-      result_.local.push_back({Block::soft, i, one, Source::rows, first});
-      result_.local.push_back({Block::soft, i, -1, Source::compliance, first});
+      result_.local.push_back({Block::inequality, i, one, Source::rows, first});
+      result_.local.push_back({Block::inequality, i, -1, Source::compliance, first});
     }
   }
 

@@ -16,7 +16,7 @@ namespace dmocbench::interior_point {
 /// An entry of an interval's blocks in natural order: unknowns (x_{k+1}, y_k, x_k, s_k, θ), equalities (those of node
 /// k, then the interval's own).
 struct LocalEntry {
-  enum class Block : unsigned char { equality, carry, hessian, soft };
+  enum class Block : unsigned char { equality, carry, hessian, inequality };
   Block block;
   int row;
   int column;

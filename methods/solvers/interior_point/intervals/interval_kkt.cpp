@@ -207,7 +207,7 @@ void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const
   const int first_shared = next_size(entries_.shape) + entries_.shape.node + entries_.shape.carried;
   const int one = next_size(entries_.shape) + state_size(entries_.shape);
   for (const LocalEntry& entry : entries_.local) {
-    if (entry.block != LocalEntry::Block::soft || entry.column < 0 || entry.column == one) continue;
+    if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
     auto sum = multiplier_step.segment(at(entries_.inequality_rows[static_cast<std::size_t>(entry.row)]), count);
     const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
     if (entry.column >= first_shared) {

@@ -48,7 +48,7 @@ class PairFinder {
       const bool reads = is_momentum(entry.column) || (entry.block == Block::hessian && is_momentum(entry.row));
       if (!reads || is_own) continue;
       if (entry.block == Block::hessian) throw NoPairs{"its momenta do not enter linearly"};
-      if (entry.block == Block::soft) throw NoPairs{"an inequality reads a momentum"};
+      if (entry.block == Block::inequality) throw NoPairs{"an inequality reads a momentum"};
     }
     for (int momentum = half_; momentum < entries_.shape.node; ++momentum) {
       const std::size_t first = entries_.node_unknowns[static_cast<std::size_t>(momentum)];

@@ -13,12 +13,12 @@ namespace dmocbench::interior_point {
 /// DMOC carries x = q and, in s, what becomes its momentum; both kinds of collocation carry (q, p) or (q, v) in x, and
 /// nothing in s.
 struct Shape {
-  int node;     ///< entries of x
-  int carried;  ///< entries of s, which is also the number of rows of a node
-  int shared;   ///< entries of θ
-  int inner;    ///< entries of y
-  int rows;     ///< equalities: those of a node and those of an interval
-  int soft;     ///< inequalities of an interval
+  int node;          ///< entries of x
+  int carried;       ///< entries of s, which is also the number of rows of a node
+  int shared;        ///< entries of θ
+  int inner;         ///< entries of y
+  int rows;          ///< equalities: those of a node and those of an interval
+  int inequalities;  ///< inequalities of an interval
   /// The dependent entries of Z are the unknowns of the next node, in their order.
   bool is_plain = false;
 };
@@ -31,7 +31,7 @@ struct FixedShape {
   static constexpr int shared = Shared;
   static constexpr int inner = Inner;
   static constexpr int rows = Rows;
-  int soft;
+  int inequalities;
 
   [[nodiscard]] static constexpr bool fits(const Shape& shape) {
     static_assert(Rows == Node, "the equalities of a plain shape determine the next node");
@@ -94,16 +94,18 @@ struct LocalBlocks {
   /// Z x (Z, X, 1): Hessian and slope.
   [[nodiscard]] constexpr int hessian() const { return carry() + shape.carried * (shape.node + next_size(shape)); }
   [[nodiscard]] constexpr int hessian(int row, int column) const { return hessian() + row + column * next_size(shape); }
-  /// soft x (Z, X, 1): derivatives of the inequalities, and their values.
-  [[nodiscard]] constexpr int soft() const {
+  /// inequalities x (Z, X, 1): derivatives of the inequalities, and their values.
+  [[nodiscard]] constexpr int inequality() const {
     return hessian() + next_size(shape) * (next_size(shape) + state_size(shape) + 1);
   }
-  [[nodiscard]] constexpr int soft(int row, int column) const { return soft() + row + column * shape.soft; }
-  /// soft: e.
-  [[nodiscard]] constexpr int compliance() const {
-    return soft() + shape.soft * (next_size(shape) + state_size(shape) + 1);
+  [[nodiscard]] constexpr int inequality(int row, int column) const {
+    return inequality() + row + column * shape.inequalities;
   }
-  [[nodiscard]] constexpr int size() const { return compliance() + shape.soft; }
+  /// inequalities: e.
+  [[nodiscard]] constexpr int compliance() const {
+    return inequality() + shape.inequalities * (next_size(shape) + state_size(shape) + 1);
+  }
+  [[nodiscard]] constexpr int size() const { return compliance() + shape.inequalities; }
 };
 
 /// What the backward sweep leaves for the forward sweep, per interval.
