@@ -55,17 +55,17 @@ void transpose(Lanes::Vector (&rows)[8]) {  // NOLINT(cppcoreguidelines-avoid-c-
   uncounted::transpose(rows);
 }
 
-#include "methods/solvers/interior_point/intervals/collect.hpp"
+#include "methods/solvers/interior_point/intervals/collect.inc"
 //
-#include "methods/solvers/interior_point/intervals/backward_step.hpp"
+#include "methods/solvers/interior_point/intervals/backward_step.inc"
 //
-#include "methods/solvers/interior_point/intervals/records.hpp"
+#include "methods/solvers/interior_point/intervals/records.inc"
 //
-#include "methods/solvers/interior_point/intervals/backward_sweep.hpp"
+#include "methods/solvers/interior_point/intervals/backward_sweep.inc"
 //
-#include "methods/solvers/interior_point/intervals/forward_sweep.hpp"
+#include "methods/solvers/interior_point/intervals/forward_sweep.inc"
 //
-#include "methods/solvers/interior_point/intervals/kernel_choice.hpp"
+#include "methods/solvers/interior_point/intervals/kernel_choice.inc"
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): a kernel is a plain function
 SweepCount last_sweep;

@@ -13,17 +13,17 @@ namespace DMOCBENCH_SEGMENT_NAMESPACE {
 
 #include "methods/runtime/lanes.inc"
 //
-#include "methods/solvers/interior_point/intervals/collect.hpp"
+#include "methods/solvers/interior_point/intervals/collect.inc"
 //
-#include "methods/solvers/interior_point/intervals/backward_step.hpp"
+#include "methods/solvers/interior_point/intervals/backward_step.inc"
 //
-#include "methods/solvers/interior_point/intervals/records.hpp"
+#include "methods/solvers/interior_point/intervals/records.inc"
 //
-#include "methods/solvers/interior_point/intervals/backward_sweep.hpp"
+#include "methods/solvers/interior_point/intervals/backward_sweep.inc"
 //
-#include "methods/solvers/interior_point/intervals/forward_sweep.hpp"
+#include "methods/solvers/interior_point/intervals/forward_sweep.inc"
 //
-#include "methods/solvers/interior_point/intervals/kernel_choice.hpp"
+#include "methods/solvers/interior_point/intervals/kernel_choice.inc"
 
 }  // namespace DMOCBENCH_SEGMENT_NAMESPACE
 

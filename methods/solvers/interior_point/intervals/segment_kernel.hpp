@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/interior_point/intervals/shape.hpp"
