@@ -1,0 +1,29 @@
+#include "methods/runtime/instruction_set.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "methods/expression/tape.hpp"
+#include "methods/runtime/vector_loops.hpp"
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// A program of its own: loops over vectors are chosen when they are first asked for.
+TEST(InstructionSet, OneOverrideGovernsTapesVectorLoopsAndSegmentKernels) {
+  for (const InstructionSet set : available_instruction_sets()) {
+    setenv("DMOCBENCH_INSTRUCTION_SET", std::string(name_of(set)).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+    EXPECT_EQ(preferred_instruction_set(), set);
+    EXPECT_EQ(Tape(Schedule()).instruction_set(), set);
+    const interior_point::Shape shape{};
+    EXPECT_EQ(interior_point::segment_kernel_for(shape).backward,
+              interior_point::segment_kernels_of(set)(shape).backward);
+    EXPECT_EQ(&vector_loops(), &vector_loops_of(available_instruction_sets().front()));
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench
