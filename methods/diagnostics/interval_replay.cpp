@@ -1,0 +1,76 @@
+#include "methods/diagnostics/interval_replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The norm of the ranges of all components over the nodes.
+double range_of(const Eigen::MatrixXd& nodes) {
+  return (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
+}
+
+/// Where (q, v) of node k is carried by the controls of interval k; nothing where that fails.
+std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& trajectory, Eigen::Index k, double tolerance) {
+  const Eigen::Index n = trajectory.q.cols();
+  std::vector<double> state(static_cast<std::size_t>(2 * n));
+  Eigen::Map<Eigen::VectorXd>(state.data(), n) = trajectory.q.row(k);
+  Eigen::Map<Eigen::VectorXd>(state.data() + n, n) = trajectory.v.row(k);
+  const auto equations = [&](const std::vector<double>& x, std::vector<double>& rate, double t) {
+    const Eigen::Map<const Eigen::VectorXd> q(x.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> v(x.data() + n, n);
+    Eigen::Map<Eigen::VectorXd>(rate.data(), n) = v;
+    Eigen::Map<Eigen::VectorXd>(rate.data() + n, n) =
+        motion.acceleration(q, v, control_on_interval(trajectory, k, t), t);
+  };
+  const double left = trajectory.node_times[k];
+  const double right = trajectory.node_times[k + 1];
+  try {
+    if (!integrate(equations, state, left, right, right - left, tolerance)) return {};
+  } catch (const Error&) {  // L_vv is singular where it leads
+    return {};
+  }
+  return state;
+}
+
+}  // namespace
+
+IntervalReplay interval_replay(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  EquationsOfMotion motion{TracedProblem(problem)};
+  const Eigen::Index n = trajectory.q.cols();
+  const double moves = std::max(range_of(trajectory.q), range_of(trajectory.v));
+  const auto scale = [&](double range) { return range > 0.0 ? range : (moves > 0.0 ? moves : 1.0); };
+  const double range_of_q = scale(range_of(trajectory.q));
+  const double range_of_v = scale(range_of(trajectory.v));
+  IntervalReplay worst;
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const std::vector<double> state = carried(motion, trajectory, k, tolerance);
+    double jump_of_q = std::numeric_limits<double>::infinity();
+    double jump_of_v = jump_of_q;
+    if (!state.empty() && std::ranges::all_of(state, [](double x) { return std::isfinite(x); })) {
+      jump_of_q = (Eigen::Map<const Eigen::VectorXd>(state.data(), n) - trajectory.q.row(k + 1).transpose()).norm();
+      jump_of_v = (Eigen::Map<const Eigen::VectorXd>(state.data() + n, n) - trajectory.v.row(k + 1).transpose()).norm();
+    }
+    worst.jump = std::max(worst.jump, std::hypot(jump_of_q, jump_of_v));
+    const double relative = std::max(jump_of_q / range_of_q, jump_of_v / range_of_v);
+    if (relative > worst.relative_jump) {
+      worst.relative_jump = relative;
+      worst.interval = k;
+    }
+  }
+  return worst;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// The largest jump of a motion whose intervals are replayed one by one: how far the continuous system, started at node
+/// k under the controls of interval k, ends from node k + 1. Unlike the replay of the whole horizon (`ReplayError`) it
+/// judges unstable systems too, where an error of any size grows without bound until the end.
+struct IntervalReplay {
+  double jump = 0.0;           ///< |(q, v)(t_{k+1}) - (q_{k+1}, v_{k+1})|, the largest over k
+  double relative_jump = 0.0;  ///< the largest |Δq| / range of q or |Δv| / range of v, see `interval_replay`
+  Eigen::Index interval = 0;   ///< k where `relative_jump` is
+};
+
+/// Replays every interval with the control polynomial through its stages, on the continuous forced Euler-Lagrange
+/// equations (eq:varmech_FEL), by an adaptive Runge-Kutta method of order 7(8) with the given tolerance, absolute and
+/// relative. Independent of every discretisation. Both jumps are infinite where the integration of an interval fails.
+///
+/// Norms are Euclidean. The range of q is the norm of the differences between the largest and the smallest value of
+/// each component over the nodes, that of v likewise. If one of the two is constant the range of the other is taken,
+/// and 1 if both are.
+///
+/// With one stage the jump is O(h³) on smooth optima, one order more than the error at the nodes. With s > 1 it is
+/// between O(h^(s+2)) and O(h^(2s+1)): stage controls have order s + 1 (methods/README.md, "Where the order is").
+[[nodiscard]] IntervalReplay interval_replay(const Problem& problem, const Trajectory& trajectory,
+                                             double tolerance = 1e-12);
+
+}  // namespace dmocbench

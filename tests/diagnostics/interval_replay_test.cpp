@@ -1,0 +1,107 @@
+#include "methods/diagnostics/interval_replay.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "methods/diagnostics/convergence_order.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// The exact optimum of the double integrator, u = 6 - 12t, on a grid, as two Gauss stages carry it.
+Trajectory exact_optimum(const Problem& problem, Eigen::Index intervals) {
+  const auto program = tests::transcribe(problem, {"dmoc", 2}, Grid::uniform(intervals));
+  Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
+  const Eigen::ArrayXd t = motion.node_times;
+  motion.q = 3.0 * t.square() - 2.0 * t.cube();
+  motion.v = 6.0 * t - 6.0 * t.square();
+  motion.stage_u = 6.0 - 12.0 * motion.stage_times.array();
+  return motion;
+}
+
+TEST(IntervalReplay, FindsNoJumpInAnExactMotion) {
+  const tests::DoubleIntegrator problem;
+  EXPECT_LT(interval_replay(problem, exact_optimum(problem, 6)).jump, 1e-13);
+}
+
+TEST(IntervalReplay, FindsWhereAMotionIsTornAndByHowMuch) {
+  const tests::DoubleIntegrator problem;
+  Trajectory torn = exact_optimum(problem, 8);
+  torn.q.bottomRows(4).array() += 0.25;  // from node 5 on: q now ranges from 0 to 1.25
+  const IntervalReplay replay = interval_replay(problem, torn);
+  EXPECT_EQ(replay.interval, 4);
+  EXPECT_NEAR(replay.jump, 0.25, 1e-13);
+  EXPECT_NEAR(replay.relative_jump, 0.25 / 1.25, 1e-13);
+}
+
+/// x'' = 400 x + u grows by e^40 over its horizon: a replay of the whole cannot judge a motion that rounding moves.
+class Unstable final : public tests::SmallProblem {
+ public:
+  Unstable() : SmallProblem("unstable", at(1.0, -20.0), at(std::exp(-40.0), -20.0 * std::exp(-40.0)), 2.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] + 200.0 * x.q[0] * x.q[0];
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
+TEST(IntervalReplay, JudgesAnUnstableMotionThatAReplayOfTheHorizonCannot) {
+  const Unstable problem;
+  const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(40));
+  Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
+  motion.q = (-20.0 * motion.node_times.array()).exp();
+  motion.v = -20.0 * motion.q;
+  motion.stage_u.setZero();
+  EXPECT_GT(replay_error(problem, motion).norm(), 1.0);
+  EXPECT_LT(interval_replay(problem, motion).relative_jump, 1e-10);
+}
+
+/// The order of the error at the nodes is 2s. Stage controls have order s + 1 if s > 1, and what they are wrong by acts
+/// for the length of an interval.
+TEST(IntervalReplay, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
+  for (const std::string& name : paper_problem_names()) {
+    const auto problem = make_problem(name);
+    for (const tests::Scheme& scheme : tests::schemes_of({"gauss"}, 2)) {
+      std::vector<GridError> jumps;
+      for (const int intervals : {24, 48, 96}) {
+        const Trajectory motion =
+            tests::solve(*problem, scheme, Grid::uniform(intervals), tests::common_start(*problem)).trajectory;
+        jumps.push_back({1.0 / intervals, interval_replay(*problem, motion).jump});
+      }
+      const double order = fit_order(jumps)->slope;
+      EXPECT_GT(order, scheme.stages + 2.0 - 0.35) << name << ", " << scheme.label();
+      EXPECT_LT(order, 2.0 * scheme.stages + 1.0 + 0.35) << name << ", " << scheme.label();
+    }
+  }
+}
+
+/// q̈ = q̇² + u from q̇ = 4: the velocity 4/(1 - 4t) leaves every bound at t = ¼.
+class BlowUp final : public tests::SmallProblem {
+ public:
+  BlowUp() : SmallProblem("blow_up", at(0.0, 4.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return one(x.v[0] * x.v[0] + x.u[0]);
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
+TEST(IntervalReplay, IsInfiniteWhereTheMotionEndsWithinAnInterval) {
+  const BlowUp problem;
+  const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(2));
+  Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
+  motion.stage_u.setZero();
+  motion.v.setConstant(4.0);
+  const IntervalReplay replay = interval_replay(problem, motion);
+  EXPECT_EQ(replay.jump, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(replay.interval, 0);
+}
+
+}  // namespace
+}  // namespace dmocbench
