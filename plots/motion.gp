@@ -4,7 +4,7 @@
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 problems = system("cd '".results."' 2>/dev/null &&\
-    ls motion_*_nodes.csv 2>/dev/null | sed 's/^motion_//; s/_nodes.csv$//'")
+    ls motion_*_nodes.csv 2>/dev/null | sed -n 's/^motion_\\([A-Za-z0-9_]*\\)_nodes.csv$/\\1/p'")
 if (strlen(problems) == 0) { print results."/motion_PROBLEM_nodes.csv is missing"; exit status 1 }
 
 # Colours over time: light at the start, dark at the end.

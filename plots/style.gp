@@ -1,6 +1,8 @@
 # Shared by all figures: input tables, names and units, line styles, output as SVG and PNG.
 # A script sets `plots` (this folder) and loads this file; `results` is the folder of the tables.
 if (!exists("results")) results = "results"
+# gnuplot runs what stands between backquotes, wherever the folder's name is evaluated.
+if (strstrt(results, '`') > 0) { print "the folder of the results must have no backquote in its name"; exit status 1 }
 set encoding utf8
 set datafile separator comma
 set datafile columnheaders
