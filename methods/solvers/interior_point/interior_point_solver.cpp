@@ -10,7 +10,6 @@
 #include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/intervals/recombined_kkt.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
@@ -18,12 +17,10 @@ namespace dmocbench {
 
 namespace {
 
-enum class Factorisation : unsigned char { intervals, recombined, banded, sparse };
+enum class Factorisation : unsigned char { intervals, banded, sparse };
 
-const std::map<std::string, Factorisation> factorisations{{"intervals", Factorisation::intervals},
-                                                          {"recombined", Factorisation::recombined},
-                                                          {"banded", Factorisation::banded},
-                                                          {"sparse", Factorisation::sparse}};
+const std::map<std::string, Factorisation> factorisations{
+    {"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}};
 
 Factorisation factorisation_of(const std::map<std::string, std::string>& passed_on) {
   Factorisation choice = Factorisation::intervals;
@@ -33,8 +30,7 @@ Factorisation factorisation_of(const std::map<std::string, std::string>& passed_
     }
     const auto found = factorisations.find(value);
     if (found == factorisations.end()) {
-      throw Error("the solver interior_point: factorisation must be intervals, recombined, banded or sparse, not " +
-                  value);
+      throw Error("the solver interior_point: factorisation must be intervals, banded or sparse, not " + value);
     }
     choice = found->second;
   }
@@ -46,7 +42,6 @@ std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& p
                                                        const interior_point::ProgramRuns& runs, Factorisation choice,
                                                        std::string& why) {
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choice == Factorisation::recombined) return interior_point::RecombinedKkt::make(program, why);
   if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
   auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
   if (!by_intervals) return nullptr;

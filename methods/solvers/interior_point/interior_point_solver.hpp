@@ -9,9 +9,8 @@ namespace dmocbench {
 /// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md.
 ///
 /// Options of its own (`SolverOptions::passed_on`): "factorisation" = "intervals" (the default; a program whose
-/// structure does not allow it is refused), "recombined" (the same with the midpoint rule on (q, p) brought into DMOC's
-/// form), "banded" (LAPACK's LU with exchanges of rows, for any program with an interval structure) or "sparse" (MUMPS,
-/// for any program).
+/// structure does not allow it is refused), "banded" (LAPACK's LU with exchanges of rows, for any program with an
+/// interval structure) or "sparse" (MUMPS, for any program).
 class InteriorPointSolver final : public Solver {
  public:
   explicit InteriorPointSolver(SolverOptions options = {});
