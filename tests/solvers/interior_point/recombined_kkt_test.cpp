@@ -61,7 +61,7 @@ Step step_of(KktSystem& kkt, const KktNumbers& numbers) {
   Eigen::VectorXd primal = Eigen::VectorXd::Zero(numbers.slope.size());
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(numbers.rows.size());
   Step step;
-  step.verdict = kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+  step.verdict = kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
   step.both.resize(primal.size() + multipliers.size());
   step.both << primal, multipliers;
   return step;

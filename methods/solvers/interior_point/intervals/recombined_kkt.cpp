@@ -184,17 +184,18 @@ void RecombinedKkt::read_multipliers(const Eigen::VectorXd& slope, Eigen::Vector
   kept_rows_.put_into(multiplier_step, multiplier_step_.tail(kept_rows_.size()));
 }
 
-FactorisationStatus RecombinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                         const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                         Eigen::VectorXd& multiplier_step) {
+FactorisationStatus RecombinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                         const KktStep& step) {
+  const auto& [slope, rows] = right_hand_side;
+  const auto& [primal_step, multiplier_step] = step;
   if (!find_combinations(matrix.jacobian)) return FactorisationStatus::singular;
   combine_jacobian(matrix.jacobian);
   combine_rows(rows);
   move_slope(slope);
   unknowns_.take_from(matrix.diagonal, diagonal_);
   if (matrix.compliance.size() > 0) kept_rows_.take_from(matrix.compliance, compliance_.tail(kept_rows_.size()));
-  const FactorisationStatus verdict = system_->solve({matrix.hessian, jacobian_, diagonal_, compliance_}, slope_, rows_,
-                                                     primal_step_, multiplier_step_);
+  const FactorisationStatus verdict = system_->solve({matrix.hessian, jacobian_, diagonal_, compliance_},
+                                                     {slope_, rows_}, {primal_step_, multiplier_step_});
   if (verdict != FactorisationStatus::solved) return verdict;
   unknowns_.put_into(primal_step, primal_step_);
   read_momenta(rows, primal_step);

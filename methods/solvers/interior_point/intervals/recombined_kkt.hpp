@@ -35,9 +35,8 @@ class RecombinedKkt final : public KktSystem {
 
   RecombinedKkt(const NonlinearProgram& program, std::vector<MomentumPair> pairs, SegmentKernelChoice choose);
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override;
 
   /// Multiplications and divisions per interval that combining the matrix takes, before it is eliminated.
   [[nodiscard]] double combination_operations() const;
