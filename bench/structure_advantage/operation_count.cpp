@@ -30,7 +30,7 @@ class System {
     for (const double shift : {0.0, 1.0}) {
       diagonal_.setConstant(shift);
       const auto verdict =
-          kkt.solve({hessian_, jacobian_, diagonal_, compliance_}, slope_, rows_, primal_step, multiplier_step);
+          kkt.solve({hessian_, jacobian_, diagonal_, compliance_}, {slope_, rows_}, {primal_step, multiplier_step});
       if (verdict == interior_point::FactorisationStatus::solved) return true;
     }
     return false;
