@@ -82,7 +82,7 @@ class Iterations final : public Experiment {
     row.set("phase1_minors", solution.phase_one_minor_iterations);
     row.set("phase2_minors", solution.phase_two_minor_iterations);
     row.set("predicted_minors", predicted(solved));
-    row.set("evaluations", solution.evaluations);
+    row.set("evaluations", solution.total_evaluations());
     const KktFill fill = kkt_fill(
         Transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid));
     row.set("kkt_nonzeros", static_cast<long long>(fill.nonzeros));

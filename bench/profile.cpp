@@ -56,7 +56,7 @@ class Profile final : public Experiment {
   void complete(SolvedCase& solved) override {
     Row& row = solved.row;
     row.set("success", "no");
-    row.set("evaluations", solved.solution.evaluations);
+    row.set("evaluations", solved.solution.total_evaluations());
     const auto reference = solved.what.problem->reference_optimum();
     if (!reference) return;
     row.set("reference_objective", reference->objective);

@@ -13,8 +13,7 @@ int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
   CommandLine line(
       "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by intervals, "
-      "by "
-      "intervals with Hamiltonian rows recombined, as a band, or as any sparse matrix: iterations, linear systems, "
+      "as a band, or as any sparse matrix: iterations, linear systems, "
       "seconds, operations of a factorisation. NAME_ratios.csv sets them against DMOC at equal N and at equal error of "
       "the objective.",
       "structure_advantage");

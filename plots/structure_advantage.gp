@@ -8,10 +8,10 @@ eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals
 # Solvers in the order of the legend. Ipopt tells neither the time of its linear systems nor their operations: it is drawn
 # by its time per iteration without evaluations.
 orange = "#E69F00"
-ways = "ipopt sparse banded intervals recombined"
-way_labels = "'Ipopt (MUMPS), per iteration' 'MUMPS' 'band, LAPACK' 'by intervals' 'by intervals, Hamiltonian rows recombined'"
-colour(w) = w == 1 ? vermilion : w == 2 ? orange : w == 3 ? purple : w == 4 ? blue : green
-point(w) = word("9 11 5 7 13", w) + 0
+ways = "ipopt sparse banded intervals"
+way_labels = "'Ipopt (MUMPS), per iteration' 'MUMPS' 'band, LAPACK' 'by intervals'"
+colour(w) = w == 1 ? vermilion : w == 2 ? orange : w == 3 ? purple : blue
+point(w) = word("9 11 5 7", w) + 0
 way_of(w) = w == 1 ? "solver=ipopt" : "solver=interior_point,factorisation=".word(ways, w)
 
 panels = "'time of a linear system' 'operations of a factorisation'"
@@ -41,7 +41,7 @@ do for [where in problems_of(name, ratio)] {
       set ylabel "Hamiltonian / DMOC, ".word(panels, panel)
       if (panel == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
-           for [w in "1 2 3 4 5"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
+           for [w in "1 2 3 4"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
              pointtype point(w + 0) pointsize 0.8 title word(way_labels, w + 0),\
            for [w in drawn] rows(name, conditions.",".way_of(w + 0).",quantity=".quantity_of(panel, w + 0), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(w + 0) linewidth 1.8\

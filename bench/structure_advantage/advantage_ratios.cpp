@@ -88,13 +88,12 @@ std::vector<Line> lines_of(const std::vector<const Row*>& rows) {
   return lines;
 }
 
-/// DMOC by the same solver; by intervals for the recombined elimination, which is what it imitates.
+/// DMOC by the same solver and factorisation.
 const Line* dmoc_beside(const std::vector<Line>& lines, const Row& head) {
-  const std::string wanted = head.text("factorisation") == "recombined" ? "intervals" : head.text("factorisation");
   const auto found = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
     const auto same = [&](const char* column) { return line.head->text(column) == head.text(column); };
-    return line.head->text("method") == "dmoc" && line.head->text("factorisation") == wanted && same("problem") &&
-           same("tableau") && same("stages") && same("solver");
+    return line.head->text("method") == "dmoc" && same("factorisation") && same("problem") && same("tableau") &&
+           same("stages") && same("solver");
   });
   return found == lines.end() ? nullptr : &*found;
 }

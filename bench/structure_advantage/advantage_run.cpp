@@ -42,13 +42,13 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// The ways to solve a case; recombination is of Hamiltonian rows only. Solvers but ours have none to choose.
+/// The ways to solve a case. Solvers but ours have none to choose.
 std::vector<std::string> ways_of(const Case& what, const std::vector<std::string>& chosen) {
   if (what.solver != structured_solver) return {""};
   std::vector<std::string> ways;
   for (const std::string& way : factorisation_names()) {
     const bool is_chosen = std::find(chosen.begin(), chosen.end(), way) != chosen.end();
-    if (is_chosen && (way != "recombined" || what.method == "hamiltonian")) ways.push_back(way);
+    if (is_chosen) ways.push_back(way);
   }
   return ways;
 }
@@ -56,7 +56,7 @@ std::vector<std::string> ways_of(const Case& what, const std::vector<std::string
 }  // namespace
 
 const std::vector<std::string>& factorisation_names() {
-  static const std::vector<std::string> names{"intervals", "recombined", "banded", "sparse"};
+  static const std::vector<std::string> names{"intervals", "banded", "sparse"};
   return names;
 }
 
@@ -88,8 +88,6 @@ AdvantageRun::AdvantageRun(const ExperimentOptions& options, const std::vector<s
     }
     first = last;
   }
-  if (cases.empty())
-    throw Error("nothing is left to solve: factorisation=recombined is of the method hamiltonian only");
   starts_.check(cases);
   for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}, {}});
   solver_options_.stop_requested = interrupt_requested;
@@ -188,7 +186,7 @@ void AdvantageRun::complete(Subject& subject) {
   const OperationCount count = count_operations(program, solved.solution, what.variant);
   const auto intervals = static_cast<double>(what.intervals());
   if (count.elimination) {
-    row.set("operations_per_interval", (*count.elimination + count.combination) / intervals);
+    row.set("operations_per_interval", *count.elimination / intervals);
     row.set("elimination_operations_per_interval", *count.elimination / intervals);
   }
   row.set("half_bandwidth", count.half_bandwidth);

@@ -3,7 +3,6 @@
 #include "bench/structure_advantage/counting_kernel.hpp"
 #include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/intervals/recombined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
 namespace dmocbench {
@@ -31,7 +30,7 @@ class System {
     for (const double shift : {0.0, 1.0}) {
       diagonal_.setConstant(shift);
       const auto verdict =
-          kkt.solve({hessian_, jacobian_, diagonal_, compliance_}, slope_, rows_, primal_step, multiplier_step);
+          kkt.solve({hessian_, jacobian_, diagonal_, compliance_}, {slope_, rows_}, {primal_step, multiplier_step});
       if (verdict == interior_point::FactorisationStatus::solved) return true;
     }
     return false;
@@ -60,11 +59,6 @@ OperationCount count_operations(NonlinearProgram& program, const Solution& solut
   if (factorisation == "intervals") {
     const auto kkt = interior_point::IntervalKkt::make(program, why, counting_segment_kernel);
     if (kkt && system.is_solved_by(*kkt)) count.elimination = operations_of_last_sweep(program);
-  } else if (factorisation == "recombined") {
-    const auto kkt = interior_point::RecombinedKkt::make(program, why, counting_segment_kernel);
-    if (!kkt || !system.is_solved_by(*kkt)) return count;
-    count.elimination = operations_of_last_sweep(program);
-    count.combination = kkt->combination_operations() * static_cast<double>(program.interval_structure()->intervals);
   } else if (factorisation == "banded") {
     const auto kkt = interior_point::BandedKkt::make(program, why);
     if (!kkt || !system.is_solved_by(*kkt)) return count;

@@ -12,16 +12,14 @@ namespace dmocbench {
 struct OperationCount {
   /// Of the elimination; none where a solver does not tell.
   std::optional<double> elimination;
-  /// Before it, to bring the matrix into another form.
-  double combination = 0.0;
   /// Of a band: the largest distance of an entry from the diagonal.
   std::optional<long long> half_bandwidth;
 };
 
 /// Factorises the KKT matrix at a solution, without bounds' terms but with a unit shift if it needs one, by one of
-/// `interior_point`'s ways and counts: "intervals" and "recombined" by running the elimination on numbers that count,
-/// "banded" from the rows that LAPACK exchanged, "sparse" as MUMPS says. Empty for another name, and where the matrix
-/// cannot be factorised in that way. For the whole grid.
+/// `interior_point`'s ways and counts: "intervals" by running the elimination on numbers that count, "banded" from the
+/// rows that LAPACK exchanged, "sparse" as MUMPS says. Empty for another name, and where the matrix cannot be
+/// factorised in that way. For the whole grid.
 [[nodiscard]] OperationCount count_operations(NonlinearProgram& program, const Solution& solution,
                                               const std::string& factorisation);
 

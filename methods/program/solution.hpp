@@ -9,6 +9,24 @@
 
 namespace dmocbench {
 
+/// How often a solver called each evaluation of the program (`NonlinearProgram`).
+///
+/// What `evaluations` means, here and as a column of every table: the number of calls by which the solver's own method
+/// asked the program for its objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
+/// `Solver::solve` counts them in one place for all solvers, so the numbers compare. A point at which a solver wants
+/// the values of objective and constraints costs two, with first derivatives four. Calls by which we judge points
+/// ourselves
+/// (`confirm`, and the same judgement as the stopping test of `sqp` and `nlopt`) are not counted.
+struct EvaluationCounts {
+  int objective = 0;
+  int gradient = 0;
+  int constraints = 0;
+  int jacobian = 0;
+  int hessian = 0;
+
+  [[nodiscard]] int total() const noexcept { return objective + gradient + constraints + jacobian + hessian; }
+};
+
 /// What a solver returns, whether or not it succeeded.
 struct Solution {
   Status status = Status::not_run;
@@ -28,13 +46,18 @@ struct Solution {
   std::optional<int> minor_iterations;  ///< of the quadratic programs; the sum of the next two
   std::optional<int> phase_one_minor_iterations;
   std::optional<int> phase_two_minor_iterations;
-  std::optional<int> evaluations;
+  std::optional<EvaluationCounts> evaluations;  ///< none if the solver asked for none
   std::optional<int> linear_systems;  ///< factorisations, those that were repeated with a shifted Hessian included
 
-  double seconds = 0.0;             ///< wall clock of the solver call alone
-  double evaluation_seconds = 0.0;  ///< the part of it spent in the program's evaluations
+  double seconds = 0.0;             ///< wall clock of the solver alone, without `confirm`
+  double evaluation_seconds = 0.0;  ///< the part of it spent in the evaluations that are counted
   /// The part of it spent in linear systems, without finding their structure; none where a solver does not tell.
   std::optional<double> linear_seconds;
+
+  /// What tables call `evaluations`.
+  [[nodiscard]] std::optional<int> total_evaluations() const {
+    return evaluations ? std::optional(evaluations->total()) : std::nullopt;
+  }
 };
 
 }  // namespace dmocbench

@@ -9,15 +9,11 @@
 
 namespace dmocbench {
 
-namespace {
-
-Status judged(Status claim, double misses) {
-  if (misses <= confirmation_factor) return Status::solved;
-  const bool is_near = misses <= confirmation_factor * acceptable_factor;
+Status judged(Status claim, double scaled_residual) {
+  if (scaled_residual <= confirmation_factor) return Status::solved;
+  const bool is_near = scaled_residual <= confirmation_factor * acceptable_factor;
   return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
 }
-
-}  // namespace
 
 void measure(NonlinearProgram& program, Solution& solution) {
   solution.objective = program.objective(solution.primal);
@@ -45,7 +41,8 @@ double times_the_tolerance(const NonlinearProgram& program, double tolerance, co
 
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
   if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) {
-    if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing to look at
+    if (!is_solved(solution.status)) return;
+    solution.status = Status::not_confirmed;  // nothing to look at
     solution.message = sentence_of(solution.status);
     return;
   }

@@ -16,6 +16,10 @@ void measure(NonlinearProgram& program, Solution& solution);
 /// `StopRule` says what is allowed; its mean is that of the multipliers of rows, for those of bounds are not known.
 [[nodiscard]] double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution);
 
+/// What becomes of the claim "solved" or "acceptable" of a solution that misses by that many times the tolerance; see
+/// `confirm`.
+[[nodiscard]] Status judged(Status claim, double scaled_residual);
+
 /// Measures a solution and judges the solver's word.
 ///
 /// It is confirmed as "solved" if it misses by at most `confirmation_factor` times the tolerance (see above).

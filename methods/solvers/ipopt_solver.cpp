@@ -14,14 +14,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <initializer_list>
-#include <utility>
 
 #include "methods/error.hpp"
-#include "methods/runtime/clock.hpp"
-#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
@@ -50,16 +47,17 @@ class Magnitudes {
 
 /// Whether an iterate of Ipopt fulfils our rule. Ipopt's own test knows nothing of rounding: on long grids it would go
 /// on where other solvers stop.
-bool fulfils(const StopRule& allowed, const Ipopt::IteratesVector& at, Ipopt::IpoptCalculatedQuantities& quantities) {
-  if (quantities.curr_primal_infeasibility(Ipopt::NORM_MAX) > allowed.violation()) return false;
+bool fulfils(const StopRule& tolerances, const Ipopt::IteratesVector& at,
+             Ipopt::IpoptCalculatedQuantities& quantities) {
+  if (quantities.curr_primal_infeasibility(Ipopt::NORM_MAX) > tolerances.violation()) return false;
   const Magnitudes of_rows({at.y_c(), at.y_d()});
   const Magnitudes of_bounds({at.z_L(), at.z_U(), at.v_L(), at.v_U()});
   const Magnitudes all({at.y_c(), at.y_d(), at.z_L(), at.z_U(), at.v_L(), at.v_U()});
-  return quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <= allowed.stationarity(all.mean, of_rows.largest) &&
-         quantities.curr_complementarity(0.0, Ipopt::NORM_MAX) <= allowed.complementarity(of_bounds.mean);
+  return quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <= tolerances.stationarity(all.mean, of_rows.largest) &&
+         quantities.curr_complementarity(0.0, Ipopt::NORM_MAX) <= tolerances.complementarity(of_bounds.mean);
 }
 
-/// Ipopt's view of a program; it collects the answer and the time spent in evaluations.
+/// Ipopt's view of a program; it collects the answer.
 class ProgramForIpopt final : public Ipopt::TNLP {
  public:
   ProgramForIpopt(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
@@ -68,7 +66,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
         start_(start),
         options_(options),
         solution_(solution),
-        allowed_(program, options.tolerance),
+        tolerances_(program, options.tolerance),
         has_rule_of_its_own_(options.passed_on.contains("tol")) {}
 
   /// Whether Ipopt was told to stop because its point fulfils our rule.
@@ -99,27 +97,32 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
   bool eval_f(Index n, const Number* x, bool /*new_x*/, Number& value) override {
-    return timed([&] { value = program_.objective(point(x, n)); }) && std::isfinite(value);
+    value = program_.objective(point(x, n));
+    return std::isfinite(value);
   }
 
   bool eval_grad_f(Index n, const Number* x, bool /*new_x*/, Number* values) override {
-    return timed([&] { program_.gradient(point(x, n), array(values, n)); });
+    program_.gradient(point(x, n), array(values, n));
+    return true;
   }
 
   bool eval_g(Index n, const Number* x, bool /*new_x*/, Index m, Number* values) override {
-    return timed([&] { program_.constraints(point(x, n), array(values, m)); });
+    program_.constraints(point(x, n), array(values, m));
+    return true;
   }
 
   bool eval_jac_g(Index n, const Number* x, bool /*new_x*/, Index /*m*/, Index nonzeros, Index* rows, Index* columns,
                   Number* values) override {
     if (values == nullptr) return copy(program_.jacobian_structure(), rows, columns);
-    return timed([&] { program_.jacobian(point(x, n), array(values, nonzeros)); });
+    program_.jacobian(point(x, n), array(values, nonzeros));
+    return true;
   }
 
   bool eval_h(Index n, const Number* x, bool /*new_x*/, Number objective_factor, Index m, const Number* lambda,
               bool /*new_lambda*/, Index nonzeros, Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) return copy(program_.hessian_structure(), rows, columns);
-    return timed([&] { program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros)); });
+    program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros));
+    return true;
   }
 
   bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number, Number, Number, Number, Number, Number,
@@ -127,7 +130,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities* quantities) override {
     solution_.major_iterations = static_cast<int>(iteration);
     has_converged_ = !has_rule_of_its_own_ && mode == Ipopt::RegularMode && data != nullptr && quantities != nullptr &&
-                     fulfils(allowed_, *data->curr(), *quantities);
+                     fulfils(tolerances_, *data->curr(), *quantities);
     if (has_converged_) return false;
     return !(options_.stop_requested && options_.stop_requested());
   }
@@ -149,20 +152,11 @@ class ProgramForIpopt final : public Ipopt::TNLP {
     return true;
   }
 
-  template <class Evaluation>
-  bool timed(const Evaluation& evaluation) {
-    const auto start = Clock::now();
-    evaluation();
-    solution_.evaluation_seconds += seconds_since(start);
-    solution_.evaluations = solution_.evaluations.value_or(0) + 1;
-    return true;
-  }
-
   NonlinearProgram& program_;
   const Eigen::VectorXd& start_;
   const SolverOptions& options_;
   Solution& solution_;
-  StopRule allowed_;
+  StopRule tolerances_;
   bool has_rule_of_its_own_;
   bool has_converged_ = false;
 };
@@ -231,28 +225,21 @@ void set_options(Ipopt::IpoptApplication& application, const SolverOptions& opti
 
 }  // namespace
 
-IpoptSolver::IpoptSolver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
-
 std::string IpoptSolver::description() const {
   return "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives";
 }
 
-Solution IpoptSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
-  require_start(program, start);
+Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   Solution solution;
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options_.verbose);
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options().verbose);
   application->RethrowNonIpoptException(true);
-  set_options(*application, options_);
+  set_options(*application, options());
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw Error("Ipopt refuses one of the options passed on to it");
   }
-  const auto start_time = Clock::now();
-  const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options_, solution);
+  const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options(), solution);
   const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
-  solution.seconds = seconds_since(start_time);
   solution.status = for_ipopt->has_converged() ? Status::solved : status_of(status);
-  solution.message = sentence_of(solution.status);
-  confirm(program, options_.tolerance, solution);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "methods/solvers/solver.hpp"
 
@@ -12,13 +13,12 @@ namespace dmocbench {
 /// else is Ipopt's default or comes by `SolverOptions::passed_on`.
 class IpoptSolver final : public Solver {
  public:
-  explicit IpoptSolver(SolverOptions options);
+  explicit IpoptSolver(SolverOptions options) : Solver(std::move(options)) {}
   [[nodiscard]] std::string name() const override { return "ipopt"; }
   [[nodiscard]] std::string description() const override;
-  [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const override;
 
  private:
-  SolverOptions options_;
+  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
 };
 
 }  // namespace dmocbench

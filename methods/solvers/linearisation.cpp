@@ -1,6 +1,5 @@
 #include "methods/solvers/linearisation.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <vector>
 
@@ -36,45 +35,60 @@ std::vector<bool> equality_rows(const NonlinearProgram& program) {
   return where_bounds_are(true, program.constraint_lower(), program.constraint_upper());
 }
 
-template <class Evaluation>
-void Evaluator::timed(const Evaluation& evaluation) {
-  const auto start = std::chrono::steady_clock::now();
-  evaluation();
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  ++count_;
-}
-
-Linearisation Evaluator::values_at(const Eigen::VectorXd& point) {
+Linearisation values_at(NonlinearProgram& program, const Eigen::VectorXd& point) {
   Linearisation result;
   result.point = point;
-  result.constraints.resize(static_cast<Eigen::Index>(program_.constraint_count()));
-  timed([&] { result.objective = program_.objective(point); });
-  timed([&] { program_.constraints(point, result.constraints); });
+  result.constraints.resize(static_cast<Eigen::Index>(program.constraint_count()));
+  result.objective = program.objective(point);
+  program.constraints(point, result.constraints);
   return result;
 }
 
-void Evaluator::differentiate(Linearisation& at) {
+void differentiate(NonlinearProgram& program, Linearisation& at) {
   at.gradient.resize(at.point.size());
-  Eigen::VectorXd values(static_cast<Eigen::Index>(program_.jacobian_structure().size()));
-  timed([&] { program_.gradient(at.point, at.gradient); });
-  timed([&] { program_.jacobian(at.point, values); });
-  at.jacobian = matrix_of(program_.jacobian_structure(), values, at.constraints.size(), at.point.size());
+  Eigen::VectorXd values(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.gradient(at.point, at.gradient);
+  program.jacobian(at.point, values);
+  at.jacobian = matrix_of(program.jacobian_structure(), values, at.constraints.size(), at.point.size());
 }
 
-Eigen::SparseMatrix<double> Evaluator::hessian_at(const Eigen::VectorXd& point, const Eigen::VectorXd& multipliers) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(program_.hessian_structure().size()));
-  timed([&] { program_.hessian(point, 1.0, multipliers, values); });
-  return matrix_of(program_.hessian_structure(), values, point.size(), point.size());
+Eigen::SparseMatrix<double> hessian_at(NonlinearProgram& program, const Eigen::VectorXd& point,
+                                       const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  program.hessian(point, 1.0, multipliers, values);
+  return matrix_of(program.hessian_structure(), values, point.size(), point.size());
 }
 
-Eigen::VectorXd Evaluator::violations(const Eigen::VectorXd& constraints) const {
-  const Eigen::VectorXd above = (constraints - program_.constraint_upper()).cwiseMax(0.0);
-  const Eigen::VectorXd below = (program_.constraint_lower() - constraints).cwiseMax(0.0);
+Eigen::VectorXd violations(const NonlinearProgram& program, const Eigen::VectorXd& constraints) {
+  const Eigen::VectorXd above = (constraints - program.constraint_upper()).cwiseMax(0.0);
+  const Eigen::VectorXd below = (program.constraint_lower() - constraints).cwiseMax(0.0);
   return above - below;
 }
 
-double Evaluator::violation(const Eigen::VectorXd& constraints) const {
-  return constraints.size() > 0 ? violations(constraints).lpNorm<Eigen::Infinity>() : 0.0;
+Eigen::SparseMatrix<double> kkt_matrix(const Eigen::SparseMatrix<double>& hessian, double shift,
+                                       const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
+                                       const std::vector<bool>& counts) {
+  const Eigen::Index n = jacobian.cols();
+  const Eigen::Index m = jacobian.rows();
+  const auto is_free = [&](Eigen::Index j) { return bool{free[static_cast<std::size_t>(j)]}; };
+  const auto is_row = [&](Eigen::Index i) { return bool{counts[static_cast<std::size_t>(i)]}; };
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  };
+  for (Eigen::Index j = 0; j < n; ++j) {
+    add(j, j, is_free(j) ? shift : 1.0);
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(hessian, j); entry; ++entry) {
+      add(entry.row(), j, is_free(j) && is_free(entry.row()) ? entry.value() : 0.0);
+    }
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(jacobian, j); entry; ++entry) {
+      add(n + entry.row(), j, is_free(j) && is_row(entry.row()) ? entry.value() : 0.0);
+    }
+  }
+  for (Eigen::Index i = 0; i < m; ++i) add(n + i, n + i, is_row(i) ? 0.0 : -1.0);
+  Eigen::SparseMatrix<double> matrix(n + m, n + m);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 }  // namespace dmocbench

@@ -26,34 +26,23 @@ struct Linearisation {
 /// Which rows are equalities.
 [[nodiscard]] std::vector<bool> equality_rows(const NonlinearProgram& program);
 
-/// Evaluates a program; counts and times what it does.
-class Evaluator {
- public:
-  explicit Evaluator(NonlinearProgram& program) : program_(program) {}
+/// Objective and constraints at a point.
+[[nodiscard]] Linearisation values_at(NonlinearProgram& program, const Eigen::VectorXd& point);
+/// Adds gradient and Jacobian.
+void differentiate(NonlinearProgram& program, Linearisation& at);
+/// Lower triangle of the Hessian of φ + λᵀa.
+[[nodiscard]] Eigen::SparseMatrix<double> hessian_at(NonlinearProgram& program, const Eigen::VectorXd& point,
+                                                     const Eigen::VectorXd& multipliers);
 
-  [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
-  [[nodiscard]] Linearisation values_at(const Eigen::VectorXd& point);
-  /// Adds gradient and Jacobian.
-  void differentiate(Linearisation& at);
-  /// Lower triangle of the Hessian of φ + λᵀa.
-  [[nodiscard]] Eigen::SparseMatrix<double> hessian_at(const Eigen::VectorXd& point,
-                                                       const Eigen::VectorXd& multipliers);
+/// By how much each constraint leaves its bounds: positive above the upper one, negative below the lower one.
+[[nodiscard]] Eigen::VectorXd violations(const NonlinearProgram& program, const Eigen::VectorXd& constraints);
 
-  /// Largest amount by which a row leaves its bounds.
-  [[nodiscard]] double violation(const Eigen::VectorXd& constraints) const;
-  /// The same, row by row: positive above the upper bound, negative below the lower one.
-  [[nodiscard]] Eigen::VectorXd violations(const Eigen::VectorXd& constraints) const;
-
-  [[nodiscard]] int count() const noexcept { return count_; }
-  [[nodiscard]] double seconds() const noexcept { return seconds_; }
-
- private:
-  template <class Evaluation>
-  void timed(const Evaluation& evaluation);
-
-  NonlinearProgram& program_;
-  int count_ = 0;
-  double seconds_ = 0.0;
-};
+/// Lower triangle of (H + δI, Eᵀ; E, 0), where E are the rows of the Jacobian that count. Fixed variables and the other
+/// rows are replaced by unit rows (1 and -1), so that the pattern is the same at every point and the number of negative
+/// eigenvalues that belongs to a positive definite H + δI on the null space of E is that of all rows.
+/// `hessian`: lower triangle, n x n; `jacobian`: m x n; `free`: n entries; `counts`: m entries.
+[[nodiscard]] Eigen::SparseMatrix<double> kkt_matrix(const Eigen::SparseMatrix<double>& hessian, double shift,
+                                                     const Eigen::SparseMatrix<double>& jacobian,
+                                                     const std::vector<bool>& free, const std::vector<bool>& counts);
 
 }  // namespace dmocbench

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -13,11 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlopt.h>
 
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/one_sided_rows.hpp"
 
@@ -63,10 +65,10 @@ struct FreeVariables {
   }
 };
 
-/// NLopt's view of a program; it counts, judges the points that NLopt visits and keeps the best one.
+/// NLopt's view of a program; it judges the points that NLopt visits and keeps the best one.
 class ProgramForNlopt {
  public:
-  ProgramForNlopt(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+  ProgramForNlopt(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
                   Solution& solution)
       : program_(program),
         options_(options),
@@ -84,6 +86,7 @@ class ProgramForNlopt {
   [[nodiscard]] std::vector<double> best_point() const { return free_.of(solution_.primal); }
   [[nodiscard]] const Nearness& nearest() const noexcept { return nearest_; }
   [[nodiscard]] std::size_t equality_count() const noexcept { return equalities_.size(); }
+  [[nodiscard]] int visits() const noexcept { return visits_; }
   [[nodiscard]] OwnStop own_stop() const noexcept { return own_stop_; }
   [[nodiscard]] const std::exception_ptr& exception() const noexcept { return exception_; }
 
@@ -136,8 +139,7 @@ class ProgramForNlopt {
   /// The objective; infinity, from which SLSQP's line search turns back, where it or a row is not a number.
   double visit(const double* x, double* gradient) {
     if (options_.stop_requested && options_.stop_requested()) return stop(OwnStop::interrupted);
-    const bool is_start = !solution_.evaluations.has_value();
-    solution_.evaluations = solution_.evaluations.value_or(0) + 1;
+    const bool is_start = visits_++ == 0;
     const double value = evaluate(x, gradient != nullptr);
     if (!std::isfinite(value) || !rows_.allFinite()) {
       return is_start ? stop(OwnStop::not_finite) : std::numeric_limits<double>::infinity();
@@ -149,7 +151,6 @@ class ProgramForNlopt {
   }
 
   double evaluate(const double* x, bool with_derivatives) {
-    const auto start = Clock::now();
     for (const Eigen::Index i : free_.indices) point_[i] = *x++;
     const double value = program_.objective(point_);
     program_.constraints(point_, rows_);
@@ -157,14 +158,13 @@ class ProgramForNlopt {
       program_.gradient(point_, gradient_);
       program_.jacobian(point_, jacobian_);
     }
-    solution_.evaluation_seconds += seconds_since(start);
     return value;
   }
 
   bool meets_the_tolerance() {
     Solution here;
     here.primal = point_;
-    measure(program_, here);
+    measure(program_.uncounted(), here);
     const bool violates = !(here.constraint_violation.value_or(unbounded) <= row_tolerance());
     const Nearness nearness{violates, times_the_tolerance(program_, options_.tolerance, here)};
     if (nearness.is_nearer_than(nearest_)) {
@@ -180,7 +180,7 @@ class ProgramForNlopt {
     if (gradient != nullptr) rows.jacobian(jacobian_, gradient);
   }
 
-  NonlinearProgram& program_;
+  CountedProgram& program_;
   const SolverOptions& options_;
   Solution& solution_;
   FreeVariables free_;
@@ -191,6 +191,7 @@ class ProgramForNlopt {
   Eigen::VectorXd rows_;
   Eigen::VectorXd jacobian_;
   nlopt_opt handle_ = nullptr;
+  int visits_ = 0;
   Nearness nearest_;
   OwnStop own_stop_ = OwnStop::none;
   std::exception_ptr exception_;
@@ -212,12 +213,12 @@ constexpr std::array settings{
 };
 
 const Setting& setting_named(std::string_view name) {
-  std::string known;
+  std::vector<std::string_view> known;
   for (const Setting& setting : settings) {
     if (setting.name == name) return setting;
-    known += (known.empty() ? "" : ", ") + std::string(setting.name);
+    known.push_back(setting.name);
   }
-  throw Error("NLopt's SLSQP has no option \"" + std::string(name) + "\" here; choose one of " + known);
+  throw Error(fmt::format("NLopt's SLSQP has no option \"{}\" here; choose one of {}", name, fmt::join(known, ", ")));
 }
 
 /// A number that is not negative, whole for maxeval.
@@ -227,8 +228,8 @@ double value_of(const std::string& name, const std::string& text) {
   const auto [read, error] = std::from_chars(text.data(), end, value);
   const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
   if (error != std::errc() || read != end || !std::isfinite(value) || value < 0.0 || !is_whole) {
-    throw Error("NLopt does not take the option " + name + "=" + text + "; give a number that is not negative" +
-                (name == "maxeval" ? " and whole" : ""));
+    throw Error(fmt::format("NLopt does not take the option {}={}; give a number that is not negative{}", name, text,
+                            name == "maxeval" ? " and whole" : ""));
   }
   return value;
 }
@@ -249,8 +250,7 @@ bool allow_the_rest(nlopt_opt handle, int most_evaluations, int evaluations, dou
 
 /// Runs SLSQP. Where it can make no more of its digits, it starts afresh from its best point, without its quasi-Newton
 /// matrix, as long as that helps and is allowed; a tolerance that was passed on is the last word.
-nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const SolverOptions& options,
-                      const Solution& solution) {
+nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const SolverOptions& options) {
   const auto start_time = Clock::now();
   const bool is_last_word = std::any_of(options.passed_on.begin(), options.passed_on.end(), [](const auto& option) {
     return option.first.find("tol") != std::string::npos;
@@ -266,8 +266,7 @@ nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const Solve
   nlopt_result last = first;
   while (!is_last_word && view.nearest().misses > confirmation_factor &&
          (last == NLOPT_XTOL_REACHED || last == NLOPT_ROUNDOFF_LIMITED) &&
-         allow_the_rest(handle, most_evaluations, solution.evaluations.value_or(0), most_seconds,
-                        seconds_since(start_time))) {
+         allow_the_rest(handle, most_evaluations, view.visits(), most_seconds, seconds_since(start_time))) {
     const Nearness before = view.nearest();
     last = run();
     if (!helped(before, view.nearest())) break;
@@ -313,9 +312,8 @@ Solution refused(Status status, std::string message) {
 
 }  // namespace
 
-NloptSolver::NloptSolver(SolverOptions options) : options_(std::move(options)) {
-  options_.validate();
-  for (const auto& [name, text] : options_.passed_on) {
+NloptSolver::NloptSolver(SolverOptions options) : Solver(std::move(options)) {
+  for (const auto& [name, text] : this->options().passed_on) {
     static_cast<void>(setting_named(name));
     static_cast<void>(value_of(name, text));
   }
@@ -326,56 +324,47 @@ std::string NloptSolver::description() const {
   int minor = 0;
   int patch = 0;
   nlopt_version(&major, &minor, &patch);
-  return "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt " + std::to_string(major) +
-         "." + std::to_string(minor) + "." + std::to_string(patch) + "), at most " +
-         std::to_string(most_free_variables) + " free variables";
+  return fmt::format(
+      "SLSQP, a dense quasi-Newton method of sequential quadratic programming (NLopt {}.{}.{}), at most {} free "
+      "variables",
+      major, minor, patch, most_free_variables);
 }
 
-Solution NloptSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
-  if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
-    throw Error("the start has " + std::to_string(start.size()) + " entries, the program " +
-                std::to_string(program.variable_count()) + " variables");
-  }
+Solution NloptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   const std::size_t free_count = free_variable_count(program);
   if (free_count > most_free_variables) {
-    return refused(Status::too_large, "NLopt's SLSQP is dense and takes at most " +
-                                          std::to_string(most_free_variables) + " free variables, the program has " +
-                                          std::to_string(free_count) + "; take fewer intervals or another solver.");
+    return refused(Status::too_large, fmt::format("NLopt's SLSQP is dense and takes at most {} free variables, the "
+                                                  "program has {}; take fewer intervals or another solver.",
+                                                  most_free_variables, free_count));
   }
   Solution solution;
-  ProgramForNlopt view(program, start, options_, solution);
+  ProgramForNlopt view(program, start, options(), solution);
   if (free_count == 0) {  // NLopt wants a variable
     solution.status = Status::acceptable;
-    confirm(program, options_.tolerance, solution);
     return solution;
   }
   if (view.equality_count() > free_count) {
     return refused(Status::invalid_program,
-                   "NLopt's SLSQP takes no more equalities than free variables, the program has " +
-                       std::to_string(view.equality_count()) + " and " + std::to_string(free_count) +
-                       "; free some variables.");
+                   fmt::format("NLopt's SLSQP takes no more equalities than free variables, the program has {} and {}; "
+                               "free some variables.",
+                               view.equality_count(), free_count));
   }
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> handle(
       nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(free_count)), &nlopt_destroy);
-  if (!handle) return refused(Status::out_of_memory, std::string(sentence_of(Status::out_of_memory)));
+  if (!handle) return refused(Status::out_of_memory, {});
   view.state(handle.get());
-  set_options(handle.get(), options_);
-
-  const auto start_time = Clock::now();
-  const nlopt_result result = optimize(handle.get(), view, options_, solution);
-  solution.seconds = seconds_since(start_time);
+  set_options(handle.get(), options());
+  const nlopt_result result = optimize(handle.get(), view, options());
   if (view.exception()) std::rethrow_exception(view.exception());
 
   solution.status = claim_of(view.own_stop(), result);
-  solution.message = sentence_of(solution.status);
-  confirm(program, options_.tolerance, solution);
-  if (solution.status == Status::not_confirmed) {
-    if (is_point_of_least_violation(program, solution.primal)) {
+  const bool is_confirmed = judged(solution.status, view.nearest().misses) != Status::not_confirmed;
+  if (solution.status == Status::acceptable && !is_confirmed) {
+    if (is_point_of_least_violation(program.uncounted(), solution.primal)) {
       solution.status = Status::infeasible;
     } else if (result < 0) {
       solution.status = Status::step_failed;  // it did not claim to have solved anything
     }
-    solution.message = sentence_of(solution.status);
   }
   return solution;
 }

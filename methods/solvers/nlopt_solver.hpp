@@ -34,10 +34,9 @@ class NloptSolver final : public Solver {
   explicit NloptSolver(SolverOptions options);
   [[nodiscard]] std::string name() const override { return "nlopt"; }
   [[nodiscard]] std::string description() const override;
-  [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const override;
 
  private:
-  SolverOptions options_;
+  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
 };
 
 }  // namespace dmocbench

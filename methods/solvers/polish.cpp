@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "methods/solvers/confirm.hpp"
-#include "methods/solvers/kkt_matrix.hpp"
 #include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/symmetric_factorisation.hpp"
 
@@ -45,16 +44,15 @@ bool is_rounding(const NonlinearProgram& program, const Solution& solution) {
 }
 
 /// The solution after one Newton step; with an infinite residual if there is none.
-Solution stepped(Evaluator& evaluator, NonlinearProgram& program, SymmetricFactorisation& factorisation,
-                 const Solution& solution) {
+Solution stepped(NonlinearProgram& program, SymmetricFactorisation& factorisation, const Solution& solution) {
   Solution next = solution;
-  Linearisation at = evaluator.values_at(solution.primal);
-  evaluator.differentiate(at);
+  Linearisation at = values_at(program, solution.primal);
+  differentiate(program, at);
   const std::vector<bool> free = free_variables(program);
   const Eigen::Index n = at.point.size();
   const Eigen::Index m = at.constraints.size();
   const Eigen::SparseMatrix<double> matrix =
-      kkt_matrix(evaluator.hessian_at(at.point, solution.multipliers), 0.0, at.jacobian, free, equality_rows(program));
+      kkt_matrix(hessian_at(program, at.point, solution.multipliers), 0.0, at.jacobian, free, equality_rows(program));
   Eigen::VectorXd right_hand_side(n + m);
   right_hand_side << -(at.gradient + at.jacobian.transpose() * solution.multipliers),
       program.constraint_lower() - at.constraints;
@@ -79,12 +77,11 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
                     static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count() &&
                     is_away_from_bounds(program, solution.primal);
   if (!fits) return 0;
-  Evaluator evaluator(program);
   SymmetricFactorisation factorisation;
   int steps = 0;
   bool is_better = true;
   while (is_better && steps < most_steps) {
-    Solution next = stepped(evaluator, program, factorisation, solution);
+    Solution next = stepped(program, factorisation, solution);
     is_better = residual_of(next) < residual_of(solution);
     if (!is_better && !is_rounding(program, next)) break;
     solution = std::move(next);

@@ -15,7 +15,10 @@
 
 namespace dmocbench {
 
-/// What every solver understands.
+class CountedProgram;
+
+/// What every solver understands. What only one of our own solvers understands is typed: `SequentialOptions`,
+/// `InteriorPointOptions`.
 struct SolverOptions {
   /// For the KKT residual of the program as the solver sees it (scaled cost).
   double tolerance = 1e-10;
@@ -24,10 +27,11 @@ struct SolverOptions {
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.
   bool verbose = false;
-  /// λ of a program that is nearly the same, one per row: a warm start, for solvers that can use it (`interior_point`).
-  /// Empty for none.
+  /// λ of a program that is nearly the same, one per constraint: a warm start, for solvers that can use it
+  /// (`interior_point`). Empty for none.
   Eigen::VectorXd start_multipliers;
-  /// Options passed to the solver as they stand, by their names there; they win over what we set.
+  /// Options by name, as a command line gives them; they win over what is set otherwise. Ipopt and NLopt get them as
+  /// they stand, our own solvers read them into their typed options.
   std::map<std::string, std::string> passed_on;
   /// Asked once per iteration; true ends the solve with status "interrupted".
   std::function<bool()> stop_requested;
@@ -54,14 +58,23 @@ class Solver {
 
   /// Solves from `start` (variable_count() entries). Not converging is a status. Throws `Error` on misuse only: a wrong
   /// size, an option the solver does not know.
-  [[nodiscard]] virtual Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const = 0;
+  ///
+  /// The same for every solver: checks the size of the start, counts and times the evaluations, measures the time of
+  /// `run`, judges its answer (`confirm`) and says in a sentence what happened.
+  [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const;
 
  protected:
-  Solver() = default;
-};
+  /// Throws `Error` if an option is out of range.
+  explicit Solver(SolverOptions options);
+  [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
 
-/// Throws `Error` unless `start` has variable_count() entries.
-void require_start(const NonlinearProgram& program, const Eigen::VectorXd& start);
+  /// The method itself. Returns its own word for the status, the last point (none if it refuses the program), the
+  /// multipliers if it has them, and its counts of iterations; a message only where it can say more than the status.
+  [[nodiscard]] virtual Solution run(CountedProgram& program, const Eigen::VectorXd& start) const = 0;
+
+ private:
+  SolverOptions options_;
+};
 
 /// Names of all solvers, the default first.
 [[nodiscard]] std::vector<std::string> solver_names();

@@ -36,7 +36,7 @@ TEST(Ipopt, FindsTheKnownOptimaOfHockAndSchittkowski) {
     EXPECT_LT(*solution.kkt_residual, 1e-9);
     EXPECT_LT(*solution.constraint_violation, 1e-9);
     EXPECT_GT(solution.major_iterations.value(), 0);
-    EXPECT_GT(solution.evaluations.value(), 0);
+    EXPECT_GT(solution.evaluations.value().total(), 0);
     EXPECT_FALSE(solution.minor_iterations.has_value());
   }
 }

@@ -48,7 +48,7 @@ TEST(Nlopt, FindsTheKnownOptimaOfHockAndSchittkowski) {
     EXPECT_LT((solution.primal - known.optimum).norm(), 2e-4);
     EXPECT_LT(solution.kkt_residual.value_or(unbounded), 1e-7);
     EXPECT_LT(solution.constraint_violation.value_or(unbounded), 1e-7);
-    EXPECT_GT(solution.evaluations.value_or(0), 0);
+    EXPECT_GT(solution.total_evaluations().value_or(0), 0);
     EXPECT_FALSE(solution.major_iterations.has_value());
     EXPECT_FALSE(solution.minor_iterations.has_value());
     EXPECT_TRUE(solution.multipliers_are_estimated);
@@ -144,7 +144,7 @@ TEST(Nlopt, StopsAtTheEvaluationLimit) {
   options.most_iterations = 3;
   const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
   EXPECT_EQ(solution.status, Status::iteration_limit);
-  EXPECT_EQ(solution.evaluations, 3);
+  EXPECT_EQ(solution.evaluations->objective, 3);
   EXPECT_EQ(solution.primal.size(), 2);
   EXPECT_GT(solution.kkt_residual.value_or(0.0), 1e-3);
 }
@@ -164,7 +164,7 @@ TEST(Nlopt, StopsWhenAskedTo) {
   const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
   EXPECT_EQ(solution.status, Status::interrupted);
   EXPECT_EQ(asked, 4);
-  EXPECT_EQ(solution.evaluations, 3);
+  EXPECT_EQ(solution.evaluations->objective, 3);
 }
 
 TEST(Nlopt, SaysEvaluationFailedWhereTheStartIsNotANumber) {
@@ -270,7 +270,7 @@ TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
   SmallProgram program = tests::rosenbrock();
   const Solution limited = solve_by_nlopt(program, vector({-1.2, 1.0}), passing_on("maxeval", "2"));
   EXPECT_EQ(limited.status, Status::iteration_limit);
-  EXPECT_EQ(limited.evaluations, 2);
+  EXPECT_EQ(limited.evaluations->objective, 2);
   for (const auto& [name, value] : std::map<std::string, std::string>{{"no_such_option", "1"},
                                                                       {"ftol_rel", "small"},
                                                                       {"xtol_rel", "-1"},

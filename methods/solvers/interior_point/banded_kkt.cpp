@@ -238,8 +238,10 @@ bool BandedKkt::is_solution(const KktMatrix& matrix, const Eigen::VectorXd& slop
   return left <= largest_share * size;
 }
 
-FactorisationStatus BandedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                                     Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+FactorisationStatus BandedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                     const KktStep& step) {
+  const auto& [slope, rows] = right_hand_side;
+  const auto& [primal_step, multiplier_step] = step;
   const bool has_border = order_.border_size > 0;
   assemble(matrix);
   if (!factorise()) return has_border ? FactorisationStatus::untrusted : FactorisationStatus::singular;

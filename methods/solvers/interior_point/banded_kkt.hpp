@@ -33,9 +33,8 @@ class BandedKkt final : public KktSystem {
 
   BandedKkt(const NonlinearProgram& program, NodeOrder order);
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override;
 
   [[nodiscard]] const NodeOrder& order() const noexcept { return order_; }
   /// Multiplications that the last factorisation of the band took, each with a subtraction, and its divisions: known

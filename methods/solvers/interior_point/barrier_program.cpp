@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
@@ -60,13 +59,6 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program, const ProgramRuns& run
   for (const BoundList* list : {&x_lower_, &x_upper_, &s_lower_, &s_upper_}) bound_count_ += list->values.size();
 }
 
-template <class Evaluation>
-void BarrierProgram::timed(const Evaluation& evaluation) {
-  const Clock::time_point begin = Clock::now();
-  evaluation();
-  evaluation_seconds_ += seconds_since(begin);
-}
-
 Point BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
   Point point;
   copy_to(point.x, start);
@@ -103,11 +95,8 @@ Eigen::VectorXd BarrierProgram::slope_of_slacks(const Eigen::VectorXd& multiplie
 std::optional<BarrierProgram::Merit> BarrierProgram::evaluate(const Eigen::VectorXd& x, const Eigen::VectorXd& s,
                                                               Eigen::VectorXd& rows) {
   Merit merit{};
-  timed([&] {
-    merit.objective = program_.objective(x);
-    program_.constraints(x, rows);
-  });
-  ++evaluations_;
+  merit.objective = program_.objective(x);
+  program_.constraints(x, rows);
   if (values_.size() > 0) set_to_sum(rows, rows, -1.0, values_);
   for (std::size_t j = 0; j < inequalities_.size(); ++j) rows[inequalities_[j]] -= s[static_cast<Eigen::Index>(j)];
   merit.violation = sum_of_magnitudes(rows);
@@ -116,14 +105,12 @@ std::optional<BarrierProgram::Merit> BarrierProgram::evaluate(const Eigen::Vecto
 }
 
 void BarrierProgram::differentiate(const Eigen::VectorXd& x) {
-  timed([&] {
-    program_.gradient(x, gradient_);
-    program_.jacobian(x, jacobian_);
-  });
+  program_.gradient(x, gradient_);
+  program_.jacobian(x, jacobian_);
 }
 
 void BarrierProgram::evaluate_hessian(const Point& point) {
-  timed([&] { program_.hessian(point.x, 1.0, point.multipliers, hessian_); });
+  program_.hessian(point.x, 1.0, point.multipliers, hessian_);
 }
 
 bool BarrierProgram::slope_of_lagrangian(const Eigen::VectorXd& multipliers, Eigen::VectorXd& result) const {

@@ -81,13 +81,7 @@ class BarrierProgram {
   /// Keeps multipliers of bounds in the neighbourhood of the barrier's own.
   void keep_near_barrier(double mu, Point& point) const;
 
-  [[nodiscard]] int evaluations() const noexcept { return evaluations_; }
-  [[nodiscard]] double evaluation_seconds() const noexcept { return evaluation_seconds_; }
-
  private:
-  template <class Evaluation>
-  void timed(const Evaluation& evaluation);
-
   NonlinearProgram& program_;
   BoundList x_lower_;
   BoundList x_upper_;
@@ -100,8 +94,6 @@ class BarrierProgram {
   Eigen::VectorXd gradient_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd hessian_;
-  int evaluations_ = 0;
-  double evaluation_seconds_ = 0.0;
 };
 
 }  // namespace dmocbench::interior_point

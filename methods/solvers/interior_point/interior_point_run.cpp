@@ -40,9 +40,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-InteriorPointRun::InteriorPointRun(NonlinearProgram& program, const ProgramRuns& runs, KktSystem& kkt,
+InteriorPointRun::InteriorPointRun(CountedProgram& program, const ProgramRuns& runs, KktSystem& kkt,
                                    const Eigen::VectorXd& start, const SolverOptions& options)
-    : plain_program_(program),
+    : plain_program_(program.uncounted()),
       options_(options),
       program_(program, runs),
       newton_(program_, kkt),
@@ -64,15 +64,12 @@ Solution InteriorPointRun::run() {
     std::cout << iterations_ << " iterations, " << newton_.factorisations() << " linear systems\n";
   }
   solution.status = end.value_or(Status::solver_error);
-  solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
+  solution.message = message_;
   solution.primal = std::move(point_.x);
   solution.multipliers = std::move(point_.multipliers);
   solution.major_iterations = iterations_;
   solution.linear_systems = newton_.factorisations();
   solution.linear_seconds = newton_.linear_seconds();
-  solution.evaluations = program_.evaluations();
-  solution.evaluation_seconds = program_.evaluation_seconds();
-  solution.seconds = seconds_since(begin_);
   return solution;
 }
 

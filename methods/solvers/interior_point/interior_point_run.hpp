@@ -8,6 +8,7 @@
 
 #include "methods/program/solution.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
@@ -20,7 +21,7 @@ namespace dmocbench::interior_point {
 /// Programming 106, 2006); equations are named after it.
 class InteriorPointRun {
  public:
-  InteriorPointRun(NonlinearProgram& program, const ProgramRuns& runs, KktSystem& kkt, const Eigen::VectorXd& start,
+  InteriorPointRun(CountedProgram& program, const ProgramRuns& runs, KktSystem& kkt, const Eigen::VectorXd& start,
                    const SolverOptions& options);
 
   /// Judged by `confirm` afterwards, like every solver's.

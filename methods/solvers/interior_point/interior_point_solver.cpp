@@ -1,52 +1,36 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-#include <map>
+#include <array>
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
-#include "methods/runtime/clock.hpp"
-#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_run.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/intervals/recombined_kkt.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/named_options.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-enum class Factorisation : unsigned char { intervals, recombined, banded, sparse };
+using Factorisation = InteriorPointOptions::Factorisation;
 
-const std::map<std::string, Factorisation> factorisations{{"intervals", Factorisation::intervals},
-                                                          {"recombined", Factorisation::recombined},
-                                                          {"banded", Factorisation::banded},
-                                                          {"sparse", Factorisation::sparse}};
-
-Factorisation factorisation_of(const std::map<std::string, std::string>& passed_on) {
-  Factorisation choice = Factorisation::intervals;
-  for (const auto& [option, value] : passed_on) {
-    if (option != "factorisation") {
-      throw Error("the solver interior_point has no option " + option + "; it has factorisation");
-    }
-    const auto found = factorisations.find(value);
-    if (found == factorisations.end()) {
-      throw Error("the solver interior_point: factorisation must be intervals, recombined, banded or sparse, not " +
-                  value);
-    }
-    choice = found->second;
-  }
-  return choice;
-}
+constexpr std::array<NamedChoice<Factorisation>, 3> factorisations{
+    {{"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}}};
 
 /// Null, with the reason in `why`, where the program has no structure that intervals need.
-std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& program,
-                                                       const interior_point::ProgramRuns& runs, Factorisation choice,
-                                                       std::string& why) {
+std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program,
+                                                       const interior_point::ProgramRuns& runs,
+                                                       const InteriorPointOptions& choices, std::string& why) {
+  if (choices.make_kkt_system) return choices.make_kkt_system(program);
+  const Factorisation choice = choices.factorisation;
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choice == Factorisation::recombined) return interior_point::RecombinedKkt::make(program, why);
   if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
   auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
   if (!by_intervals) return nullptr;
@@ -55,39 +39,36 @@ std::unique_ptr<interior_point::KktSystem> make_system(const NonlinearProgram& p
 
 }  // namespace
 
-InteriorPointSolver::InteriorPointSolver(SolverOptions options) : options_(std::move(options)) {
-  options_.validate();
-  static_cast<void>(factorisation_of(options_.passed_on));
+InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
+    : Solver(std::move(options)), choices_(std::move(choices)) {
+  NamedOptions named("interior_point", this->options().passed_on);
+  named.read("factorisation", choices_.factorisation, factorisations);
+  named.refuse_others();
 }
 
 std::string InteriorPointSolver::description() const {
   return "interior-point method whose linear systems are eliminated interval by interval; exact Hessian";
 }
 
-Solution InteriorPointSolver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
-  require_start(program, start);
-  const auto given = static_cast<std::size_t>(options_.start_multipliers.size());
+Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
+  const auto given = static_cast<std::size_t>(options().start_multipliers.size());
   if (given > 0 && given != program.constraint_count()) {
-    throw Error("the solver interior_point got " + std::to_string(given) + " start multipliers; the program has " +
-                std::to_string(program.constraint_count()) + " rows");
+    throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
+                            program.constraint_count()));
   }
-  const Clock::time_point begin = Clock::now();
   std::string why;
   const interior_point::ProgramRuns runs(program);
-  const auto kkt = make_system(program, runs, factorisation_of(options_.passed_on), why);
+  const auto kkt = make_system(program, runs, choices_, why);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
-    refused.message = "interior_point cannot eliminate this program interval by interval: " + why +
-                      "; choose ipopt, or the option factorisation=sparse.";
+    refused.message = fmt::format(
+        "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
+        "factorisation=sparse.",
+        why);
     return refused;
   }
-  Solution solution = interior_point::InteriorPointRun(program, runs, *kkt, start, options_).run();
-  solution.seconds = seconds_since(begin);  // finding the structure is part of it
-  const std::string message = solution.message;
-  confirm(program, options_.tolerance, solution);
-  if (solution.status == Status::step_failed) solution.message = message;
-  return solution;
+  return interior_point::InteriorPointRun(program, runs, *kkt, start, options()).run();
 }
 
 }  // namespace dmocbench

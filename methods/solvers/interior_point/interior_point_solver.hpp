@@ -1,27 +1,46 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
 
+namespace interior_point {
+class KktSystem;
+}
+
+/// What the user of `InteriorPointSolver` may choose.
+struct InteriorPointOptions {
+  enum class Factorisation : std::uint8_t {
+    intervals,  ///< interval by interval; a program whose structure does not allow it is refused
+    banded,     ///< LAPACK's LU with exchanges of rows, for any program with an interval structure
+    sparse,     ///< by MUMPS, for any program
+  };
+  Factorisation factorisation = Factorisation::intervals;
+  /// Supplies the linear systems of an experiment in place of `factorisation`, one `KktSystem` (kkt_system.hpp) per
+  /// solve; it throws `Error` where it has none for the program, which outlives it. Empty for ours.
+  std::function<std::unique_ptr<interior_point::KktSystem>(NonlinearProgram& program)> make_kkt_system;
+};
+
 /// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md.
 ///
-/// Options of its own (`SolverOptions::passed_on`): "factorisation" = "intervals" (the default; a program whose
-/// structure does not allow it is refused), "recombined" (the same with the midpoint rule on (q, p) brought into DMOC's
-/// form), "banded" (LAPACK's LU with exchanges of rows, for any program with an interval structure) or "sparse" (MUMPS,
-/// for any program).
+/// `InteriorPointOptions` by name: factorisation=intervals|banded|sparse.
 class InteriorPointSolver final : public Solver {
  public:
-  explicit InteriorPointSolver(SolverOptions options = {});
+  /// Throws `Error` on an option passed on that there is not, or a value that it does not take.
+  explicit InteriorPointSolver(SolverOptions options = {}, InteriorPointOptions choices = {});
 
   [[nodiscard]] std::string name() const override { return "interior_point"; }
   [[nodiscard]] std::string description() const override;
-  [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const override;
 
  private:
-  SolverOptions options_;
+  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
+
+  InteriorPointOptions choices_;
 };
 
 }  // namespace dmocbench

@@ -11,29 +11,41 @@ namespace dmocbench::interior_point {
 ///   ( H + diag(d)     Jᵀ    )
 ///   (     J        -diag(e) ),
 ///
-/// with H the Hessian of the Lagrangian and J the Jacobian of the rows. d is what bounds and regularisation add, e what
-/// the slack of an inequality leaves of it: 0 for an equality, which is a row that must be met.
+/// with H the Hessian of the Lagrangian and J the Jacobian of the constraints. d holds the barrier's Σ and the shift of
+/// the Hessian; e is the slack compliance of an inequality (the inverse of its slack's Σ) and 0 for an equality.
 struct KktMatrix {
   const Eigen::VectorXd& hessian;   ///< one value per entry of hessian_structure()
   const Eigen::VectorXd& jacobian;  ///< one value per entry of jacobian_structure()
   const Eigen::VectorXd& diagonal;  ///< d, one per variable
-  /// e >= 0, one per row, zero for exactly the equalities; empty if there is nothing else.
+  /// e >= 0, one per constraint, zero for exactly the equalities; empty if all are equalities.
   const Eigen::VectorXd& compliance;
 
   [[nodiscard]] double compliance_of(Eigen::Index row) const { return compliance.size() > 0 ? compliance[row] : 0.0; }
 };
 
+/// The negative of the right-hand side.
+struct KktRightHandSide {
+  const Eigen::VectorXd& gradient;     ///< one entry per variable
+  const Eigen::VectorXd& constraints;  ///< residuals, one per constraint
+};
+
+/// The solution; its vectors are sized by the caller.
+struct KktStep {
+  Eigen::VectorXd& primal;       ///< δx, one entry per variable
+  Eigen::VectorXd& multipliers;  ///< δλ, one per constraint
+};
+
 /// What a factorisation found.
 enum class FactorisationStatus : std::uint8_t {
-  solved,         ///< H + diag(d) is positive definite where the equalities hold, and the step is there
+  solved,         ///< H + diag(d) is positive definite on the null space of the equalities; the step is there
   wrong_inertia,  ///< it is not
-  singular,       ///< the rows depend on each other, or a number is not finite
+  singular,       ///< the constraints depend on each other, or a number is not finite
   untrusted,      ///< the elimination met so small a pivot that its result says nothing
 };
 
 /// A way to solve
 ///
-///   (H + diag(d)) δx + Jᵀ δλ = -slope,   J δx - diag(e) δλ = -rows,
+///   (H + diag(d)) δx + Jᵀ δλ = -gradient,   J δx - diag(e) δλ = -constraints,
 ///
 /// and to tell whether the solution is a minimum along the equalities. Fixed variables do not move: δx = 0.
 class KktSystem {
@@ -44,11 +56,9 @@ class KktSystem {
   KktSystem(KktSystem&&) = delete;
   KktSystem& operator=(KktSystem&&) = delete;
 
-  /// `slope` and `primal_step`: variable_count() entries; `rows` and `multiplier_step`: constraint_count() entries. The
-  /// steps are written if the verdict is `solved`.
-  [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                                  const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                                  Eigen::VectorXd& multiplier_step) = 0;
+  /// The step is written if the status is `solved`; otherwise it may hold anything.
+  [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                                  const KktStep& step) = 0;
 
  protected:
   KktSystem() = default;

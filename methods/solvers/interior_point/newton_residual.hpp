@@ -10,9 +10,9 @@
 
 namespace dmocbench::interior_point {
 
-/// What a step leaves of a Newton system,
+/// The residual of a Newton system,
 ///
-///   slope + (H + diag(d)) δx + Jᵀ δλ   and   rows + J δx - diag(e) δλ,
+///   gradient + (H + diag(d)) δx + Jᵀ δλ   and   constraints + J δx - diag(e) δλ,
 ///
 /// with zero for fixed variables, whose equation is δx = 0.
 class NewtonResidual {
@@ -20,18 +20,16 @@ class NewtonResidual {
   explicit NewtonResidual(const NonlinearProgram& program) : NewtonResidual(program, ProgramRuns(program)) {}
   NewtonResidual(const NonlinearProgram& program, const ProgramRuns& runs);
 
-  void compute(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-               const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step);
+  void compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step);
 
-  [[nodiscard]] const Eigen::VectorXd& slope() const noexcept { return slope_; }  ///< one entry per variable
-  [[nodiscard]] const Eigen::VectorXd& rows() const noexcept { return rows_; }    ///< one entry per row
+  /// The residual that was computed last. As a right-hand side it asks for the correction of the step.
+  [[nodiscard]] KktRightHandSide value() const noexcept { return {.gradient = gradient_, .constraints = constraints_}; }
 
-  /// How much larger what is left is than what it may be: `accuracy` times the largest entry of the right-hand side,
-  /// the rounding of the sums that it is left of, and the rounding of the program's own rows and slopes (its
-  /// `rounding_floor`, by which every solver stops); slopes and rows each by their own. Infinite if a number is not
-  /// finite. Arguments as in `compute` before.
-  [[nodiscard]] double excess(const KktMatrix& matrix, const Eigen::VectorXd& primal_step,
-                              const Eigen::VectorXd& multiplier_step, double accuracy) const;
+  /// The residual divided by what is allowed: the sum of `accuracy` times the largest entry of the right-hand side, the
+  /// rounding of the sums that the residual is left of, and the program's `rounding_floor`. Gradient and constraints
+  /// have limits of their own; the larger ratio counts. Infinite if a number is not finite. `matrix` and `step` are
+  /// those of the last `compute`.
+  [[nodiscard]] double excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const;
 
  private:
   MatrixProduct hessian_;
@@ -39,10 +37,10 @@ class NewtonResidual {
   MatrixProduct transposed_jacobian_;
   double floor_;  // the program's rounding_floor()
   std::vector<Eigen::Index> fixed_;
-  Eigen::VectorXd slope_;
-  Eigen::VectorXd rows_;
-  double largest_slope_ = 0.0;  // of the right-hand side
-  double largest_row_ = 0.0;
+  Eigen::VectorXd gradient_;
+  Eigen::VectorXd constraints_;
+  double largest_gradient_ = 0.0;  // of the right-hand side
+  double largest_constraint_ = 0.0;
 };
 
 }  // namespace dmocbench::interior_point

@@ -85,8 +85,9 @@ FactorisationStatus NewtonStep::solve(const Eigen::VectorXd& hessian, double con
   ++factorisations_;
   const Clock::time_point begin = Clock::now();
   const FactorisationStatus verdict =
-      kkt_.solve({hessian, program_.jacobian(), diagonal_, compliance_}, slope,
-                 inequalities.empty() ? rows : right_rows_, direction.x, direction.multipliers);
+      kkt_.solve({hessian, program_.jacobian(), diagonal_, compliance_},
+                 {.gradient = slope, .constraints = inequalities.empty() ? rows : right_rows_},
+                 {.primal = direction.x, .multipliers = direction.multipliers});
   linear_seconds_ += seconds_since(begin);
   return verdict;
 }

@@ -9,17 +9,16 @@ namespace dmocbench::interior_point {
 namespace {
 
 constexpr int most_refinements = 5;
-/// What a refinement leaves of the error, at most, to be worth another one.
+/// A refinement that leaves more than this share of the excess is the last one.
 constexpr double worthwhile = 0.3;
-/// How much larger than wanted an error may stay: Newton's method still gains a digit in an iteration.
+/// The excess at which a step is still used: Newton's method gains a digit per iteration with it.
 constexpr double tolerable = 1e5;
-/// An error that is as small as wanted lets the next steps pass, and more of them where it is this much smaller.
-constexpr double to_spare = 1e-2;
-constexpr int steps_to_pass = 2;
-constexpr int more_steps_to_pass = 7;
-/// Shifts that are raised in vain before the sparse factorisation is asked: where the Hessian needs one, two or three
-/// usually do.
-constexpr int refusals_to_doubt = 4;
+/// The excess below which a step is very accurate, and how many coming steps are then not checked.
+constexpr double very_accurate = 1e-2;
+constexpr int unchecked_after_accurate = 2;
+constexpr int unchecked_after_very_accurate = 7;
+/// A Hessian that needs a shift usually has the right inertia after two or three attempts.
+constexpr int refusals_to_check = 4;
 
 }  // namespace
 
@@ -27,56 +26,58 @@ RefinedKkt::RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs,
                        double accuracy)
     : program_(program), fast_(std::move(fast)), residual_(program, runs), accuracy_(accuracy) {}
 
-FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                      const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                      Eigen::VectorXd& multiplier_step) {
-  const FactorisationStatus verdict = fast_->solve(matrix, slope, rows, primal_step, multiplier_step);
-  // Usually a refusal is right, and a shift of the Hessian cheaper than to ask another; after several it is doubtful.
-  refusals_ = verdict == FactorisationStatus::wrong_inertia ? refusals_ + 1 : 0;
-  if (refusals_ % refusals_to_doubt != 0) return verdict;
-  if (verdict == FactorisationStatus::solved && unlooked_ > 0) {
-    --unlooked_;
-    return verdict;
+FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                      const KktStep& step) {
+  const FactorisationStatus status = fast_->solve(matrix, right_hand_side, step);
+  refusals_ = status == FactorisationStatus::wrong_inertia ? refusals_ + 1 : 0;
+  if (refusals_ % refusals_to_check != 0) return status;
+  if (status == FactorisationStatus::solved) {
+    if (unchecked_ > 0) {
+      --unchecked_;
+      return status;
+    }
+    if (refine(*fast_, matrix, right_hand_side, step)) return status;
   }
-  if (verdict == FactorisationStatus::solved && refine(*fast_, matrix, slope, rows, primal_step, multiplier_step))
-    return verdict;
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
   ++fallbacks_;
-  const FactorisationStatus robust = robust_->solve(matrix, slope, rows, primal_step, multiplier_step);
+  const FactorisationStatus robust = robust_->solve(matrix, right_hand_side, step);
   if (robust != FactorisationStatus::solved) return robust;
-  // Rounding may hide from it that rows depend on each other, but then its step solves nothing.
-  return refine(*robust_, matrix, slope, rows, primal_step, multiplier_step) ? robust : FactorisationStatus::singular;
+  // Rounding may hide dependent constraints from its pivots, but not from the residual of its step.
+  return refine(*robust_, matrix, right_hand_side, step) ? robust : FactorisationStatus::singular;
 }
 
-/// False if the step stays worse than tolerable.
-bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                        const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
-  residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
-  double excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
+/// Refines a step of `kkt`; false if its residual stays above what is tolerable.
+bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                        const KktStep& step) {
+  const auto excess_of_step = [&] {
+    residual_.compute(matrix, right_hand_side, step);
+    return residual_.excess(matrix, step, accuracy_);
+  };
+  double excess = excess_of_step();
   const bool is_fast = &kkt == fast_.get();
-  if (is_fast && excess <= 1.0) unlooked_ = excess <= to_spare ? more_steps_to_pass : steps_to_pass;
+  if (is_fast && excess <= 1.0) {
+    unchecked_ = excess <= very_accurate ? unchecked_after_very_accurate : unchecked_after_accurate;
+  }
   if (is_fast && excess > tolerable) {
-    // The elimination by intervals learns from every system (its terminal weights): once more, from nothing.
-    if (kkt.solve(matrix, slope, rows, primal_step, multiplier_step) != FactorisationStatus::solved) return false;
-    residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
-    excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
+    // A solve updates the terminal weights of the elimination by intervals, so a second one may succeed.
+    if (kkt.solve(matrix, right_hand_side, step) != FactorisationStatus::solved) return false;
+    excess = excess_of_step();
   }
   for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
-    primal_correction_.resizeLike(primal_step);
-    multiplier_correction_.resizeLike(multiplier_step);
+    primal_correction_.resizeLike(step.primal);
+    multiplier_correction_.resizeLike(step.multipliers);
     ++refinements_;
-    if (kkt.solve(matrix, residual_.slope(), residual_.rows(), primal_correction_, multiplier_correction_) !=
+    if (kkt.solve(matrix, residual_.value(), {primal_correction_, multiplier_correction_}) !=
         FactorisationStatus::solved) {
       break;
     }
-    primal_step += primal_correction_;
-    multiplier_step += multiplier_correction_;
-    residual_.compute(matrix, slope, rows, primal_step, multiplier_step);
+    step.primal += primal_correction_;
+    step.multipliers += multiplier_correction_;
     const double before = excess;
-    excess = residual_.excess(matrix, primal_step, multiplier_step, accuracy_);
+    excess = excess_of_step();
     if (!(excess <= before)) {
-      primal_step -= primal_correction_;
-      multiplier_step -= multiplier_correction_;
+      step.primal -= primal_correction_;
+      step.multipliers -= multiplier_correction_;
       excess = before;
     }
     if (!(excess <= worthwhile * before)) break;

@@ -11,43 +11,46 @@
 
 namespace dmocbench::interior_point {
 
-/// A fast way to solve Newton systems, made safe: what its steps leave of the system is computed, and solved for again
-/// (iterative refinement), and where that does not help a sparse factorisation with pivoting (sparse_kkt.hpp) solves
-/// the system instead. So it does where the fast one has refused several systems one after the other for their inertia:
-/// its test may be stricter than the truth.
+/// A fast KKT system made safe by iterative refinement and by a fallback to a sparse factorisation with pivoting
+/// (sparse_kkt.hpp):
 ///
-/// To compute what is left takes a third to half of the time of the elimination. After a step that was good
-/// enough the next two, after one that was much better the next seven are not looked at: their matrices are little
-/// different, and Newton's method, whose right-hand sides are exact, forgives a worse one.
+/// - The residual of a step is computed and the step is refined until it is accurate enough. If refinement does not
+///   reach that, the sparse factorisation solves the system.
+/// - A step that is `untrusted` or `singular` goes to the sparse factorisation at once.
+/// - `wrong_inertia` is believed, except that every fourth one in a row is checked by the sparse factorisation: the
+///   test of the fast system may be stricter than the truth.
+///
+/// A residual costs a good part of an elimination (`bench/speed/speed`). So the two steps after an accurate one are
+/// not checked, nor the seven steps after a very accurate one: their matrices differ little, and Newton's method, whose
+/// right-hand sides are exact, tolerates an inaccurate step.
 class RefinedKkt : public KktSystem {
  public:
   static constexpr double usual_accuracy = 1e-6;
 
-  /// A step is good enough if it leaves `accuracy` of the right-hand side, or rounding.
+  /// A step is accurate enough if its residual is at most `accuracy` times the right-hand side, or rounding
+  /// (`NewtonResidual::excess`).
   RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs, std::unique_ptr<KktSystem> fast,
              double accuracy = usual_accuracy);
   RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy)
       : RefinedKkt(program, ProgramRuns(program), std::move(fast), accuracy) {}
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override;
 
   [[nodiscard]] int refinements() const noexcept { return refinements_; }
   [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }
 
  private:
-  [[nodiscard]] bool refine(KktSystem& kkt, const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                            const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                            Eigen::VectorXd& multiplier_step);
+  [[nodiscard]] bool refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                            const KktStep& step);
 
   const NonlinearProgram& program_;
   std::unique_ptr<KktSystem> fast_;
-  std::unique_ptr<KktSystem> robust_;  // once it is needed
+  std::unique_ptr<KktSystem> robust_;  // made when it is first needed
   NewtonResidual residual_;
   double accuracy_;
-  int refusals_ = 0;  // one after the other
-  int unlooked_ = 0;  // steps that need not be looked at
+  int refusals_ = 0;   // wrong inertias in a row
+  int unchecked_ = 0;  // coming steps whose residual is not computed
   Eigen::VectorXd primal_correction_;
   Eigen::VectorXd multiplier_correction_;
   int refinements_ = 0;

@@ -38,17 +38,19 @@ Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) c
   return lower;
 }
 
-FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                                     Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) {
+FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                     const KktStep& step) {
+  const auto& [slope, rows] = right_hand_side;
+  const auto& [primal_step, multiplier_step] = step;
   if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return FactorisationStatus::singular;
   if (!factorisation_.factorise(lower_triangle(matrix))) return FactorisationStatus::singular;
   if (factorisation_.negative_eigenvalues() != rows.size()) return FactorisationStatus::wrong_inertia;
-  Eigen::VectorXd right_hand_side(slope.size() + rows.size());
-  right_hand_side << -slope, -rows;
+  Eigen::VectorXd negated(slope.size() + rows.size());
+  negated << -slope, -rows;
   for (Eigen::Index i = 0; i < slope.size(); ++i) {
-    if (!is_free_[static_cast<std::size_t>(i)]) right_hand_side[i] = 0.0;
+    if (!is_free_[static_cast<std::size_t>(i)]) negated[i] = 0.0;
   }
-  const Eigen::VectorXd solution = factorisation_.solve(std::move(right_hand_side));
+  const Eigen::VectorXd solution = factorisation_.solve(std::move(negated));
   if (!solution.allFinite()) return FactorisationStatus::singular;
   primal_step = solution.head(slope.size());
   multiplier_step = solution.tail(rows.size());

@@ -22,9 +22,8 @@ class SparseKkt final : public KktSystem {
 
   explicit SparseKkt(const NonlinearProgram& program, Order order = Order::found);
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override;
 
   /// Of the last factorisation, each with an addition, as MUMPS counts them.
   [[nodiscard]] double factorisation_operations() const { return 0.5 * factorisation_.floating_point_operations(); }

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "methods/solvers/kkt_matrix.hpp"
-
 namespace dmocbench::sqp {
 
 double Globalisation::longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
@@ -21,7 +19,7 @@ double Globalisation::longest_share(const Eigen::VectorXd& point, const Eigen::V
 }
 
 double Globalisation::merit(const Linearisation& at) const {
-  return at.objective + weight_ * evaluator_.violations(at.constraints).lpNorm<1>();
+  return at.objective + weight_ * violations(program_, at.constraints).lpNorm<1>();
 }
 
 LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
@@ -29,7 +27,7 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
   constexpr double sufficient = 1e-4;
   constexpr double kept = 0.5;  // of the reduction of the violation that the model must predict for the merit
   constexpr double smallest_share = 1e-8;
-  const double violation = evaluator_.violations(from.constraints).lpNorm<1>();
+  const double violation = violations(program_, from.constraints).lpNorm<1>();
   const double slope_of_objective = from.gradient.dot(step);
   if (violation > 0.0) {
     const double needed = (slope_of_objective + 0.5 * std::max(0.0, curvature)) / ((1.0 - kept) * violation);
@@ -45,7 +43,7 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
 
   double share = first_share;
   while (share > smallest_share) {
-    Linearisation tried = evaluator_.values_at(from.point + share * step);
+    Linearisation tried = values_at(program_, from.point + share * step);
     if (falls_enough(tried, share)) return {std::move(tried), share};
     if (share == first_share && tried.has_finite_values()) {
       Linearisation bent = corrected(from, tried);
@@ -57,22 +55,21 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
 }
 
 Linearisation Globalisation::corrected(const Linearisation& from, const Linearisation& tried) {
-  const NonlinearProgram& program = evaluator_.program();
   const Eigen::Index n = from.point.size();
   const Eigen::Index m = from.constraints.size();
   Eigen::VectorXd right_hand_side = Eigen::VectorXd::Zero(n + m);
-  right_hand_side.tail(m) = -evaluator_.violations(tried.constraints);
-  std::vector<bool> counts = equality_rows(program);
+  right_hand_side.tail(m) = -violations(program_, tried.constraints);
+  std::vector<bool> counts = equality_rows(program_);
   for (Eigen::Index i = 0; i < m; ++i) {
     if (right_hand_side[n + i] != 0.0) counts[static_cast<std::size_t>(i)] = true;
   }
   const Eigen::SparseMatrix<double> no_curvature(n, n);
   const Eigen::SparseMatrix<double> matrix =
-      kkt_matrix(no_curvature, 1.0, from.jacobian, free_variables(program), counts);
+      kkt_matrix(no_curvature, 1.0, from.jacobian, free_variables(program_), counts);
   if (!factorisation_.factorise(matrix)) return tried;
   const Eigen::VectorXd correction = factorisation_.solve(std::move(right_hand_side)).head(n);
-  return evaluator_.values_at(
-      (tried.point + correction).cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
+  return values_at(program_,
+                   (tried.point + correction).cwiseMax(program_.variable_lower()).cwiseMin(program_.variable_upper()));
 }
 
 }  // namespace dmocbench::sqp

@@ -17,7 +17,7 @@ struct LineSearchResult {
 /// weights from the multipliers grow too large and stall.
 class Globalisation {
  public:
-  explicit Globalisation(Evaluator& evaluator) : evaluator_(evaluator) {}
+  explicit Globalisation(NonlinearProgram& program) : program_(program) {}
 
   /// How much of a step may be tried: |d_j| <= 2 (1 + |ξ_j|).
   [[nodiscard]] static double longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
@@ -34,7 +34,7 @@ class Globalisation {
   [[nodiscard]] double merit(const Linearisation& at) const;
   [[nodiscard]] Linearisation corrected(const Linearisation& from, const Linearisation& tried);
 
-  Evaluator& evaluator_;
+  NonlinearProgram& program_;
   SymmetricFactorisation factorisation_;
   double weight_ = 0.0;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/solvers/kkt_matrix.hpp"
+#include "methods/solvers/linearisation.hpp"
 
 namespace dmocbench::sqp {
 

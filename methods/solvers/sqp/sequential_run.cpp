@@ -7,10 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
-#include "methods/solvers/sqp/linearised_program.hpp"
 
 namespace dmocbench::sqp {
 
@@ -22,47 +20,53 @@ constexpr double tolerance_of_quadratic_programs = 0.1;
 
 }  // namespace
 
-SequentialRun::SequentialRun(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
+                                      const Hessian& hessian) {
+  QuadraticProgram result{.hessian = &hessian, .gradient = at.gradient, .rows = at.jacobian, .lower = {}, .upper = {}};
+  result.lower.resize(result.column_count());
+  result.upper.resize(result.column_count());
+  result.lower << program.variable_lower() - at.point, program.constraint_lower() - at.constraints;
+  result.upper << program.variable_upper() - at.point, program.constraint_upper() - at.constraints;
+  return result;
+}
+
+SequentialRun::SequentialRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
                              const SequentialOptions& choices)
     : program_(program),
       options_(options),
       choices_(choices),
-      evaluator_(program),
       tolerance_(std::max(options.tolerance, program.rounding_floor())),
       quadratic_solver_({.feasibility_tolerance = tolerance_of_quadratic_programs * tolerance_,
                          .optimality_tolerance = tolerance_of_quadratic_programs * tolerance_,
                          .crash = choices.crash},
                         Pricing(choices.pricing, choices.seed),
                         [this](const MinorIteration& minor) { return observe(minor); }),
-      globalisation_(evaluator_),
+      globalisation_(program),
       multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))),
-      begin_(std::chrono::steady_clock::now()) {
+      begin_(Clock::now()) {
   at_.point = start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper());
 }
 
 Solution SequentialRun::run() {
   Solution solution;
-  at_ = evaluator_.values_at(at_.point);
-  evaluator_.differentiate(at_);
+  at_ = values_at(program_, at_.point);
+  differentiate(program_, at_);
   solution.status = Status::evaluation_failed;
   if (at_.has_finite_values() && at_.gradient.allFinite()) {
     std::optional<Status> end;
     while (!end) end = major_iteration();
     const bool gave_up = end == Status::step_failed || end == Status::iteration_limit;
-    const bool is_outside = evaluator_.violation(at_.constraints) > tolerance_;
-    const bool is_stuck = gave_up && is_outside && is_point_of_least_violation(program_, at_.point);
+    const bool is_outside = violations(program_, at_.constraints).lpNorm<Eigen::Infinity>() > tolerance_;
+    const bool is_stuck = gave_up && is_outside && is_point_of_least_violation(program_.uncounted(), at_.point);
     solution.status = is_stuck ? Status::infeasible : end.value_or(Status::solver_error);
   }
-  solution.message = message_.empty() ? std::string(sentence_of(solution.status)) : message_;
+  solution.message = message_;
   solution.primal = at_.point;
   solution.multipliers = multipliers_;
   solution.major_iterations = majors_;
   solution.minor_iterations = phase_one_minors_ + phase_two_minors_;
   solution.phase_one_minor_iterations = phase_one_minors_;
   solution.phase_two_minor_iterations = phase_two_minors_;
-  solution.evaluations = evaluator_.count();
-  solution.evaluation_seconds = evaluator_.seconds();
-  solution.seconds = seconds_since(begin_);
   return solution;
 }
 
@@ -83,7 +87,7 @@ bool SequentialRun::has_converged() {
   Solution now;
   now.primal = at_.point;
   now.multipliers = multipliers_;
-  measure(program_, now);
+  measure(program_.uncounted(), now);
   return times_the_tolerance(program_, options_.tolerance, now) <= 1.0;
 }
 
@@ -95,7 +99,7 @@ void SequentialRun::choose_hessian() {
     hessian_ = std::move(hessian);
     return;
   }
-  Eigen::SparseMatrix<double> exact = evaluator_.hessian_at(at_.point, multipliers_);
+  Eigen::SparseMatrix<double> exact = hessian_at(program_, at_.point, multipliers_);
   const double needed =
       convexification_.shift_for(exact, at_.jacobian, free_variables(program_), equality_rows(program_));
   shift_ = std::max(needed, cautious_shift_);
@@ -147,7 +151,7 @@ void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution
   }
   multipliers_ += search.share * (wanted - multipliers_);
   const Linearisation before = std::exchange(at_, search.accepted);
-  evaluator_.differentiate(at_);
+  differentiate(program_, at_);
   if (limited_memory_ != nullptr) {
     limited_memory_->update(at_.point - before.point,
                             (at_.gradient + at_.jacobian.transpose() * multipliers_) -

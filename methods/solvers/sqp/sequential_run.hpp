@@ -1,38 +1,34 @@
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
-#include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
 
 namespace dmocbench::sqp {
 
-/// What the method lets its user choose.
-struct SequentialOptions {
-  Crash crash = Crash::none;
-  PricingRule pricing = PricingRule::largest;
-  std::uint32_t seed = 1;
-  bool limited_memory = false;  ///< quasi-Newton instead of the exact Hessian
-};
+/// The quadratic program at a point with derivatives; `hessian` must outlive it.
+[[nodiscard]] QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
+                                                    const Hessian& hessian);
 
 /// One run of the SQP method.
 class SequentialRun {
  public:
-  SequentialRun(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+  SequentialRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
                 const SequentialOptions& choices);
 
-  /// Major iterations until the Karush-Kuhn-Tucker conditions hold; counts in the solution.
+  /// Major iterations until the Karush-Kuhn-Tucker conditions hold.
   [[nodiscard]] Solution run();
 
  private:
@@ -45,10 +41,9 @@ class SequentialRun {
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool observe(MinorIteration minor);
 
-  NonlinearProgram& program_;
+  CountedProgram& program_;
   const SolverOptions& options_;
   SequentialOptions choices_;
-  Evaluator evaluator_;
   double tolerance_;
   QuadraticSolver quadratic_solver_;
   Globalisation globalisation_;
@@ -63,7 +58,7 @@ class SequentialRun {
   int phase_one_minors_ = 0;
   int phase_two_minors_ = 0;
   std::string message_;
-  std::chrono::steady_clock::time_point begin_;
+  Clock::time_point begin_;
 };
 
 }  // namespace dmocbench::sqp

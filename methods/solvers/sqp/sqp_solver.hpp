@@ -1,27 +1,38 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "methods/solvers/solver.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
 
 namespace dmocbench {
+
+/// What the user of `SqpSolver` may choose.
+struct SequentialOptions {
+  sqp::Crash crash = sqp::Crash::none;
+  sqp::PricingRule pricing = sqp::PricingRule::largest;
+  std::uint32_t seed = 1;       ///< of the random pricing rule
+  bool limited_memory = false;  ///< a quasi-Newton matrix instead of the exact Hessian
+};
 
 /// Sequential quadratic programming with an active-set method that starts each first quadratic program from the slack
 /// basis, as the solver of the paper does: every minor iteration is counted and can be watched
 /// (`SolverOptions::on_minor_iteration`). README.md in this folder says what a minor iteration is and what to expect.
 ///
-/// Options passed on: crash=none|basis, pricing=largest|lowest|last|random, seed=<whole number>,
+/// `SequentialOptions` by name: crash=none|basis, pricing=largest|lowest|last|random, seed=<whole number>,
 /// hessian=exact|limited_memory.
 class SqpSolver final : public Solver {
  public:
-  /// Throws `Error` on an unknown option.
-  explicit SqpSolver(SolverOptions options);
+  /// Throws `Error` on an option passed on that there is not, or a value that it does not take.
+  explicit SqpSolver(SolverOptions options = {}, SequentialOptions choices = {});
   [[nodiscard]] std::string name() const override { return "sqp"; }
   [[nodiscard]] std::string description() const override;
-  [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const override;
 
  private:
-  SolverOptions options_;
+  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
+
+  SequentialOptions choices_;
 };
 
 }  // namespace dmocbench

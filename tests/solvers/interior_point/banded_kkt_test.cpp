@@ -63,7 +63,8 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     ASSERT_NE(kkt, nullptr) << why;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    const FactorisationStatus verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    const FactorisationStatus verdict =
+        kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
     // A band that is singular without its border: too few unknowns for its rows.
     if (verdict == FactorisationStatus::untrusted && kkt->order().border_size > 0) {
       ++untrusted;
@@ -95,10 +96,10 @@ TEST(BandedKkt, SeesCurvatureDownwardsWhereTheSlopePointsThere) {
   Eigen::VectorXd primal(numbers.slope.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
   numbers.diagonal.setConstant(-1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers),
+  EXPECT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::wrong_inertia);
   numbers.diagonal.setConstant(1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers),
+  EXPECT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::solved);
 }
 
@@ -135,7 +136,7 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   numbers.compliance.setZero(m);
   numbers.slope.setOnes(n);
   numbers.rows.setOnes(m);
-  ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, numbers.slope, numbers.rows),
+  ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {numbers.slope, numbers.rows}),
             FactorisationStatus::solved);
   const auto lines = static_cast<double>(n + m);
   const auto width = static_cast<double>(kkt->order().half_bandwidth);

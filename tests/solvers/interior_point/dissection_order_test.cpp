@@ -80,8 +80,9 @@ TEST(DissectionOrder, ChangesNeitherInertiaNorStep) {
     Eigen::VectorXd other_multipliers(numbers.rows.size());
     SparseKkt found(program);
     SparseKkt along(program, SparseKkt::Order::along_the_horizon);
-    const FactorisationStatus verdict = found.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
-    ASSERT_EQ(along.solve(numbers.matrix(), numbers.slope, numbers.rows, other_primal, other_multipliers), verdict);
+    const FactorisationStatus verdict =
+        found.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+    ASSERT_EQ(along.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {other_primal, other_multipliers}), verdict);
     if (verdict != FactorisationStatus::solved) continue;
     ++minima;
     EXPECT_LT((primal - other_primal).norm(), 1e-7 * primal.norm());

@@ -329,7 +329,7 @@ TEST(InteriorPoint, TellsWhatWeComputeAtItsAnswer) {
   EXPECT_LT(solution.kkt_residual.value_or(1.0), 1e-9);
   EXPECT_LT(solution.constraint_violation.value_or(1.0), 1e-9);
   EXPECT_GT(solution.major_iterations.value_or(0), 2);
-  EXPECT_GT(solution.evaluations.value_or(0), 2);
+  EXPECT_GT(solution.total_evaluations().value_or(0), 2);
 }
 
 }  // namespace

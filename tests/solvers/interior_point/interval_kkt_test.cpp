@@ -65,7 +65,8 @@ void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   const auto m = static_cast<Eigen::Index>(program.constraint_count());
   Eigen::VectorXd primal(n);
   Eigen::VectorXd multipliers(m);
-  const FactorisationStatus verdict = kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+  const FactorisationStatus verdict =
+      kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
   EXPECT_EQ(verdict == FactorisationStatus::solved, is_minimum) << static_cast<int>(verdict);
   if (verdict != FactorisationStatus::solved) return;
   const Eigen::VectorXd wanted = dense.solution();

@@ -35,7 +35,7 @@ struct Steps {
         multipliers(Eigen::VectorXd::Constant(numbers.rows.size(), 1e300)) {}
 
   [[nodiscard]] FactorisationStatus solve_with(KktSystem& kkt, const KktNumbers& numbers) {
-    return kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
   }
   /// Every bit.
   [[nodiscard]] bool operator==(const Steps& other) const {
@@ -251,8 +251,8 @@ double relative_rest_of_slope(Transcription& program, const KktNumbers& numbers)
   Steps found(numbers);
   EXPECT_EQ(found.solve_with(*kkt, numbers), FactorisationStatus::solved);
   NewtonResidual residual(program);
-  residual.compute(numbers.matrix(), numbers.slope, numbers.rows, found.primal, found.multipliers);
-  return residual.slope().lpNorm<Eigen::Infinity>() /
+  residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {found.primal, found.multipliers});
+  return residual.value().gradient.lpNorm<Eigen::Infinity>() /
          (numbers.jacobian.lpNorm<Eigen::Infinity>() * found.multipliers.lpNorm<Eigen::Infinity>());
 }
 

@@ -188,15 +188,15 @@ TEST(NewtonResidual, IsThatOfDenseMatrices) {
     RandomStructuredProgram program(shape, seed);
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     RandomPoints random(seed);
-    const Eigen::VectorXd primal = random.vector(numbers.slope.size());
-    const Eigen::VectorXd multipliers = random.vector(numbers.rows.size());
+    Eigen::VectorXd primal = random.vector(numbers.slope.size());
+    Eigen::VectorXd multipliers = random.vector(numbers.rows.size());
     NewtonResidual residual(program);
     for (int repetition = 0; repetition < 2; ++repetition) {
-      residual.compute(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+      residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
       const DenseResidual wanted(program, numbers, primal, multipliers);
-      ASSERT_LT((residual.slope() - wanted.slope).lpNorm<Eigen::Infinity>(),
+      ASSERT_LT((residual.value().gradient - wanted.slope).lpNorm<Eigen::Infinity>(),
                 1e-13 * (1.0 + wanted.slope.lpNorm<Eigen::Infinity>()));
-      ASSERT_LT((residual.rows() - wanted.rows).lpNorm<Eigen::Infinity>(),
+      ASSERT_LT((residual.value().constraints - wanted.rows).lpNorm<Eigen::Infinity>(),
                 1e-13 * (1.0 + wanted.rows.lpNorm<Eigen::Infinity>()));
     }
     horizons += shape.horizon ? 1 : 0;
@@ -213,11 +213,11 @@ TEST(NewtonResidual, ExceedsByHowMuchMoreItIsThanItMayBe) {
   RandomStructuredProgram program(shape, 3);
   KktNumbers numbers = choice.numbers(program, shape.hessian);
   Eigen::VectorXd primal = Eigen::VectorXd::Zero(numbers.slope.size());
-  const Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(numbers.rows.size());
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(numbers.rows.size());
   NewtonResidual residual(program);
   const auto excess = [&](double accuracy) {
-    residual.compute(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
-    return residual.excess(numbers.matrix(), primal, multipliers, accuracy);
+    residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+    return residual.excess(numbers.matrix(), {primal, multipliers}, accuracy);
   };
   // No step leaves all of the right-hand side.
   EXPECT_NEAR(excess(1e-3), 1e3, 1e-6);
@@ -249,13 +249,13 @@ TEST(NewtonResidual, MayBeAsLargeAsTheRoundingOfTheProgram) {
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(variables);
   const Eigen::VectorXd compliance = Eigen::VectorXd::Zero(rows);
   const Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables);
-  const Eigen::VectorXd no_step = Eigen::VectorXd::Zero(variables);
-  const Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(rows);
+  Eigen::VectorXd no_step = Eigen::VectorXd::Zero(variables);
+  Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(rows);
   NewtonResidual residual(program);
   const KktMatrix matrix{hessian, jacobian, diagonal, compliance};
   for (const double left : {0.5 * floor, 2.0 * floor}) {
-    residual.compute(matrix, slope, Eigen::VectorXd::Constant(rows, left), no_step, no_multipliers);
-    EXPECT_NEAR(residual.excess(matrix, no_step, no_multipliers, 1e-9), left / floor, 1e-6);
+    residual.compute(matrix, {slope, Eigen::VectorXd::Constant(rows, left)}, {no_step, no_multipliers});
+    EXPECT_NEAR(residual.excess(matrix, {no_step, no_multipliers}, 1e-9), left / floor, 1e-6);
   }
 }
 

@@ -62,7 +62,8 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
   Eigen::VectorXd primal_step(primal.size());
   Eigen::VectorXd multiplier_step(multipliers.size());
   for (int corrections = 0; corrections <= most; ++corrections) {
-    if (kkt.solve(left.matrix(), left.slope, left.rows, primal_step, multiplier_step) != FactorisationStatus::solved)
+    if (kkt.solve(left.matrix(), {left.slope, left.rows}, {primal_step, multiplier_step}) !=
+        FactorisationStatus::solved)
       return -1;
     primal += primal_step;
     multipliers += multiplier_step;
@@ -78,7 +79,7 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
 FactorisationStatus verdict_of(IntervalKkt& kkt, const KktNumbers& numbers) {
   Eigen::VectorXd primal(numbers.slope.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
-  return kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+  return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
 }
 
 TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
@@ -143,7 +144,8 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
     if (wanted == DenseVerdict::in_between) continue;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    const FactorisationStatus verdict = kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    const FactorisationStatus verdict =
+        kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
     if (wanted != DenseVerdict::minimum) {
       EXPECT_TRUE(verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular)
           << static_cast<int>(verdict);

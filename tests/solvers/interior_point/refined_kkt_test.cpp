@@ -30,12 +30,11 @@ class SpoiltKkt final : public KktSystem {
   SpoiltKkt(const NonlinearProgram& program, Spoil spoil, int& solves)
       : exact_(program, SparseKkt::Order::along_the_horizon), spoil_(std::move(spoil)), solves_(solves) {}
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override {
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override {
     ++solves_;
-    const FactorisationStatus verdict = exact_.solve(matrix, slope, rows, primal_step, multiplier_step);
-    return spoil_(verdict, primal_step, multiplier_step);
+    const FactorisationStatus verdict = exact_.solve(matrix, right_hand_side, step);
+    return spoil_(verdict, step.primal, step.multipliers);
   }
 
  private:
@@ -84,7 +83,7 @@ Found found_with(System& system, const SpoiltKkt::Spoil& spoil, double accuracy)
   const auto error_of = [&](KktSystem& any, FactorisationStatus& verdict) {
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    verdict = any.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+    verdict = any.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
     Eigen::VectorXd steps(wanted.size());
     steps << primal, multipliers;
     return (steps - wanted).lpNorm<Eigen::Infinity>() / wanted.lpNorm<Eigen::Infinity>();
@@ -215,7 +214,7 @@ TEST(RefinedKkt, RefusesRowsThatDependOnEachOtherWhereTheSparseFactorisationDoes
     const auto verdict_of = [&](KktSystem& kkt) {
       Eigen::VectorXd primal(numbers.slope.size());
       Eigen::VectorXd multipliers(numbers.rows.size());
-      return kkt.solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers);
+      return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
     };
     for (const auto order : {SparseKkt::Order::found, SparseKkt::Order::along_the_horizon}) {
       SparseKkt sparse(program, order);

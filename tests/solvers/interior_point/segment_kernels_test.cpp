@@ -25,7 +25,7 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
     ASSERT_NE(kkt, nullptr) << why;
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    ASSERT_EQ(kkt->solve(numbers.matrix(), numbers.slope, numbers.rows, primal, multipliers),
+    ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
               FactorisationStatus::solved);
     Eigen::VectorXd steps(primal.size() + multipliers.size());
     steps << primal, multipliers;

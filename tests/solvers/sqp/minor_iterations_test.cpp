@@ -6,11 +6,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
-#include "methods/solvers/sqp/linearised_program.hpp"
-#include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
+#include "methods/solvers/sqp/sequential_run.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
@@ -130,11 +128,10 @@ class Replay {
 
 /// Solves the first quadratic program of a problem from its guess and replays every minor iteration.
 void replay_first_program(NonlinearProgram& program, const Eigen::VectorXd& start) {
-  Evaluator evaluator(program);
-  Linearisation at = evaluator.values_at(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
-  evaluator.differentiate(at);
+  Linearisation at = values_at(program, start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
+  differentiate(program, at);
   const Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(at.constraints.size());
-  const Eigen::SparseMatrix<double> exact = evaluator.hessian_at(at.point, no_multipliers);
+  const Eigen::SparseMatrix<double> exact = hessian_at(program, at.point, no_multipliers);
   const ShiftedHessian hessian(exact, 1e-3);
   const QuadraticProgram quadratic = quadratic_program_at(program, at, hessian);
   Replay replay(quadratic, hessian.times(Eigen::MatrixXd::Identity(start.size(), start.size())));

@@ -27,10 +27,5 @@ TEST(Pricing, AtRandomRepeatsWithItsSeedAndReachesAll) {
   EXPECT_EQ(reached.size(), candidates.size());
 }
 
-TEST(Pricing, IsFoundByItsName) {
-  for (const std::string& name : pricing_names()) EXPECT_TRUE(pricing_named(name)) << name;
-  EXPECT_FALSE(pricing_named("steepest"));
-}
-
 }  // namespace
 }  // namespace dmocbench::sqp

@@ -165,7 +165,7 @@ TEST(Sqp, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("crash", "all")); }),
             "the solver sqp: crash must be none or basis, not all");
   EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("pricing", "steepest")); }),
-            "the solver sqp: pricing must be one of largest, lowest, last, random, not steepest");
+            "the solver sqp: pricing must be largest, lowest, last or random, not steepest");
   EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("seed", "1.5")); }),
             "the solver sqp: seed must be a whole number, not 1.5");
 }

@@ -69,9 +69,10 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
   return true;
 }
 
-FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                       const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                       Eigen::VectorXd& multiplier_step) {
+FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                       const KktStep& step) {
+  const auto& [slope, rows] = right_hand_side;
+  const auto& [primal_step, multiplier_step] = step;
   NewtonArrays arrays = arrays_of(matrix, slope, rows);
   if (!has_plan_ && !choose_plan(arrays)) return FactorisationStatus::singular;
   weights_.follow(arrays);

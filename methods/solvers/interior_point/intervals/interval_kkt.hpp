@@ -34,9 +34,8 @@ class IntervalKkt : public KktSystem {
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
 
-  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                                          Eigen::VectorXd& multiplier_step) override;
+  [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const KktStep& step) override;
 
   [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
   /// Backward sweeps so far, with those for other terminal weights and other orders of elimination.

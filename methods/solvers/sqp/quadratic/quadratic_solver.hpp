@@ -8,16 +8,11 @@
 
 #include "methods/solvers/sqp/quadratic/phases.hpp"
 #include "methods/solvers/sqp/quadratic/pricing.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 #include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
-
-/// Where the first quadratic program starts.
-enum class Crash : std::uint8_t {
-  none,   ///< all slacks basic: phase 1 has to bring every row in
-  basis,  ///< a well-conditioned basis of variables, chosen for free: the rows hold from the start
-};
 
 /// What a quadratic program ends with.
 struct QuadraticSolution {
@@ -32,12 +27,6 @@ struct QuadraticSolution {
   Eigen::VectorXd step;         ///< d
   Eigen::VectorXd multipliers;  ///< λ of the rows: g + Hd + Aᵀλ vanishes in the free variables
   double infeasibility = 0.0;   ///< left in the rows
-};
-
-struct QuadraticOptions {
-  double feasibility_tolerance = 1e-9;
-  double optimality_tolerance = 1e-9;
-  Crash crash = Crash::none;
 };
 
 /// Solves the quadratic programs of one SQP run by the active-set method and remembers the sets from one to the next.

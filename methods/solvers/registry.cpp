@@ -1,0 +1,50 @@
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "methods/error.hpp"
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
+#include "methods/solvers/ipopt_solver.hpp"
+#include "methods/solvers/nlopt_solver.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+struct Entry {
+  std::string_view name;
+  std::unique_ptr<Solver> (*make)(const SolverOptions&);
+};
+
+template <class Type>
+std::unique_ptr<Solver> make(const SolverOptions& options) {
+  return std::make_unique<Type>(options);
+}
+
+// One line per solver, the default first.
+constexpr std::array registry{
+    Entry{"ipopt", make<IpoptSolver>},
+    Entry{"interior_point", make<InteriorPointSolver>},
+    Entry{"sqp", make<SqpSolver>},
+    Entry{"nlopt", make<NloptSolver>},
+};
+
+}  // namespace
+
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : registry) names.emplace_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options) {
+  for (const Entry& entry : registry) {
+    if (entry.name == name) return entry.make(options);
+  }
+  throw Error(fmt::format("there is no solver \"{}\"; choose one of {}", name, fmt::join(solver_names(), ", ")));
+}
+
+}  // namespace dmocbench
