@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "methods/runtime/long_vectors.hpp"
-#include "methods/solvers/interior_point/bound_list.hpp"
+#include "methods/solvers/interior_point/barrier_bounds.hpp"
 
 namespace dmocbench::interior_point {
 
