@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/agreement_of_routes.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
@@ -41,17 +41,27 @@ Scheme parse_scheme(const std::string& text) {
 
 class Certify final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "certify"; }
-  [[nodiscard]] std::string description() const override {
-    return "The least cost by routes that share as little as possible: two tableaus on two grids each, the finest "
-           "answer's control replayed, and the indirect method where it applies. NAME_references.csv has a row per "
-           "problem: the routes, how many digits they share, and whether they confirm the reference that the problem "
-           "states.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "64,128"; }
-  void set_defaults(ExperimentOptions& options) const override {
-    options.problems = {"all"};
-    options.methods = {"dmoc"};
+  // Digits are wanted that end where the solver's tolerance begins, so answers are polished.
+  Certify()
+      : Experiment(
+            {.name = "certify",
+             .description =
+                 "The least cost by routes that share as little as possible: two tableaus on two grids each, the "
+                 "finest answer's control replayed, and the indirect method where it applies. NAME_references.csv has "
+                 "a row per problem: the routes, how many digits they share, and whether they confirm the reference "
+                 "that the problem states.",
+             .options = {.problems = {"all"}, .methods = {"dmoc"}, .intervals = "64,128"},
+             .problems_are_independent = true,
+             .polishes = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return {
+        replay_error_column(replay_),
+        {"replay_objective", "cost", "cost of the replayed motion", of(replay_, &ReplayError::cost)},
+        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+        {"indirect_objective", "cost", "cost by the indirect method", of(indirect_, &IndirectSolution::cost)},
+        {"indirect_digits", "", "digits of it that are certified", of(indirect_, &IndirectSolution::certified_digits)},
+        {"indirect_message", "", "why there is none", of(indirect_message_)},
+    };
   }
   void add_options(CommandLine& line) override {
     line.option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
@@ -59,48 +69,42 @@ class Certify final : public Experiment {
         .shows_default();
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
-  [[nodiscard]] bool problems_are_independent() const override { return true; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"replay_error",       "replay_objective", "polish_steps",
-            "indirect_objective", "indirect_digits",  "indirect_message"};
-  }
-  /// Digits are wanted that end where the solver's tolerance begins.
-  [[nodiscard]] bool polishes() const override { return true; }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> cases;
     for (const std::string& route : route_names_) {
       const Scheme scheme = parse_scheme(route);
-      for (Case what : curve) {
-        what.tableau = scheme.tableau;
-        what.stages = scheme.stages;
-        cases.push_back(std::move(what));
+      for (Case each : curve) {
+        each.tableau = scheme.tableau;
+        each.stages = scheme.stages;
+        cases.push_back(std::move(each));
       }
     }
     return cases;
   }
 
   void check(const std::vector<Case>& cases) override {
-    for (const Case& what : cases) {
-      if (problems_.empty() || problems_.back().problem != what.problem) problems_.push_back({what.problem, 0, {}});
+    for (const Case& the_case : cases) {
+      if (problems_.empty() || problems_.back().problem != the_case.problem) problems_.push_back({the_case.problem});
       ++problems_.back().cases_left;
     }
   }
 
   /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
   void complete(SolvedCase& solved) override {
-    Subject& subject = subject_of(solved.what.problem);
+    replay_.reset();
+    indirect_.reset();
+    indirect_message_.clear();
+    CertifiedProblem& certified = *std::ranges::find(problems_, solved.the_case.problem, &CertifiedProblem::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
-      replay(solved);
-      const bool is_finer = !subject.finest || subject.finest->intervals() < solved.trajectory->intervals();
-      if (is_finer) subject.finest = *solved.trajectory;
+      replay_ = replay(solved);
+      const bool is_finer = !certified.finest || certified.finest->intervals() < solved.trajectory->intervals();
+      if (is_finer) certified.finest = *solved.trajectory;
     }
-    if (--subject.cases_left > 0 || !with_indirect_ || !subject.finest) return;
+    if (--certified.cases_left > 0 || !with_indirect_ || !certified.finest) return;
     try {
-      const IndirectSolution indirect = solve_indirect(*subject.problem, *subject.finest);
-      solved.row.set("indirect_objective", indirect.cost());
-      solved.row.set("indirect_digits", indirect.certified_digits());
+      indirect_ = solve_indirect(*certified.problem, *certified.finest);
     } catch (const Error& error) {  // says what of the problem it does not know
-      solved.row.set("indirect_message", error.what());
+      indirect_message_ = error.what();
     }
   }
 
@@ -113,8 +117,8 @@ class Certify final : public Experiment {
       columns.emplace_back(column);
     }
     Table references(columns);
-    for (const Subject& subject : problems_) {
-      references.append(reference_row(*subject.problem, table));
+    for (const CertifiedProblem& certified : problems_) {
+      references.append(reference_row(*certified.problem, table));
       const Row& row = references.rows().back();
       fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", row.text("problem"),
                  row.text("agreeing_digits"), row.text("confirmed"));
@@ -123,26 +127,11 @@ class Certify final : public Experiment {
   }
 
  private:
-  struct Subject {
+  struct CertifiedProblem {
     std::shared_ptr<const Problem> problem;
     std::size_t cases_left = 0;
-    std::optional<Trajectory> finest;  // the first answer on the finest grid so far
+    std::optional<Trajectory> finest = std::nullopt;  // the first answer on the finest grid so far
   };
-
-  Subject& subject_of(const std::shared_ptr<const Problem>& problem) {
-    return *std::find_if(problems_.begin(), problems_.end(),
-                         [&](const Subject& subject) { return subject.problem == problem; });
-  }
-
-  static void replay(SolvedCase& solved) {
-    try {
-      const ReplayError replayed = replay_error(*solved.what.problem, *solved.trajectory);
-      solved.row.set("replay_error", replayed.norm());
-      solved.row.set("replay_objective", replayed.cost);
-    } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
-    }
-  }
 
   /// From the rows of one problem: the finest answer of every route, the best replay on the finest grid, the indirect
   /// method's.
@@ -186,14 +175,14 @@ class Certify final : public Experiment {
 
   static void judge(const Problem& problem, const std::vector<double>& objectives, Row& row) {
     const RouteAgreement agreement = agreement_of_routes(objectives, problem.reference_optimum());
-    if (agreement.routes > 1) row.set("agreeing_digits", static_cast<long long>(agreement.digits));
+    if (agreement.routes > 1) row.set("agreeing_digits", agreement.digits);
     row.set("confirmed", agreement.confirmed);
     const auto reference = problem.reference_optimum();
     if (!reference) return;
     row.set("reference", reference->objective);
-    row.set("reference_digits", static_cast<long long>(reference->digits));
+    row.set("reference_digits", reference->digits);
     row.set("certificate", reference->certificate);
-    if (agreement.routes > 0) row.set("reference_agreement", static_cast<long long>(agreement.reference_digits));
+    if (agreement.routes > 0) row.set("reference_agreement", agreement.reference_digits);
     std::vector<std::string> published;
     for (const PublishedOptimum& value : reference->published) {
       published.push_back(fmt::format("{:.12g} ({})", value.objective, value.source));
@@ -204,7 +193,10 @@ class Certify final : public Experiment {
 
   std::vector<std::string> route_names_{"gauss3", "lobatto4"};
   bool with_indirect_ = true;
-  std::vector<Subject> problems_;  // in the order of the cases
+  std::vector<CertifiedProblem> problems_;  // in the order of the cases
+  std::optional<ReplayError> replay_;       // this and what follows: of the case that is completed
+  std::optional<IndirectSolution> indirect_;
+  std::string indirect_message_;
 };
 
 }  // namespace

@@ -76,6 +76,17 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   }
 }
 
+void append_to_file(const std::filesystem::path& path, std::string_view line) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open is one
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const off_t end = descriptor < 0 ? -1 : ::lseek(descriptor, 0, SEEK_END);
+  const bool is_whole = end >= 0 && ::write(descriptor, line.data(), line.size()) == std::ssize(line);
+  const std::string failure = is_whole ? "" : reason();
+  if (!is_whole && end >= 0) static_cast<void>(::ftruncate(descriptor, end));
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_whole) throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
+}
+
 std::string read_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
   std::ifstream stream(path, std::ios::binary);

@@ -89,7 +89,7 @@ AdvantageRun::AdvantageRun(const ExperimentOptions& options, const std::vector<s
     first = last;
   }
   starts_.check(cases);
-  for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}, {}});
+  for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}, {}, {}});
   solver_options_.stop_requested = interrupt_requested;
 }
 
@@ -160,8 +160,10 @@ void AdvantageRun::solve_group(const std::vector<std::size_t>& group, Progress& 
 void AdvantageRun::complete(Subject& subject) {
   if (!subject.solved) return;
   SolvedCase& solved = *subject.solved;
-  Row& row = solved.row;
-  row.set("factorisation", solved.what.variant);
+  Row& row = subject.row;
+  row = row_of(core_columns(), solved);
+  solved.program.reset();
+  row.set("factorisation", solved.the_case.variant);
   row.set("linear_systems", solved.solution.linear_systems);
   if (!is_solved(solved.solution.status)) {
     ++failures_;
@@ -181,7 +183,7 @@ void AdvantageRun::complete(Subject& subject) {
   if (!subject.linear_seconds.empty() && systems > 0) {
     row.set("seconds_per_linear_system", median(subject.linear_seconds) / systems);
   }
-  const Case& what = solved.what;
+  const Case& what = solved.the_case;
   Transcription program(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid);
   const OperationCount count = count_operations(program, solved.solution, what.variant);
   const auto intervals = static_cast<double>(what.intervals());
@@ -197,7 +199,7 @@ void AdvantageRun::complete(Subject& subject) {
 void AdvantageRun::measure_error(const SolvedCase& solved, Row& row) {
   if (!is_usable(row) || !solved.trajectory) return;
   try {
-    const double exact = reference_.near(*solved.what.problem, *solved.trajectory).cost();
+    const double exact = reference_.near(*solved.the_case.problem, *solved.trajectory).cost();
     row.set("objective_error", std::abs(solved.trajectory->cost - exact) / std::abs(exact));
   } catch (const Error& error) {
     row.set("message", row.text("message") + " " + error.what());
@@ -205,11 +207,11 @@ void AdvantageRun::measure_error(const SolvedCase& solved, Row& row) {
 }
 
 Table AdvantageRun::table() const {
-  std::vector<std::string> columns = core_columns();
+  std::vector<std::string> columns = names_of(core_columns());
   columns.insert(columns.end(), own_columns.begin(), own_columns.end());
   Table table(columns);
   for (const Subject& subject : subjects_) {
-    if (subject.solved) table.append(subject.solved->row);
+    if (subject.solved) table.append(subject.row);
   }
   return table;
 }

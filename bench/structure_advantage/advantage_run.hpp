@@ -38,6 +38,7 @@ class AdvantageRun {
   struct Subject {
     Case what;
     std::optional<SolvedCase> solved;
+    Row row;
     std::vector<double> seconds;
     std::vector<double> evaluation_seconds;
     std::vector<double> linear_seconds;
