@@ -1,4 +1,5 @@
-// Two runs of a program of Google Benchmark: what became faster or slower, with noise taken into account.
+// Two runs of a program of Google Benchmark: what became faster or slower beyond noise. (Why not compare.py of Google
+// Benchmark: bench/speed/README.md.)
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -64,8 +65,9 @@ int compare_files(const CompareOptions& options) {
   fmt::print("{}\n{}", counter, comparison_text(comparisons));
   const std::size_t in_one_only = before.size() + after.size() - 2 * comparisons.size();
   if (in_one_only > 0) fmt::print("{} benchmarks are in one of the files only\n", in_one_only);
-  const bool slower = std::any_of(comparisons.begin(), comparisons.end(),
-                                  [](const SpeedComparison& what) { return what.verdict == SpeedVerdict::slower; });
+  const bool slower = std::any_of(comparisons.begin(), comparisons.end(), [](const SpeedComparison& comparison) {
+    return comparison.verdict == SpeedVerdict::slower;
+  });
   return slower && options.fails_if_slower ? 1 : 0;
 }
 

@@ -37,7 +37,7 @@ class Iterations final : public Experiment {
         {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", of(fill_, &KktFill::nonzeros)},
         {"factor_nonzeros", "", "entries of its factor", of(fill_, &KktFill::factor_nonzeros)},
         {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
-         [](const SolvedCase& solved) { return solved.solution.total_evaluations(); }},
+         from(solution, &Solution::total_evaluations)},
         replay_error_column(replay_),
     };
   }

@@ -39,7 +39,7 @@ class Profile final : public Experiment {
                {"reference_digits", "", "digits of it that hold", of(reference_, &ReferenceOptimum::digits)},
                {"objective_error", "cost", "distance from it", of(error_)},
                {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
-                [](const SolvedCase& solved) { return solved.solution.total_evaluations(); }},
+                from(&SolvedCase::solution, &Solution::total_evaluations)},
            } +
            columns_of(checks_);
   }

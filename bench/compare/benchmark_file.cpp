@@ -1,10 +1,11 @@
 #include "bench/compare/benchmark_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +13,7 @@
 
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
 
 namespace dmocbench {
 
@@ -23,81 +25,51 @@ using nlohmann::json;
 const std::set<std::string, std::less<>> descriptions{"family_index", "per_family_instance_index", "repetitions",
                                                       "repetition_index", "threads"};
 
-constexpr std::array<std::string_view, 4> unknown_numbers{"NaN", "-NaN", "Infinity", "-Infinity"};
-
-/// The text with null in place of NaN and Infinity, which Google Benchmark writes, for instance of a counter that is 0
-/// in all repetitions, and JSON does not know.
-std::string with_known_numbers(const std::string& text) {
-  std::string known;
-  known.reserve(text.size());
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::string_view rest = std::string_view(text).substr(i);
-    if (in_string && rest.starts_with('\\')) {
-      known += rest.substr(0, 2);
-      ++i;
-      continue;
-    }
-    if (text[i] == '"') in_string = !in_string;
-    const auto* const unknown =
-        std::find_if(unknown_numbers.begin(), unknown_numbers.end(),
-                     [&](std::string_view word) { return !in_string && rest.starts_with(word); });
-    if (unknown == unknown_numbers.end()) {
-      known += text[i];
-    } else {
-      known += "null";
-      i += unknown->size() - 1;
-    }
-  }
-  return known;
-}
-
-json parsed(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
+/// Google Benchmark writes NaN and Infinity, which JSON does not have; here they become null.
+json parsed(const std::string& text, const std::filesystem::path& file) {
+  static const std::regex not_finite(R"(": -?(NaN|Infinity))");
   try {
-    return json::parse(with_known_numbers(text));
+    return json::parse(std::regex_replace(text, not_finite, "\": null"));
   } catch (const json::exception&) {
     throw Error(fmt::format("{} is not JSON; write one with --benchmark_out={}", file.string(), file.string()));
   }
 }
 
-double nanoseconds_of(const json& run, const std::filesystem::path& file) {
-  const std::string unit = run.value("time_unit", "ns");
+double nanoseconds_of(const std::string& unit, const std::filesystem::path& file) {
   static const std::map<std::string, double> units{{"ns", 1.0}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}};
   const auto found = units.find(unit);
   if (found == units.end()) throw Error(fmt::format("{} has times in {}, an unknown unit", file.string(), unit));
   return found->second;
 }
 
-bool is_repetition(const json& run) {
-  return run.value("run_type", "iteration") == "iteration" && !run.value("error_occurred", false);
-}
-
-std::set<std::string> counters_of(const json& run) {
-  std::set<std::string> names;
+void add_repetition(Benchmark& benchmark, const json& run, const std::filesystem::path& file) {
   for (const auto& [key, value] : run.items()) {
-    if (value.is_number() && !descriptions.contains(key)) names.insert(key);
+    if (descriptions.contains(key) || !(value.is_number() || value.is_null())) continue;
+    const bool is_time = key == "cpu_time" || key == "real_time";
+    const double unit = is_time ? nanoseconds_of(run.value("time_unit", "ns"), file) : 1.0;
+    benchmark.numbers[key].push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                                     : unit * value.get<double>());
   }
-  return names;
+  std::istringstream label(run.value("label", ""));
+  for (std::string word; label >> word;) {
+    const std::size_t sign = word.find('=');
+    if (sign != std::string::npos) benchmark.labels[word.substr(0, sign)] = word.substr(sign + 1);
+  }
 }
 
-BenchmarkSamples samples_of(const json& runs, std::string_view counter, const std::filesystem::path& file) {
+BenchmarkSamples samples_of(const std::filesystem::path& file, std::string_view counter) {
   BenchmarkSamples samples;
   std::set<std::string> counters;
-  for (const json& run : runs) {
-    if (!is_repetition(run)) continue;
-    counters.merge(counters_of(run));
-    const auto found = run.find(counter);
-    if (found == run.end()) continue;
-    const std::string name = run.contains("run_name") ? run.at("run_name") : run.at("name");
-    const bool is_time = counter == "cpu_time" || counter == "real_time";
-    const double told = found->is_null() ? std::numeric_limits<double>::quiet_NaN() : found->get<double>();
-    const double value = told * (is_time ? nanoseconds_of(run, file) : 1.0);
-    if (!std::isfinite(value) || value <= 0.0) {
+  for (const auto& [name, benchmark] : parse_benchmarks(read_file(file), file)) {
+    for (const auto& [key, values] : benchmark.numbers) counters.insert(key);
+    const auto found = benchmark.numbers.find(counter);
+    if (found == benchmark.numbers.end()) continue;
+    for (const double value : found->second) {
+      if (std::isfinite(value) && value > 0.0) continue;
       throw Error(fmt::format("{} of {} in {} is {}, of which there are no ratios; choose another --counter", counter,
                               name, file.string(), value));
     }
-    samples[name].push_back(value);
+    samples[name] = found->second;
   }
   if (counters.empty()) {
     throw Error(
@@ -112,29 +84,44 @@ BenchmarkSamples samples_of(const json& runs, std::string_view counter, const st
 
 }  // namespace
 
-BenchmarkSamples read_samples(const std::filesystem::path& file, std::string_view counter) {
-  const json content = parsed(file);
+std::string Benchmark::label(std::string_view key) const {
+  const auto found = labels.find(key);
+  return found == labels.end() ? "" : found->second;
+}
+
+std::optional<double> Benchmark::median_of(std::string_view number) const {
+  const auto found = numbers.find(number);
+  return found == numbers.end() ? std::nullopt : std::optional(median(found->second));
+}
+
+std::optional<double> Benchmark::smallest_of(std::string_view number) const {
+  const auto found = numbers.find(number);
+  return found == numbers.end() ? std::nullopt : std::optional(*std::ranges::min_element(found->second));
+}
+
+Benchmarks parse_benchmarks(const std::string& text, const std::filesystem::path& file) {
+  const json content = parsed(text, file);
+  Benchmarks benchmarks;
   try {
-    return samples_of(content.at("benchmarks"), counter, file);
+    for (const json& run : content.at("benchmarks")) {
+      if (run.value("run_type", "iteration") != "iteration" || run.value("error_occurred", false)) continue;
+      const std::string name = run.contains("run_name") ? run.at("run_name") : run.at("name");
+      add_repetition(benchmarks[name], run, file);
+    }
   } catch (const json::exception&) {  // something is missing or of another type
     throw Error(fmt::format("{} is JSON, but not of Google Benchmark; write one with --benchmark_out", file.string()));
   }
+  return benchmarks;
 }
 
 BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter) {
   if (files.empty()) throw Error("no file of a run is named; write one with --benchmark_out");
-  if (files.size() == 1) return read_samples(files.front(), counter);
+  if (files.size() == 1) return samples_of(files.front(), counter);
   BenchmarkSamples samples;
   for (const std::filesystem::path& file : files) {
-    for (const auto& [name, values] : read_samples(file, counter)) samples[name].push_back(median_of(values));
+    for (const auto& [name, values] : samples_of(file, counter)) samples[name].push_back(median(values));
   }
   return samples;
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
 }
 
 }  // namespace dmocbench

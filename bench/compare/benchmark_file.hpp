@@ -2,28 +2,43 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace dmocbench {
 
-/// All repetitions of every benchmark, by its name.
+/// All repetitions of a benchmark.
+struct Benchmark {
+  /// What is measured: the words KEY=VALUE of the label (`benchmark::State::SetLabel`).
+  std::map<std::string, std::string, std::less<>> labels;
+  /// Times in nanoseconds, whatever the file's unit, and counters; NaN for a number that is not finite.
+  std::map<std::string, std::vector<double>, std::less<>> numbers;
+
+  /// Empty if there is none.
+  [[nodiscard]] std::string label(std::string_view key) const;
+  // Of a number's repetitions; none if the benchmark does not have it.
+  [[nodiscard]] std::optional<double> median_of(std::string_view number) const;
+  [[nodiscard]] std::optional<double> smallest_of(std::string_view number) const;
+};
+
+/// By name.
+using Benchmarks = std::map<std::string, Benchmark>;
+
+/// The repetitions in what Google Benchmark writes as JSON (`--benchmark_out`); aggregates and benchmarks that failed
+/// are left out. Throws `Error` that names `file` if the text is something else.
+[[nodiscard]] Benchmarks parse_benchmarks(const std::string& text, const std::filesystem::path& file);
+
+/// One number of every benchmark, for instance its `cpu_time`.
 using BenchmarkSamples = std::map<std::string, std::vector<double>>;
 
-/// A counter's values in a JSON file of Google Benchmark (`--benchmark_out`). `cpu_time` and `real_time` are in
-/// nanoseconds whatever the file's unit; aggregates, benchmarks that failed and those without the counter are left out.
+/// A single file gives all its repetitions. Of several runs of one program each counts as one repetition, its median:
+/// what lasts for a whole run, such as the place of arrays in memory, is noise too.
 ///
-/// Throws `Error` that names the file if it cannot be read, is not such a file, holds no repetition, has no benchmark
-/// with this counter (the sentence lists what there is), or a value is not above zero.
-[[nodiscard]] BenchmarkSamples read_samples(const std::filesystem::path& file, std::string_view counter);
-
-/// The same of several runs of one program, each of which counts as one repetition, its median: what lasts for a whole
-/// run, such as the place of arrays in memory, is noise too. A single file gives all its repetitions. Throws `Error` if
-/// there is no file.
+/// Throws `Error` that names the file if it cannot be read, is not of Google Benchmark, holds no repetition, has no
+/// benchmark with this counter (the sentence lists the counters there are), or a value is not above zero; and if there
+/// is no file.
 [[nodiscard]] BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter);
-
-/// The middle one, or the mean of the two in the middle.
-[[nodiscard]] double median_of(std::vector<double> values);
 
 }  // namespace dmocbench

@@ -1,12 +1,15 @@
 #include "bench/compare/comparison.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "bench/compare/mann_whitney.hpp"
 #include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
 
 namespace dmocbench {
 
@@ -14,31 +17,70 @@ namespace {
 
 bool is_rate(std::string_view counter) { return counter.ends_with("per_second"); }
 
-SpeedVerdict verdict_on(const SpeedComparison& what, const ComparisonOptions& options) {
-  if (std::min(what.repetitions_before, what.repetitions_after) < fewest_repetitions) {
+SpeedVerdict verdict_on(const SpeedComparison& comparison, const ComparisonOptions& options) {
+  if (std::min(comparison.repetitions_before, comparison.repetitions_after) < fewest_repetitions) {
     return SpeedVerdict::too_few_repetitions;
   }
-  if (what.probability > options.significance) return SpeedVerdict::same;
-  const double slowdown = is_rate(options.counter) ? 1.0 / what.ratio : what.ratio;
+  if (comparison.probability > options.significance) return SpeedVerdict::same;
+  const double slowdown = is_rate(options.counter) ? 1.0 / comparison.ratio : comparison.ratio;
   if (slowdown > 1.0 && slowdown >= options.threshold) return SpeedVerdict::slower;
   if (slowdown < 1.0 && 1.0 / slowdown >= options.threshold) return SpeedVerdict::faster;
   return SpeedVerdict::same;
 }
 
+/// Twice the rank of every value, which is whole even where ranks are shared; those of the first sample come first.
+std::vector<std::size_t> doubled_ranks(std::span<const double> first, std::span<const double> second) {
+  std::vector<double> values(first.begin(), first.end());
+  values.insert(values.end(), second.begin(), second.end());
+  std::vector<double> sorted = values;
+  std::ranges::sort(sorted);
+  std::vector<std::size_t> ranks;
+  for (const double value : values) {
+    const auto [begin, end] = std::ranges::equal_range(sorted, value);
+    ranks.push_back(static_cast<std::size_t>((begin - sorted.begin()) + (end - sorted.begin())) + 1);
+  }
+  return ranks;
+}
+
+std::size_t distance(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
+
+/// The share of all choices of `chosen` ranks whose sum is at least `far` from `balanced`.
+double exact_probability(const std::vector<std::size_t>& ranks, std::size_t chosen, std::size_t balanced,
+                         std::size_t far) {
+  const std::size_t all = ranks.size() * (ranks.size() + 1);  // the sum of doubled ranks
+  // ways[c][s]: choices of c ranks with sum s.
+  std::vector<std::vector<double>> ways(chosen + 1, std::vector<double>(all + 1, 0.0));
+  ways[0][0] = 1.0;
+  for (const std::size_t rank : ranks) {
+    for (std::size_t c = chosen; c > 0; --c) {
+      for (std::size_t s = rank; s <= all; ++s) ways[c][s] += ways[c - 1][s - rank];
+    }
+  }
+  double as_far = 0.0;
+  double total = 0.0;
+  for (std::size_t s = 0; s <= all; ++s) {
+    total += ways[chosen][s];
+    if (distance(s, balanced) >= far) as_far += ways[chosen][s];
+  }
+  return as_far / total;
+}
+
+/// The same by the normal distribution with the variance of a sum of ranks that are drawn without replacement.
+double normal_probability(const std::vector<std::size_t>& ranks, std::size_t chosen, std::size_t far) {
+  const auto count = static_cast<double>(ranks.size());
+  double variance = 0.0;  // of the doubled ranks, whose mean is count + 1
+  for (const std::size_t rank : ranks) variance += std::pow(static_cast<double>(rank) - count - 1.0, 2) / (count - 1.0);
+  if (variance == 0.0) return 1.0;
+  const auto drawn = static_cast<double>(chosen);
+  const double deviation = std::sqrt(variance * drawn * (count - drawn) / count);
+  return std::erfc(static_cast<double>(far) / deviation / std::numbers::sqrt2);
+}
+
 }  // namespace
 
 std::string_view name_of(SpeedVerdict verdict) noexcept {
-  switch (verdict) {
-    case SpeedVerdict::faster:
-      return "faster";
-    case SpeedVerdict::slower:
-      return "slower";
-    case SpeedVerdict::same:
-      return "same within noise";
-    case SpeedVerdict::too_few_repetitions:
-      return "too few repetitions";
-  }
-  return "unknown";
+  static constexpr std::array names{"faster", "slower", "same within noise", "too few repetitions"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const BenchmarkSamples& after,
@@ -52,20 +94,19 @@ std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const Bench
     const auto found = after.find(name);
     if (found == after.end()) continue;
     const std::vector<double>& later = found->second;
-    SpeedComparison what{.name = name,
-                         .repetitions_before = earlier.size(),
-                         .repetitions_after = later.size(),
-                         .median_before = median_of(earlier),
-                         .median_after = median_of(later),
-                         .probability = mann_whitney(earlier, later)};
-    what.ratio = what.median_after / what.median_before;
-    what.verdict = verdict_on(what, options);
-    comparisons.push_back(what);
+    SpeedComparison comparison{.name = name,
+                               .repetitions_before = earlier.size(),
+                               .repetitions_after = later.size(),
+                               .median_before = median(earlier),
+                               .median_after = median(later),
+                               .probability = mann_whitney(earlier, later)};
+    comparison.ratio = comparison.median_after / comparison.median_before;
+    comparison.verdict = verdict_on(comparison, options);
+    comparisons.push_back(comparison);
   }
   if (comparisons.empty()) {
     throw Error(
-        fmt::format("the files have no benchmark in common: one has {}, the other {}; compare two runs of one "
-                    "program",
+        fmt::format("the files have no benchmark in common: one has {}, the other {}; compare two runs of one program",
                     before.begin()->first, after.begin()->first));
   }
   return comparisons;
@@ -74,16 +115,16 @@ std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const Bench
 Table comparison_table(const std::vector<SpeedComparison>& comparisons) {
   Table table({"benchmark", "repetitions_before", "repetitions_after", "median_before", "median_after", "ratio",
                "probability", "verdict"});
-  for (const SpeedComparison& what : comparisons) {
+  for (const SpeedComparison& comparison : comparisons) {
     Row row;
-    row.set("benchmark", Cell(what.name));
-    row.set("repetitions_before", Cell(static_cast<long long>(what.repetitions_before)));
-    row.set("repetitions_after", Cell(static_cast<long long>(what.repetitions_after)));
-    row.set("median_before", Cell(what.median_before));
-    row.set("median_after", Cell(what.median_after));
-    row.set("ratio", Cell(what.ratio));
-    row.set("probability", Cell(what.probability));
-    row.set("verdict", Cell(std::string(name_of(what.verdict))));
+    row.set("benchmark", Cell(comparison.name));
+    row.set("repetitions_before", Cell(static_cast<long long>(comparison.repetitions_before)));
+    row.set("repetitions_after", Cell(static_cast<long long>(comparison.repetitions_after)));
+    row.set("median_before", Cell(comparison.median_before));
+    row.set("median_after", Cell(comparison.median_after));
+    row.set("ratio", Cell(comparison.ratio));
+    row.set("probability", Cell(comparison.probability));
+    row.set("verdict", Cell(std::string(name_of(comparison.verdict))));
     table.append(row);
   }
   return table;
@@ -92,15 +133,16 @@ Table comparison_table(const std::vector<SpeedComparison>& comparisons) {
 std::string comparison_text(const std::vector<SpeedComparison>& comparisons) {
   std::size_t width = 0;
   std::map<SpeedVerdict, std::size_t> counts;
-  for (const SpeedComparison& what : comparisons) {
-    width = std::max(width, what.name.size());
-    ++counts[what.verdict];
+  for (const SpeedComparison& comparison : comparisons) {
+    width = std::max(width, comparison.name.size());
+    ++counts[comparison.verdict];
   }
   std::string text = fmt::format("{:<{}} {:>12} {:>12} {:>8} {:>8}  verdict\n", "median of", width, "before", "after",
                                  "ratio", "chance");
-  for (const SpeedComparison& what : comparisons) {
-    text += fmt::format("{:<{}} {:>12.5g} {:>12.5g} {:>8.3f} {:>8.2g}  {}\n", what.name, width, what.median_before,
-                        what.median_after, what.ratio, what.probability, name_of(what.verdict));
+  for (const SpeedComparison& comparison : comparisons) {
+    text += fmt::format("{:<{}} {:>12.5g} {:>12.5g} {:>8.3f} {:>8.2g}  {}\n", comparison.name, width,
+                        comparison.median_before, comparison.median_after, comparison.ratio, comparison.probability,
+                        name_of(comparison.verdict));
   }
   std::string separator;
   for (const auto& [verdict, count] : counts) {
@@ -108,6 +150,18 @@ std::string comparison_text(const std::vector<SpeedComparison>& comparisons) {
     separator = ", ";
   }
   return text + "\n";
+}
+
+double mann_whitney(std::span<const double> first, std::span<const double> second) {
+  if (first.empty() || second.empty()) throw Error("a test of two samples needs values in both");
+  constexpr std::size_t most_values_of_exact_test = 40;
+  const std::vector<std::size_t> ranks = doubled_ranks(first, second);
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) sum += ranks[i];
+  const std::size_t balanced = first.size() * (ranks.size() + 1);
+  const std::size_t far = distance(sum, balanced);
+  return ranks.size() <= most_values_of_exact_test ? exact_probability(ranks, first.size(), balanced, far)
+                                                   : normal_probability(ranks, first.size(), far);
 }
 
 }  // namespace dmocbench

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +13,13 @@
 namespace dmocbench {
 
 enum class SpeedVerdict : std::uint8_t {
-  faster,               ///< beyond noise and by the smallest ratio at least
-  slower,               ///< beyond noise and by the smallest ratio at least
+  faster,               ///< beyond noise, and the ratio of medians reaches the threshold
+  slower,               ///< the same in the other direction
   same,                 ///< neither
   too_few_repetitions,  ///< one of the two has less than `fewest_repetitions`
 };
 
-/// Two samples of less have no verdict: even wholly apart they would be so by chance in one of 35 cases (4 and 4).
+/// Smaller samples have no verdict: two of 4 are wholly apart by chance in one of 35 cases.
 inline constexpr std::size_t fewest_repetitions = 5;
 
 /// "faster", "slower", "same within noise" or "too few repetitions".
@@ -51,5 +52,13 @@ struct SpeedComparison {
 
 /// A line per benchmark, and one that counts the verdicts.
 [[nodiscard]] std::string comparison_text(const std::vector<SpeedComparison>& comparisons);
+
+/// The Mann-Whitney U test, two-sided: the probability that ranks are as far from balanced as these if both samples
+/// are of one distribution.
+///
+/// Equal values share the mean of their ranks. Up to 40 values in all the probability is exact: the share of all ways
+/// to divide these very ranks that are at least as far from balanced. Beyond, it is that of the normal distribution
+/// with the same variance. It is 1 if all values are equal. Throws `Error` if a sample is empty.
+[[nodiscard]] double mann_whitney(std::span<const double> first, std::span<const double> second);
 
 }  // namespace dmocbench

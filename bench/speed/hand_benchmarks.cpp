@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <utility>
+#include <memory>
 
-#include "bench/speed/agreement.hpp"
-#include "bench/speed/benchmark_name.hpp"
-#include "bench/speed/benchmarks.hpp"
-#include "bench/speed/interval_columns.hpp"
+#include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/kernels.hpp"
 #include "methods/error.hpp"
 
@@ -19,72 +15,38 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
   throw Error("nobody wrote the formulas of " + problem + " by hand");
 }
 
-/// A function written by hand with its inputs and with memory for its outputs, as `TapeRun` has it.
-class HandRun {
- public:
-  HandRun(HandKernel kernel, Subject& subject, std::size_t outputs)
-      : kernel_(kernel),
-        factor_(Subject::objective_factor * subject.program().cost_scale()),
-        outputs_(outputs, Subject::intervals) {
-    for (const Tape::Input& input : subject.columns()) inputs_.push_back(input.data);
-  }
-
-  void evaluate() const {
-    kernel_(Subject::intervals, {.in = inputs_.data(), .factor = factor_, .out = outputs_.columns().data()});
-  }
-  [[nodiscard]] const IntervalColumns& outputs() const noexcept { return outputs_; }
-
- private:
-  HandKernel kernel_;
-  double factor_;
-  std::vector<const double*> inputs_;
-  IntervalColumns outputs_;
-};
-
-using HandRuns = std::vector<std::shared_ptr<HandRun>>;
-
-void register_runs(const std::string& quantity, const std::string& problem, InstructionSet set, const HandRuns& runs,
-                   const Work& work) {
-  const BenchmarkName name{
-      .way = "hand", .quantity = quantity, .problem = problem, .instruction_set = std::string(name_of(set))};
-  benchmark::RegisterBenchmark(name.text().c_str(), [runs, work](benchmark::State& state) {
-    for ([[maybe_unused]] auto turn : state) {
-      for (const auto& run : runs) run->evaluate();
-      benchmark::ClobberMemory();
-    }
-    count_intervals(state, work);
-  });
-}
-
-void register_problem(Subject& subject, InstructionSet set) {
-  const HandFunctions by_hand = hand_written(subject.problem(), set);
-  const IntervalFunctions& functions = subject.functions();
-  HandRuns all;
-  Work work_of_all;
-  const auto add = [&](const std::string& quantity, HandKernel kernel, const Schedule& schedule) {
-    const auto run = std::make_shared<HandRun>(kernel, subject, schedule.outputs().size());
-    run->evaluate();
-    constexpr double rounding = 1e-12;
+void register_problem(BenchmarkedFormulas& point, InstructionSet set) {
+  constexpr double rounding = 1e-12;
+  const HandFunctions by_hand = hand_written(point.formulas().problem, set);
+  const std::array kernels{by_hand.residual, by_hand.jacobian, by_hand.hessian};
+  const double factor = BenchmarkedFormulas::objective_factor * point.program().cost_scale();
+  std::vector<const double*> inputs;
+  for (const Tape::Input& input : point.columns()) inputs.push_back(input.data);
+  IntervalBenchmark what{.way = "hand", .formulas = point.formulas(), .instruction_set = std::string(name_of(set))};
+  std::vector<Evaluation> all;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const Schedule& schedule = *point.schedules()[i];
+    const auto outputs = std::make_shared<IntervalColumns>(schedule.outputs().size());
+    const auto evaluate = [kernel = kernels[i], factor, inputs, outputs] {
+      kernel(BenchmarkedFormulas::intervals, {.in = inputs.data(), .factor = factor, .out = outputs->columns().data()});
+    };
+    evaluate();
+    what.quantity = quantities[i];
     require_agreement(
-        subject, schedule, quantity + " by hand on " + std::string(name_of(set)),
-        [&](std::size_t interval) { return run->outputs().row(interval); }, rounding);
-    // Operations of the tape's formulas: those of the loops are the compiler's affair.
-    const Work work = work_of(schedule, subject);
-    register_runs(quantity, subject.problem(), set, {run}, work);
-    all.push_back(run);
-    work_of_all += work;
-  };
-  add("residual", by_hand.residual, functions.rows.schedule);
-  add("jacobian", by_hand.jacobian, functions.jacobian.schedule);
-  add("hessian", by_hand.hessian, functions.hessian.schedule);
-  register_runs("separate", subject.problem(), set, all, work_of_all);
+        point, schedule, what.quantity + " by hand on " + what.instruction_set,
+        [&](std::size_t interval) { return outputs->row(interval); }, rounding);
+    // Operations are those of the tape's formulas: nobody counts what the compiler makes of the loops.
+    register_benchmark(what, all.emplace_back(evaluate, work_of(schedule, point)));
+  }
+  what.quantity = "separate";
+  register_benchmark(what, one_by_one(all));
 }
 
 }  // namespace
 
-void register_hand_benchmarks(const Subjects& subjects) {
-  for (const auto& subject : subjects) {
-    for (const InstructionSet set : available_instruction_sets()) register_problem(*subject, set);
+void register_hand_benchmarks(const FormulasOfPaper& paper) {
+  for (const auto& point : paper) {
+    for (const InstructionSet set : available_instruction_sets()) register_problem(*point, set);
   }
 }
 

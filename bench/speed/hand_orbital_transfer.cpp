@@ -10,12 +10,7 @@ namespace dmocbench::speed {
 namespace {
 
 void residual(std::size_t intervals, const HandColumns& columns) {
-  const double* r_left = columns.in[0];
-  const double* phi_left = columns.in[1];
-  const double* r_right = columns.in[2];
-  const double* phi_right = columns.in[3];
-  const double* u = columns.in[4];
-  const double* step = columns.in[5];
+  const auto [r_left, phi_left, r_right, phi_right, u, step] = inputs<6>(columns);
   const std::array<double*, 4> out = outputs<4>(columns);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < intervals; ++k) {
@@ -35,12 +30,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
 }
 
 void jacobian(std::size_t intervals, const HandColumns& columns) {
-  const double* r_left = columns.in[0];
-  const double* phi_left = columns.in[1];
-  const double* r_right = columns.in[2];
-  const double* phi_right = columns.in[3];
-  const double* u = columns.in[4];
-  const double* step = columns.in[5];
+  const auto [r_left, phi_left, r_right, phi_right, u, step] = inputs<6>(columns);
   const std::array<double*, 18> out = outputs<18>(columns);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < intervals; ++k) {
@@ -55,23 +45,23 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
     const double by_r = R * W;                                                      // ½ ∂(R²W)/∂R
     const double by_phi = R * R * rate;                                             // 1/h ∂(R²W)/∂W
     const double by_u = 0.5 * h * R;
-    // Left row of r, by r_left, φ_left, r_right, φ_right.
+    // Left constraint of r, by r_left, φ_left, r_right, φ_right.
     out[0][k] = force_r + rate;
     out[1][k] = -force_phi;
     out[2][k] = force_r - rate;
     out[3][k] = force_phi;
-    // Left row of φ, and by u.
+    // Left constraint of φ, and by u.
     out[4][k] = turn - by_r;
     out[5][k] = by_phi;
     out[6][k] = turn - by_r;
     out[7][k] = -by_phi;
     out[8][k] = by_u;
-    // Right row of r.
+    // Right constraint of r.
     out[9][k] = force_r - rate;
     out[10][k] = -force_phi;
     out[11][k] = force_r + rate;
     out[12][k] = force_phi;
-    // Right row of φ, and by u.
+    // Right constraint of φ, and by u.
     out[13][k] = turn + by_r;
     out[14][k] = -by_phi;
     out[15][k] = turn + by_r;
@@ -81,15 +71,8 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
 }
 
 void hessian(std::size_t intervals, const HandColumns& columns) {
-  const double* r_left = columns.in[0];
-  const double* phi_left = columns.in[1];
-  const double* r_right = columns.in[2];
-  const double* phi_right = columns.in[3];
-  const double* step = columns.in[5];
-  const double* lambda_left_r = columns.in[8];
-  const double* lambda_left_phi = columns.in[9];
-  const double* lambda_right_r = columns.in[10];
-  const double* lambda_right_phi = columns.in[11];
+  const auto [r_left, phi_left, r_right, phi_right, u, step, time, cost_factor, lambda_left_r, lambda_left_phi,
+              lambda_right_r, lambda_right_phi] = inputs<12>(columns);
   const double factor = columns.factor;
   const std::array<double*, 13> out = outputs<13>(columns);
 #pragma GCC ivdep

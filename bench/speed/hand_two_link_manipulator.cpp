@@ -70,13 +70,7 @@ class Angles {
 };
 
 void residual(std::size_t intervals, const HandColumns& columns) {
-  const double* left_1 = columns.in[0];
-  const double* left_2 = columns.in[1];
-  const double* right_1 = columns.in[2];
-  const double* right_2 = columns.in[3];
-  const double* tau_1 = columns.in[4];
-  const double* tau_2 = columns.in[5];
-  const double* step = columns.in[6];
+  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = inputs<7>(columns);
   const std::array<double*, 4> out = outputs<4>(columns);
   Angles angles;
   for (std::size_t first = 0; first < intervals; first += Angles::width) {
@@ -105,11 +99,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
 }
 
 void jacobian(std::size_t intervals, const HandColumns& columns) {
-  const double* left_1 = columns.in[0];
-  const double* left_2 = columns.in[1];
-  const double* right_1 = columns.in[2];
-  const double* right_2 = columns.in[3];
-  const double* step = columns.in[6];
+  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = inputs<7>(columns);
   const std::array<double*, 22> out = outputs<22>(columns);
   Angles angles;
   for (std::size_t first = 0; first < intervals; first += Angles::width) {
@@ -130,27 +120,27 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
       const double own_1 = 0.25 * h * g1 * angles.sine_1[i] - both;
       const double own_2 = 0.25 * h * g2 * angles.sine_2[i] - both;
       const double half = 0.5 * h;
-      // Left row of θ₁, by θ₁ and θ₂ on the left, on the right, and by τ₁, τ₂.
+      // Left constraint of θ₁, by θ₁ and θ₂ on the left, on the right, and by τ₁, τ₂.
       out[0][k] = own_1 + 2.0 * s2 + rate * a;
       out[1][k] = both + s1 - s2 + rate * K;
       out[2][k] = own_1 - rate * a;
       out[3][k] = both - s1 - s2 - rate * K;
       out[4][k] = half;
       out[5][k] = -half;
-      // Left row of θ₂, without τ₁.
+      // Left constraint of θ₂, without τ₁.
       out[6][k] = both + s1 - s2 + rate * K;
       out[7][k] = own_2 - 2.0 * s1 + rate * b;
       out[8][k] = both + s1 + s2 - rate * K;
       out[9][k] = own_2 - rate * b;
       out[10][k] = half;
-      // Right row of θ₁.
+      // Right constraint of θ₁.
       out[11][k] = own_1 - rate * a;
       out[12][k] = both + s1 + s2 - rate * K;
       out[13][k] = own_1 - 2.0 * s2 + rate * a;
       out[14][k] = both - s1 + s2 + rate * K;
       out[15][k] = half;
       out[16][k] = -half;
-      // Right row of θ₂.
+      // Right constraint of θ₂.
       out[17][k] = both - s1 - s2 - rate * K;
       out[18][k] = own_2 - rate * b;
       out[19][k] = both - s1 + s2 + rate * K;
@@ -161,15 +151,8 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
 }
 
 void hessian(std::size_t intervals, const HandColumns& columns) {
-  const double* left_1 = columns.in[0];
-  const double* left_2 = columns.in[1];
-  const double* right_1 = columns.in[2];
-  const double* right_2 = columns.in[3];
-  const double* step = columns.in[6];
-  const double* lambda_left_1 = columns.in[9];
-  const double* lambda_left_2 = columns.in[10];
-  const double* lambda_right_1 = columns.in[11];
-  const double* lambda_right_2 = columns.in[12];
+  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step, time, cost_factor, lambda_left_1, lambda_left_2,
+              lambda_right_1, lambda_right_2] = inputs<13>(columns);
   const double factor = columns.factor;
   const std::array<double*, 12> out = outputs<12>(columns);
   Angles angles;

@@ -1,8 +1,6 @@
 #include "bench/speed/kernels.hpp"
 
-#include <string>
-
-#include "methods/error.hpp"
+#include <array>
 
 namespace dmocbench::speed {
 
@@ -17,18 +15,12 @@ Kernels all();
 }
 
 Kernels kernels_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::baseline:
-      return kernels_baseline::all();
 #ifdef DMOCBENCH_X86_KERNELS
-    case InstructionSet::avx2:
-      return kernels_avx2::all();
-    case InstructionSet::avx512:
-      return kernels_avx512::all();
+  static constexpr std::array kernels{kernels_baseline::all, kernels_avx2::all, kernels_avx512::all};
+#else
+  static constexpr std::array kernels{kernels_baseline::all};
 #endif
-    default:
-      throw Error("no kernels for the instruction set " + std::string(name_of(set)));
-  }
+  return compiled_for(set, kernels)();
 }
 
 }  // namespace dmocbench::speed

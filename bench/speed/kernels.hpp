@@ -5,15 +5,15 @@
 
 #include "methods/runtime/instruction_set.hpp"
 
-/// What is compiled once per instruction set, with the flags of the tape's kernel, DMOCBENCH_KERNELS naming the
-/// namespace: formulas written by hand and loops that show what the machine can do. As in tape_kernel.cpp only headers
-/// whose functions are inlined, or in a namespace of this set alone, may be used there.
+/// Formulas written by hand and loops that show what the machine can do, compiled once per instruction set with the
+/// flags of the tape's kernel; DMOCBENCH_KERNELS is the namespace of a set. As in tape_kernel.cpp only headers whose
+/// functions are inlined, or in a namespace of this set alone, may be used there.
 namespace dmocbench::speed {
 
 /// Where a function written by hand reads and writes; entry k of a column belongs to interval k.
 struct HandColumns {
   // One column per input, numbered as in `LocalInputs`: left q, right q, u, the step h, the time (not read), the
-  // factor of the cost (not read: `factor` below), multipliers of the left and of the right rows.
+  // factor of the cost (not read: `factor` below), multipliers of the left and of the right constraints.
   const double* const* in;
   double factor;       ///< of the cost, the problem's scale included
   double* const* out;  ///< one column per output, in the order of `IntervalFunctions`; must not overlap
@@ -25,17 +25,23 @@ using HandKernel = void (*)(std::size_t intervals, const HandColumns& columns);
 /// DMOC with the midpoint rule for one problem with its default data, as an engineer would write it: loops over the
 /// intervals that g++ vectorises.
 ///
-/// With Q = (q_k + q_{k+1})/2, V = (q_{k+1} - q_k)/h and G = L_q + f at (Q, V, u) the rows of an interval are left
-/// h/2 G - L_v and right h/2 G + L_v, and its share of the Lagrangian is ℓ = factor h C + α·G + δ·L_v with
-/// α = h/2 (λ_left + λ_right), δ = λ_right - λ_left. Derivatives are found in Q and V, where they are few; a right end
-/// has ∂Q = 1/2, ∂V = 1/h, a left one ∂Q = 1/2, ∂V = -1/h.
+/// With Q = (q_k + q_{k+1})/2, V = (q_{k+1} - q_k)/h and G = L_q + f at (Q, V, u) the constraints of an interval are
+/// left h/2 G - L_v and right h/2 G + L_v, and its share of the Lagrangian is ℓ = factor h C + α·G + δ·L_v with α = h/2
+/// (λ_left + λ_right), δ = λ_right - λ_left. Derivatives are found in Q and V, where they are few; a right end has ∂Q =
+/// 1/2, ∂V = 1/h, a left one ∂Q = 1/2, ∂V = -1/h.
 struct HandFunctions {
   HandKernel residual;
   HandKernel jacobian;
   HandKernel hessian;  ///< of ℓ
 };
 
-/// A copy of the pointers to the outputs, which no store can change: g++ then keeps them out of its loops.
+// Copies of the first pointers to inputs or outputs, which no store can change: g++ then keeps them out of its loops.
+template <std::size_t count>
+[[gnu::always_inline]] inline std::array<const double*, count> inputs(const HandColumns& columns) {
+  std::array<const double*, count> copy{};
+  for (std::size_t i = 0; i < count; ++i) copy[i] = columns.in[i];
+  return copy;
+}
 template <std::size_t count>
 [[gnu::always_inline]] inline std::array<double*, count> outputs(const HandColumns& columns) {
   std::array<double*, count> copy{};
@@ -56,7 +62,7 @@ struct Kernels {
   TriadLoop triad;
 };
 
-/// Throws `Error` if there are none for this set.
+/// Those that were compiled for this set, or for the widest one below it.
 [[nodiscard]] Kernels kernels_of(InstructionSet set);
 
 #ifdef DMOCBENCH_KERNELS

@@ -1,88 +1,49 @@
-#include <functional>
+#include <memory>
 
-#include "bench/speed/benchmark_name.hpp"
-#include "bench/speed/benchmarks.hpp"
+#include <benchmark/benchmark.h>
+
+#include "bench/speed/interval_benchmark.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
 
-/// A subject that is made when it is first wanted: of some hundred benchmarks most are left out of a run.
-class SubjectOnDemand {
- public:
-  explicit SubjectOnDemand(Formulas formulas) : formulas_(std::move(formulas)) {}
-
-  [[nodiscard]] const Formulas& formulas() const noexcept { return formulas_; }
-  Subject& get() {
-    if (!subject_) subject_ = std::make_unique<Subject>(formulas_);
-    return *subject_;
-  }
-
- private:
-  Formulas formulas_;
-  std::unique_ptr<Subject> subject_;
-};
-
-/// An evaluation of the program: what it does, of which formulas, and how many numbers come out.
-struct Evaluation {
-  std::string quantity;
-  std::function<void(Subject&, Eigen::VectorXd& result)> evaluate;
-  std::function<const Schedule&(const IntervalFunctions&)> schedule;
-  std::function<std::size_t(const Transcription&)> size;
-};
-
-std::vector<Evaluation> evaluations() {
-  return {{"residual", [](Subject& s, Eigen::VectorXd& result) { s.program().constraints(s.x(), result); },
-           [](const IntervalFunctions& f) -> const Schedule& { return f.rows.schedule; },
-           [](const Transcription& program) { return program.constraint_count(); }},
-          {"jacobian", [](Subject& s, Eigen::VectorXd& result) { s.program().jacobian(s.x(), result); },
-           [](const IntervalFunctions& f) -> const Schedule& { return f.jacobian.schedule; },
-           [](const Transcription& program) { return program.jacobian_structure().size(); }},
-          {"hessian",
-           [](Subject& s, Eigen::VectorXd& result) {
-             s.program().hessian(s.x(), Subject::objective_factor, s.multipliers(), result);
-           },
-           [](const IntervalFunctions& f) -> const Schedule& { return f.hessian.schedule; },
-           [](const Transcription& program) { return program.hessian_structure().size(); }}};
-}
-
-/// Every turn of the timed loop carries the evaluations out, one after the other.
-void evaluate_repeatedly(benchmark::State& state, Subject& subject, const std::vector<Evaluation>& several) {
-  std::vector<Eigen::VectorXd> results;
-  Work work;
-  for (const Evaluation& evaluation : several) {
-    const std::size_t size = evaluation.size(subject.program());
-    results.emplace_back(static_cast<Eigen::Index>(size));
-    work += work_of(evaluation.schedule(subject.functions()), subject,
-                    static_cast<double>(size) / static_cast<double>(Subject::intervals));
-  }
-  for ([[maybe_unused]] auto turn : state) {
-    for (std::size_t i = 0; i < several.size(); ++i) {
-      several[i].evaluate(subject, results[i]);
-      benchmark::DoNotOptimize(results[i].data());
+/// Evaluations of the assembled program, in the order of `quantities`.
+Evaluation evaluation_of(BenchmarkedFormulas& point, std::size_t quantity) {
+  Transcription& program = point.program();
+  const std::array sizes{program.constraint_count(), program.jacobian_structure().size(),
+                         program.hessian_structure().size()};
+  const auto result = std::make_shared<Eigen::VectorXd>(static_cast<Eigen::Index>(sizes[quantity]));
+  const auto evaluate = [&point, &program, quantity, result] {
+    if (quantity == 0) program.constraints(point.x(), *result);
+    if (quantity == 1) program.jacobian(point.x(), *result);
+    if (quantity == 2) {
+      program.hessian(point.x(), BenchmarkedFormulas::objective_factor, point.multipliers(), *result);
     }
-    benchmark::ClobberMemory();
-  }
-  count_intervals(state, work);
+    benchmark::DoNotOptimize(result->data());
+  };
+  const double written = static_cast<double>(sizes[quantity]) / static_cast<double>(BenchmarkedFormulas::intervals);
+  return {evaluate, work_of(*point.schedules()[quantity], point, written)};
 }
 
 void register_formulas(const Formulas& formulas) {
-  const auto subject = std::make_shared<SubjectOnDemand>(formulas);
-  const auto add = [&](const std::string& quantity, const std::vector<Evaluation>& several) {
-    const BenchmarkName name{.way = "program",
-                             .quantity = quantity,
-                             .problem = formulas.label(),
-                             .method = formulas.method,
-                             .stages = formulas.stages,
-                             .instruction_set = std::string(name_of(preferred_instruction_set()))};
-    benchmark::RegisterBenchmark(name.text().c_str(), [subject, several](benchmark::State& state) {
-      evaluate_repeatedly(state, subject->get(), several);
-    });
+  // Made when it is first wanted: of some hundred benchmarks most are left out of a run.
+  const auto point = std::make_shared<std::unique_ptr<BenchmarkedFormulas>>();
+  const auto evaluate = [point, formulas](std::size_t quantity) {
+    if (!*point) *point = std::make_unique<BenchmarkedFormulas>(formulas);
+    return evaluation_of(**point, quantity);
   };
-  const std::vector<Evaluation> all = evaluations();
-  for (const Evaluation& evaluation : all) add(evaluation.quantity, {evaluation});
-  add("separate", all);
+  IntervalBenchmark what{.way = "program",
+                         .formulas = formulas,
+                         .names_method = true,
+                         .instruction_set = std::string(name_of(preferred_instruction_set()))};
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    what.quantity = quantities[i];
+    register_benchmark(what, [evaluate, i] { return evaluate(i); });
+  }
+  what.quantity = "separate";
+  register_benchmark(what, [evaluate] { return one_by_one({evaluate(0), evaluate(1), evaluate(2)}); });
 }
 
 }  // namespace

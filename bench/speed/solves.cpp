@@ -2,8 +2,9 @@
 // derivatives, on one thread and on two.
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,72 +12,199 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/speed/solve_benchmark.hpp"
-#include "bench/speed/solve_name.hpp"
-#include "bench/speed/solve_reporter.hpp"
-#include "bench/speed/solve_table.hpp"
-#include "bench/speed/start_benchmarks.hpp"
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/solve_tables.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
+#include "problems/two_link_manipulator.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
 
-/// What a run without flags does, so that it takes seconds; long grids and the library are left out.
-constexpr const char* default_filter = "^[^/]*/[^/]*/(64|1024)/";
+/// The paper's two-link manipulator with both torques between -16 and 16 N m, which is enough for the swing-up but less
+/// than it takes without bounds: the least cost rises from 80.38 to 80.65.
+class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
+ public:
+  static constexpr const char* own_name = "two_link_manipulator_bounded";
 
-void add(const SolveName& name) {
-  const auto subject = std::make_shared<SolveBenchmark>(name);
-  benchmark::RegisterBenchmark(name.text().c_str(), [subject](benchmark::State& state) { subject->run(state); })
+  [[nodiscard]] std::string name() const override { return own_name; }
+  [[nodiscard]] Bounds control_bounds() const override {
+    constexpr double largest_torque = 16.0;
+    return {Eigen::Vector2d::Constant(-largest_torque), Eigen::Vector2d::Constant(largest_torque)};
+  }
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override { return std::nullopt; }
+};
+
+/// How much memory of this process was in use at most since the object was made, beyond what was then; Linux tells.
+/// Memory that others freed before is handed back to the system first, so that it does not hide what is taken again;
+/// pages that the heap cannot hand back do hide some hundred kilobytes.
+class PeakMemory {
+ public:
+  PeakMemory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+    std::ofstream references("/proc/self/clear_refs");
+    references << "5" << std::flush;  // the peak becomes what is in use now, proc(5)
+    if (references.good()) before_ = bytes_of("VmRSS:");
+  }
+  /// In bytes; none where the system does not tell.
+  [[nodiscard]] std::optional<double> growth() const {
+    const auto peak = bytes_of("VmHWM:");
+    if (!before_ || !peak) return std::nullopt;
+    return std::max(0.0, *peak - *before_);
+  }
+
+ private:
+  /// A line "NAME:   1234 kB" of the kernel's report on this process.
+  static std::optional<double> bytes_of(const std::string& name) {
+    std::ifstream report("/proc/self/status");
+    for (std::string word; report >> word;) {
+      double kilobytes = 0.0;
+      if (word == name && report >> kilobytes) return 1024.0 * kilobytes;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<double> before_;
+};
+
+/// What is solved, and by what.
+struct SolveCase {
+  std::string problem;
+  std::string method;
+  int intervals = 0;
+  std::string solver = "interior_point";
+  int threads = 1;
+};
+
+/// A program with its start, and how long the program took to make.
+struct TimedProgram {
+  std::unique_ptr<Transcription> program;
+  Eigen::VectorXd start;
+  double seconds = 0.0;
+};
+
+TimedProgram make_program(const SolveCase& solve) {
+  const std::unique_ptr<Problem> problem = solve.problem == TwoLinkManipulatorBounded::own_name
+                                               ? std::make_unique<TwoLinkManipulatorBounded>()
+                                               : make_problem(solve.problem);
+  TimedProgram made;
+  const auto begin = Clock::now();
+  made.program = std::make_unique<Transcription>(*problem, *make_element(solve.method), make_tableau("gauss", 1),
+                                                 Grid::uniform(solve.intervals), "tape");
+  made.seconds = seconds_since(begin);
+  made.start = sample(*made.program, guessed_motion(*problem));
+  return made;
+}
+
+std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
+  SolverOptions options;
+  options.most_seconds = 60.0;  // beyond it a solve counts as failed
+  return make_solver(solve.solver, options);
+}
+
+/// Of a solve of its own, which is not timed: handing back memory to the system makes the next solve slower.
+std::optional<double> peak_bytes(const SolveCase& solve) {
+  const PeakMemory memory;
+  const TimedProgram made = make_program(solve);
+  (void)make_solver_of(solve)->solve(*made.program, made.start);
+  return memory.growth();
+}
+
+/// Every turn of the timed loop is one solve. What a solver looks up in the program before its first iteration is part
+/// of it; the trace, its derivatives and judging the answer are not.
+///
+/// Every repetition makes the program anew. So making it is measured as often as solving it, the place of its arrays is
+/// part of the noise that the repetitions tell, and no program of a million intervals, a gigabyte, waits for its turn.
+void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
+  const TimedProgram made = make_program(solve);
+  const auto solver = make_solver_of(solve);
+  Solution solution;
+  double seconds = 0.0;
+  double evaluation_seconds = 0.0;
+  for ([[maybe_unused]] auto turn : state) {
+    solution = solver->solve(*made.program, made.start);
+    state.SetIterationTime(solution.seconds);
+    seconds += solution.seconds;
+    evaluation_seconds += solution.evaluation_seconds;
+  }
+  const double iterations = solution.major_iterations.value_or(0);
+  const double interval_turns = static_cast<double>(state.iterations()) * solve.intervals;
+  state.SetLabel(fmt::format("problem={} method={} intervals={} solver={} threads={}", solve.problem, solve.method,
+                             solve.intervals, solve.solver, solve.threads));
+  state.counters["major_iterations"] = iterations;
+  if (solution.linear_systems) state.counters["linear_systems"] = *solution.linear_systems;
+  state.counters["objective"] = solution.objective;
+  state.counters["solved"] = is_solved(solution.status) ? 1.0 : 0.0;
+  state.counters["evaluation_share"] = evaluation_seconds / seconds;
+  state.counters["ns_per_interval_iteration"] = 1e9 * seconds / interval_turns / std::max(1.0, iterations);
+  if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;
+  state.counters["setup_seconds"] = made.seconds;
+}
+
+/// [library/]PROBLEM/METHOD/INTERVALS/SOLVER[/threads_COUNT]; one thread is not named.
+void add(const std::string& part, const SolveCase& solve) {
+  const std::string name =
+      fmt::format("{}{}/{}/{}/{}{}", part, solve.problem, solve.method, solve.intervals, solve.solver,
+                  solve.threads == 1 ? "" : fmt::format("/threads_{}", solve.threads));
+  const auto bytes = std::make_shared<std::optional<std::optional<double>>>();  // not known before the first repetition
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [solve, bytes](benchmark::State& state) {
+                                 try {
+                                   set_thread_count(static_cast<std::size_t>(solve.threads));
+                                   if (!*bytes) *bytes = peak_bytes(solve);
+                                   run(state, solve, **bytes);
+                                 } catch (const Error& error) {
+                                   state.SkipWithError(error.what());  // the others go on
+                                 }
+                               })
       ->UseManualTime()
       ->Unit(benchmark::kMillisecond);
 }
 
 /// One grid by both solvers, and where it is long by two threads.
-void add_solves(SolveName name) {
+void add_grid(const std::string& part, SolveCase solve) {
   constexpr int most_intervals_of_ipopt = 262144;  // beyond it no solve ends within its minute
   constexpr int fewest_intervals_of_two = 16384;   // the next shorter grid is a single part of the work
-  name.solver = "interior_point";
-  add(name);
-  if (name.intervals >= fewest_intervals_of_two) {
-    SolveName by_two = name;
-    by_two.threads = 2;
-    add(by_two);
-  }
-  name.solver = "ipopt";
-  if (name.intervals <= most_intervals_of_ipopt) add(name);
+  add(part, solve);
+  solve.threads = 2;
+  if (solve.intervals >= fewest_intervals_of_two) add(part, solve);
+  solve.threads = 1;
+  solve.solver = "ipopt";
+  if (solve.intervals <= most_intervals_of_ipopt) add(part, solve);
 }
 
+/// The paper's problems and, with inequalities, a third on every grid; every other problem of the library on one.
 void register_solves() {
   const std::vector<std::string> methods{"dmoc", "hamiltonian", "tangent"};
   const std::vector<std::string> papers = paper_problem_names();
-  for (const std::string& problem : problems_on_all_grids()) {
+  std::vector<std::string> on_all_grids = papers;
+  on_all_grids.emplace_back(TwoLinkManipulatorBounded::own_name);
+  for (const std::string& problem : on_all_grids) {
     for (const std::string& method : methods) {
-      for (const int intervals : {64, 1024, 16384, 65536, 262144, 1048576}) {
-        add_solves(
-            {.is_of_library = false, .problem = problem, .method = method, .intervals = intervals, .solver = {}});
-      }
+      for (const int intervals : {64, 1024, 16384, 65536, 262144, 1048576}) add_grid("", {problem, method, intervals});
     }
   }
   for (const std::string& problem : problem_names()) {
-    if (std::find(papers.begin(), papers.end(), problem) != papers.end()) continue;  // these are there already
-    for (const std::string& method : methods) {
-      add_solves({.is_of_library = true, .problem = problem, .method = method, .intervals = 1024, .solver = {}});
-    }
+    if (std::ranges::find(papers, problem) != papers.end()) continue;
+    for (const std::string& method : methods) add_grid("library/", {problem, method, 1024});
   }
 }
 
-void run(const std::filesystem::path& csv) {
-  register_solves();
-  SolveReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  if (!reporter.solves().empty()) {
-    fmt::print("{}", solve_summary(reporter.solves()));
-    write_tables(csv, {{"", solve_rows(reporter.solves())},
-                       {"_ratios", solve_ratios(reporter.solves())},
-                       {"_exponents", solve_exponents(reporter.solves())}});
-  }
-  benchmark::Shutdown();
+std::vector<std::pair<std::string, Table>> tables_of(const Benchmarks& benchmarks) {
+  const Table solves = solve_table(benchmarks);
+  return {{"", solves}, {"_ratios", solve_ratios(solves)}, {"_exponents", solve_exponents(solves)}};
 }
 
 }  // namespace
@@ -85,10 +213,12 @@ void run(const std::filesystem::path& csv) {
 
 int main(int argc, char** argv) {
   using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace): the program's own
-  return start({argv, static_cast<std::size_t>(argc)},
-               {.name = "solves",
-                .description = "Times of whole solves by interior_point and by Ipopt.",
-                .csv = "write FILE, a row per benchmark, FILE_ratios and FILE_exponents",
-                .default_filter = default_filter},
-               run);
+  // Without flags it takes seconds: long grids and the library are left out.
+  const BenchmarkProgram program{.name = "solves",
+                                 .description = "Times of whole solves by interior_point and by Ipopt.",
+                                 .csv = "write FILE, a row per benchmark, FILE_ratios and FILE_exponents",
+                                 .default_filter = "^[^/]*/[^/]*/(64|1024)/",
+                                 .register_benchmarks = register_solves,
+                                 .tables = tables_of};
+  return program.run({argv, static_cast<std::size_t>(argc)});
 }

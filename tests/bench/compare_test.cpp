@@ -124,13 +124,13 @@ class CompareFiles : public tests::InTemporaryFolder {
 
 TEST_F(CompareFiles, GiveEveryRepetition) {
   const auto path = run(repetition(1.5) + "," + repetition(2.5));
-  EXPECT_EQ(read_samples(path, "cpu_time"), (BenchmarkSamples{{"f", {1.5, 2.5}}}));
-  EXPECT_EQ(read_samples(path, "real_time"), (BenchmarkSamples{{"f", {3.0, 5.0}}}));
-  EXPECT_EQ(read_samples(path, "items_per_second"), (BenchmarkSamples{{"f", {3.5, 3.5}}}));
+  EXPECT_EQ(read_samples({path}, "cpu_time"), (BenchmarkSamples{{"f", {1.5, 2.5}}}));
+  EXPECT_EQ(read_samples({path}, "real_time"), (BenchmarkSamples{{"f", {3.0, 5.0}}}));
+  EXPECT_EQ(read_samples({path}, "items_per_second"), (BenchmarkSamples{{"f", {3.5, 3.5}}}));
 }
 
 TEST_F(CompareFiles, GiveTimesInOneUnit) {
-  EXPECT_EQ(read_samples(run(repetition(1.5, "ms") + "," + repetition(2.5, "us")), "cpu_time"),
+  EXPECT_EQ(read_samples({run(repetition(1.5, "ms") + "," + repetition(2.5, "us"))}, "cpu_time"),
             (BenchmarkSamples{{"f", {1.5e6, 2.5e3}}}));
 }
 
@@ -138,8 +138,19 @@ TEST_F(CompareFiles, GiveNoAggregatesAndNoFailures) {
   const std::string aggregate =
       R"({"name": "f_median", "run_name": "f", "run_type": "aggregate", "cpu_time": 9, "time_unit": "ns"})";
   const std::string failure = repetition(9.0, "ns", R"(, "error_occurred": true)");
-  EXPECT_EQ(read_samples(run(repetition(1.5) + "," + aggregate + "," + failure), "cpu_time"),
+  EXPECT_EQ(read_samples({run(repetition(1.5) + "," + aggregate + "," + failure)}, "cpu_time"),
             (BenchmarkSamples{{"f", {1.5}}}));
+}
+
+TEST_F(CompareFiles, TellWhatWasMeasuredInLabels) {
+  const Benchmarks benchmarks = parse_benchmarks(
+      "{\"benchmarks\": [" + repetition(1.5, "us", R"(, "label": "way=tape warm N=64")") + "]}", "run");
+  const Benchmark& benchmark = benchmarks.at("f");
+  EXPECT_EQ(benchmark.label("way"), "tape");
+  EXPECT_EQ(benchmark.label("N"), "64");
+  EXPECT_EQ(benchmark.label("warm"), "");
+  EXPECT_EQ(benchmark.median_of("cpu_time"), 1500.0);
+  EXPECT_FALSE(benchmark.smallest_of("colour").has_value());
 }
 
 TEST_F(CompareFiles, CountAsOneRepetitionEachWhereThereAreSeveral) {
@@ -147,13 +158,13 @@ TEST_F(CompareFiles, CountAsOneRepetitionEachWhereThereAreSeveral) {
   const auto second = run(repetition(5.0) + "," + repetition(4.0), "second.json");
   const std::vector both{first, second};
   EXPECT_EQ(read_samples(both, "cpu_time"), (BenchmarkSamples{{"f", {2.0, 4.5}}}));
-  EXPECT_EQ(read_samples(std::vector{first}, "cpu_time"), (BenchmarkSamples{{"f", {1.0, 9.0, 2.0}}}));
+  EXPECT_EQ(read_samples({first}, "cpu_time"), (BenchmarkSamples{{"f", {1.0, 9.0, 2.0}}}));
 }
 
 TEST_F(CompareFiles, ShowNoDifferenceToThemselves) {
   std::string entries;
   for (const double time : some_times) entries += (entries.empty() ? "" : ",") + repetition(time);
-  const BenchmarkSamples samples = read_samples(run(entries), "cpu_time");
+  const BenchmarkSamples samples = read_samples({run(entries)}, "cpu_time");
   const auto comparisons = compare(samples, samples, {.threshold = 1.0, .significance = 0.99});
   ASSERT_EQ(comparisons.size(), 1U);
   EXPECT_EQ(comparisons[0].verdict, SpeedVerdict::same);
@@ -166,36 +177,36 @@ TEST_F(CompareFiles, AreRefusedByNameWhereTheyAreNone) {
        {"", "benchmarks", "{", "{}", "[]", "3", R"({"benchmarks": 3})", R"({"benchmarks": [3]})",
         R"({"benchmarks": [{"name": "f", "cpu_time": "fast"}]})", R"({"benchmarks": [{"cpu_time": 3}]})"}) {
     const auto path = file(content);
-    expect_error_naming({path.string()}, [&] { (void)read_samples(path, "cpu_time"); });
+    expect_error_naming({path.string()}, [&] { (void)read_samples({path}, "cpu_time"); });
   }
 }
 
 TEST_F(CompareFiles, AreRefusedWhereThereIsNone) {
-  expect_error_naming({"none.json"}, [] { (void)read_samples("none.json", "cpu_time"); });
-  expect_error_naming({"no file"}, [] { (void)read_samples(std::vector<std::filesystem::path>{}, "cpu_time"); });
+  expect_error_naming({"none.json"}, [] { (void)read_samples({"none.json"}, "cpu_time"); });
+  expect_error_naming({"no file"}, [] { (void)read_samples({}, "cpu_time"); });
 }
 
 TEST_F(CompareFiles, AreRefusedWithoutRepetitions) {
   const auto path = run(R"({"name": "f_median", "run_name": "f", "run_type": "aggregate", "cpu_time": 9})");
-  expect_error_naming({path.string(), "repetition"}, [&] { (void)read_samples(path, "cpu_time"); });
+  expect_error_naming({path.string(), "repetition"}, [&] { (void)read_samples({path}, "cpu_time"); });
 }
 
 TEST_F(CompareFiles, NameTheCountersThatThereAre) {
   const auto path = run(repetition(1.5));
   expect_error_naming({"colour", "cpu_time", "items_per_second", "real_time"},
-                      [&] { (void)read_samples(path, "colour"); });
+                      [&] { (void)read_samples({path}, "colour"); });
 }
 
 TEST_F(CompareFiles, MayHoldTheNumbersThatJsonDoesNotKnow) {
   const std::string odd = R"(, "label": "-NaN \" NaN", "colour": NaN, "size": -Infinity)";
-  EXPECT_EQ(read_samples(run(repetition(1.5, "ns", odd)), "cpu_time"), (BenchmarkSamples{{"f", {1.5}}}));
+  EXPECT_EQ(read_samples({run(repetition(1.5, "ns", odd))}, "cpu_time"), (BenchmarkSamples{{"f", {1.5}}}));
   const auto path = run(repetition(1.5, "ns", odd));
-  expect_error_naming({"colour", "nan", "ratio"}, [&] { (void)read_samples(path, "colour"); });
+  expect_error_naming({"colour", "nan", "ratio"}, [&] { (void)read_samples({path}, "colour"); });
 }
 
 TEST_F(CompareFiles, AreRefusedWhereThereIsNoRatio) {
   const auto path = run(repetition(0.0));
-  expect_error_naming({"cpu_time", "ratio"}, [&] { (void)read_samples(path, "cpu_time"); });
+  expect_error_naming({"cpu_time", "ratio"}, [&] { (void)read_samples({path}, "cpu_time"); });
 }
 
 }  // namespace

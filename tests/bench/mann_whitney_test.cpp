@@ -1,5 +1,3 @@
-#include "bench/compare/mann_whitney.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/compare/comparison.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {

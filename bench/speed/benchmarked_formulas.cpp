@@ -1,8 +1,7 @@
-#include "bench/speed/subject.hpp"
+#include "bench/speed/benchmarked_formulas.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <random>
+#include <utility>
 
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/element.hpp"
@@ -29,7 +28,7 @@ class Numbers {
 
 Grid uneven_grid() {
   Numbers numbers;
-  Eigen::VectorXd nodes(static_cast<Eigen::Index>(Subject::intervals + 1));
+  Eigen::VectorXd nodes(static_cast<Eigen::Index>(BenchmarkedFormulas::intervals + 1));
   nodes[0] = 0.0;
   for (Eigen::Index k = 1; k < nodes.size(); ++k) nodes[k] = nodes[k - 1] + numbers.next();
   const double length = nodes[nodes.size() - 1];
@@ -42,8 +41,8 @@ std::unique_ptr<Problem> problem_of(const Formulas& formulas) {
   return problem;
 }
 
-/// The outputs of a schedule as formulas of this thread's graph, where equal ones are shared.
-std::vector<Expression> formulas(const Schedule& schedule) {
+/// The outputs of a schedule in this thread's graph, where equal ones are shared.
+std::vector<Expression> expressions_of(const Schedule& schedule) {
   std::vector<Expression> inputs;
   for (std::size_t i = 0; i < schedule.input_count(); ++i) inputs.push_back(Expression::input(i));
   return replay<Expression>(schedule, inputs);
@@ -51,11 +50,10 @@ std::vector<Expression> formulas(const Schedule& schedule) {
 
 }  // namespace
 
-std::string Formulas::label() const { return links == 0 ? problem : problem + "_" + std::to_string(links); }
-
-Subject::Subject(const Formulas& formulas)
-    : problem_(formulas.label()),
-      program_(*problem_of(formulas), *make_element(formulas.method), gauss_tableau(formulas.stages), uneven_grid()) {
+BenchmarkedFormulas::BenchmarkedFormulas(Formulas formulas)
+    : formulas_(std::move(formulas)),
+      program_(*problem_of(formulas_), *make_element(formulas_.method), gauss_tableau(formulas_.stages),
+               uneven_grid()) {
   Numbers numbers;
   x_ = numbers.vector(program_.variable_count());
   multipliers_ = numbers.vector(program_.constraint_count());
@@ -66,32 +64,20 @@ Subject::Subject(const Formulas& formulas)
   }
 }
 
-std::size_t arrays_read(const Schedule& schedule, std::span<const Tape::Input> columns) {
-  std::vector<const double*> begins;
-  for (const Schedule::Step& step : schedule.steps()) {
-    if (step.operation != Operation::input || columns[step.input_index].same_for_all) continue;
-    begins.push_back(columns[step.input_index].data);
-  }
-  std::sort(begins.begin(), begins.end(), std::less<>());
-  // Left and right ends stand in one array, an entry apart.
-  const auto is_neighbour = [](const double* left, const double* right) { return right - left <= 1; };
-  return static_cast<std::size_t>(std::unique(begins.begin(), begins.end(), is_neighbour) - begins.begin());
-}
-
 Schedule lagrangian_of(const IntervalFunctions& functions) {
   const LocalInputs& inputs = functions.inputs;
-  const std::vector<Expression> rows = formulas(functions.rows.schedule);
-  Expression sum = Expression::input(inputs.objective_factor()) * formulas(functions.cost).front();
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    sum += Expression::input(inputs.multiplier(functions.rows.places[r])) * rows[r];
+  const std::vector<Expression> constraints = expressions_of(functions.rows.schedule);
+  Expression sum = Expression::input(inputs.objective_factor()) * expressions_of(functions.cost).front();
+  for (std::size_t r = 0; r < constraints.size(); ++r) {
+    sum += Expression::input(inputs.multiplier(functions.rows.places[r])) * constraints[r];
   }
   return Schedule(std::vector<Expression>{sum});
 }
 
-Schedule fused(const IntervalFunctions& functions) {
+Schedule fused(const BenchmarkedFormulas& formulas) {
   std::vector<Expression> all;
-  for (const Schedule* part : {&functions.rows.schedule, &functions.jacobian.schedule, &functions.hessian.schedule}) {
-    const std::vector<Expression> outputs = formulas(*part);
+  for (const Schedule* part : formulas.schedules()) {
+    const std::vector<Expression> outputs = expressions_of(*part);
     all.insert(all.end(), outputs.begin(), outputs.end());
   }
   return Schedule(all);

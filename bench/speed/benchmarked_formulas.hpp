@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,25 +21,25 @@ struct Formulas {
   int links = 0;                ///< of the problem `link_chain`; 0 for all others
   std::string method = "dmoc";  ///< a family of elements
   int stages = 1;               ///< of the Gauss tableau
-
-  /// The problem and, where there are any, its links: "link_chain_3".
-  [[nodiscard]] std::string label() const;
 };
 
 /// What is timed: a problem by a method on a grid of uneven steps, at a random point.
 ///
-/// The time of an evaluation depends on the formulas, not on the numbers; random ones keep any step of the check before
-/// the timing from being trivially right.
-class Subject {
+/// The time of an evaluation depends on the formulas, not on the numbers; with random ones no comparison of values
+/// (`require_agreement`) is trivially right.
+class BenchmarkedFormulas {
  public:
   static constexpr std::size_t intervals = 1024;
 
-  explicit Subject(const Formulas& formulas);
+  explicit BenchmarkedFormulas(Formulas formulas);
 
-  /// `Formulas::label`.
-  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
+  [[nodiscard]] const Formulas& formulas() const noexcept { return formulas_; }
   [[nodiscard]] Transcription& program() noexcept { return program_; }
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return program_.functions(); }
+  /// Of `quantities`: residual, Jacobian, Hessian of the Lagrangian.
+  [[nodiscard]] std::array<const Schedule*, 3> schedules() const noexcept {
+    return {&functions().rows.schedule, &functions().jacobian.schedule, &functions().hessian.schedule};
+  }
 
   // The point, as the program takes it.
   [[nodiscard]] const Eigen::VectorXd& x() const noexcept { return x_; }
@@ -52,7 +54,7 @@ class Subject {
   }
 
  private:
-  std::string problem_;
+  Formulas formulas_;
   Transcription program_;
   Eigen::VectorXd x_;
   Eigen::VectorXd multipliers_;
@@ -60,14 +62,17 @@ class Subject {
   std::vector<double> by_interval_;
 };
 
-/// Columns of doubles that a schedule reads. What neighbouring intervals share (the right end of one is the left end of
-/// the next) stands in one array and counts once; what is the same for all intervals does not count.
-[[nodiscard]] std::size_t arrays_read(const Schedule& schedule, std::span<const Tape::Input> columns);
+/// Those of the paper's problems, DMOC with the midpoint rule; they must outlive the run.
+using FormulasOfPaper = std::vector<std::unique_ptr<BenchmarkedFormulas>>;
 
-/// An interval's share of the Lagrangian, ℓ = factor · cost + multipliers · rows, with common subexpressions shared.
+/// The names of `BenchmarkedFormulas::schedules`.
+inline constexpr std::array quantities{"residual", "jacobian", "hessian"};
+
+/// An interval's share of the Lagrangian, ℓ = factor · cost + multipliers · constraints, with common subexpressions
+/// shared.
 [[nodiscard]] Schedule lagrangian_of(const IntervalFunctions& functions);
 
-/// Rows, Jacobian and Hessian by one schedule: what the three have in common is computed once.
-[[nodiscard]] Schedule fused(const IntervalFunctions& functions);
+/// Residual, Jacobian and Hessian by one schedule: what the three have in common is computed once.
+[[nodiscard]] Schedule fused(const BenchmarkedFormulas& formulas);
 
 }  // namespace dmocbench::speed

@@ -1,0 +1,134 @@
+#include "bench/speed/benchmark_program.hpp"
+
+#include <exception>
+#include <filesystem>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench::speed {
+
+namespace {
+
+/// Prints a line per benchmark, the median of its repetitions, and keeps all of them as JSON.
+class Reporter final : public benchmark::ConsoleReporter {
+ public:
+  Reporter() : ConsoleReporter(OO_None) { json_.SetOutputStream(&text_); }
+
+  // NOLINTBEGIN(readability-identifier-naming): the names of the base class
+  bool ReportContext(const Context& context) override {
+    return json_.ReportContext(context) && ConsoleReporter::ReportContext(context);
+  }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    json_.ReportRuns(runs);
+    std::vector<Run> shown;
+    for (const Run& run : runs) {
+      if (run.repetitions > 1 && run.aggregate_name != "median" && !run.error_occurred) continue;
+      Run& line = shown.emplace_back(run);
+      line.report_label.clear();  // the name says the same
+      // The console takes every inverse rate for seconds; a counter that says its unit is printed as a plain number.
+      for (auto& [name, counter] : line.counters) {
+        if ((counter.flags & benchmark::Counter::kInvert) != 0) counter.flags = benchmark::Counter::kDefaults;
+      }
+    }
+    if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
+    GetOutputStream().flush();  // hours may pass until the next
+  }
+  void Finalize() override {
+    json_.Finalize();
+    ConsoleReporter::Finalize();
+  }
+  // NOLINTEND(readability-identifier-naming)
+
+  /// Empty if no benchmark ran.
+  [[nodiscard]] Benchmarks benchmarks() const {
+    return text_.str().empty() ? Benchmarks{} : parse_benchmarks(text_.str(), "the result of this run");
+  }
+
+ private:
+  std::ostringstream text_;
+  benchmark::JSONReporter json_;
+};
+
+/// False if there is a flag that nobody knows; the library has then said so.
+bool initialize(const BenchmarkProgram& program, const char* file, const std::vector<std::string>& flags) {
+  static std::vector<std::string> arguments;  // the library keeps a pointer to the program's name
+  arguments = {file, "--benchmark_repetitions=5", "--benchmark_min_time=0.05",
+               "--benchmark_enable_random_interleaving=true", "--benchmark_filter=" + program.default_filter};
+  arguments.insert(arguments.end(), flags.begin(), flags.end());
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  benchmark::Initialize(&count, pointers.data());
+  return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
+}
+
+/// Finds out before anything is timed whether the tables can be written. Throws `Error` if not.
+void prepare(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
+  if (std::filesystem::is_directory(file)) {
+    throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", file.string()));
+  }
+}
+
+void run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv) {
+  const nlohmann::ordered_json description = describe_run({});
+  for (const char* key : {"commit", "compiler", "flags", "instruction_set", "processor"}) {
+    benchmark::AddCustomContext(key, description.at(key).get<std::string>());
+  }
+  program.register_benchmarks();
+  Reporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  const Benchmarks benchmarks = reporter.benchmarks();
+  if (csv.empty() || benchmarks.empty()) return;
+  for (const auto& [suffix, table] : program.tables(benchmarks)) {
+    std::filesystem::path file = csv;
+    file.replace_filename(csv.stem().string() + suffix + csv.extension().string());
+    write_file(file, table.csv());
+  }
+}
+
+}  // namespace
+
+int BenchmarkProgram::run(std::span<char* const> arguments) const try {
+  CLI::App app(description + " All flags of Google Benchmark hold as well:", name);
+  std::filesystem::path file;
+  app.add_option("--csv", file, csv)->option_text("FILE");
+  app.allow_extras();
+  std::vector<std::string> flags;
+  try {
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
+    flags = app.remaining();
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}\n", app.help());
+    flags = {"--help"};  // the library adds its own and ends the program
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "{}: {}; --help lists the flags\n", name, error.what());
+    return 2;
+  }
+  if (!initialize(*this, arguments.front(), flags)) return 2;
+  try {
+    prepare(file);
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}: {}\n", name, error.what());
+    return 2;
+  }
+  run_and_write(*this, file);
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "{}: {}\n", name, error.what());
+  return 1;
+}
+
+}  // namespace dmocbench::speed

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/compare/benchmark_file.hpp"
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench::speed {
+
+/// A program of Google Benchmark that can write its results as tables.
+struct BenchmarkProgram {
+  std::string name;
+  std::string description;     ///< a sentence
+  std::string csv;             ///< what `--csv` writes, for `--help`
+  std::string default_filter;  ///< of the benchmarks that run without flags; a "-" in front excludes
+  std::function<void()> register_benchmarks;
+  /// The tables of a run by the suffixes of their files: "_machine" goes to FILE_machine.csv.
+  std::function<std::vector<std::pair<std::string, Table>>(const Benchmarks&)> tables;
+
+  /// Reads the command line, `--csv FILE` and the flags of Google Benchmark, runs the benchmarks and writes the tables,
+  /// each whole or not at all. Returns the exit code; every error is one line on standard error.
+  ///
+  /// The flags are those of this suite (five repetitions, in random order so that a disturbance of a shared machine is
+  /// spread over all benchmarks), then the user's, which win.
+  [[nodiscard]] int run(std::span<char* const> arguments) const;
+};
+
+}  // namespace dmocbench::speed

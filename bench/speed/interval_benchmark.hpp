@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/speed/benchmarked_formulas.hpp"
+#include "methods/expression/tape.hpp"
+
+namespace dmocbench::speed {
+
+// The ways to evaluate the formulas of all intervals; names are those of `IntervalBenchmark`.
+
+/// tape/...: bare tapes, one by one ("residual", "jacobian", "hessian"), one after the other ("separate") and the three
+/// made one tape ("fused"), on every instruction set there is. replay/...: the same schedules on one double after the
+/// other.
+void register_expression_benchmarks(const FormulasOfPaper& paper);
+
+/// adolc/...: the Hessian by ADOL-C, one interval at a time ("hessian") or a block of them by one tape of ADOL-C
+/// ("hessian_block"). Missing where ADOL-C is.
+void register_adolc_benchmarks(const FormulasOfPaper& paper);
+
+/// hand/...: formulas written by hand, see kernels.hpp, on every instruction set there is. Throws `Error` for a problem
+/// whose formulas nobody wrote.
+void register_hand_benchmarks(const FormulasOfPaper& paper);
+
+/// program/...: the assembled program's evaluations, one by one and one after the other ("separate"), for every method,
+/// Gauss with 1 to 3 stages, the paper's problems and chains of 2 to 8 links. A program is made when the first
+/// benchmark wants it.
+void register_program_benchmarks();
+
+/// machine/arithmetic/SET: operations per second of fused multiplications and additions on registers (separate ones
+/// where the set has no fused ones); machine/triad_LEVEL/SET: bytes per second of a_i = b_i + s c_i with arrays in that
+/// level of memory.
+void register_machine_benchmarks();
+
+/// What a benchmark measures. Its name is WAY/QUANTITY/PROBLEM[_LINKS][/METHOD/gauss_STAGES][/INSTRUCTION_SET].
+struct IntervalBenchmark {
+  std::string way;            ///< "tape", "program", "hand", ...
+  std::string quantity = {};  ///< "residual", "jacobian", "hessian", "separate", ...
+  Formulas formulas;
+  bool names_method = false;         ///< where there are other methods and stages than the midpoint rule of DMOC
+  std::string instruction_set = {};  ///< empty: none of its own
+};
+
+/// What an evaluation takes and gives, per interval.
+struct Work {
+  std::size_t operations = 0;  ///< of the formulas
+  double bytes = 0.0;          ///< of arrays read and written, each once; 0: not counted
+};
+
+/// The work of a schedule that writes that many numbers per interval; by default a column per output.
+[[nodiscard]] Work work_of(const Schedule& schedule, const BenchmarkedFormulas& point,
+                           std::optional<double> numbers_written = {});
+
+/// What is timed: `evaluate` treats all intervals once.
+struct Evaluation {
+  std::function<void()> evaluate;
+  Work work = {};
+};
+
+/// One after the other.
+[[nodiscard]] Evaluation one_by_one(const std::vector<Evaluation>& evaluations);
+
+/// Hands a benchmark to Google Benchmark; `make` is called at the begin of every repetition.
+void register_benchmark(const IntervalBenchmark& what, std::function<Evaluation()> make);
+void register_benchmark(const IntervalBenchmark& what, const Evaluation& evaluation);
+
+/// Memory that begins with a cache line, eight numbers each.
+struct alignas(64) CacheLine {
+  std::array<double, 8> numbers{};
+};
+
+/// Memory for columns of one number per interval.
+///
+/// Columns begin with a cache line, but not a power of two apart: else they would compete for the same few lines of the
+/// first-level cache. (In a program they stand as the pattern has it.)
+class IntervalColumns {
+ public:
+  explicit IntervalColumns(std::size_t count) : lines_(count * stride) {
+    for (std::size_t j = 0; j < count; ++j) columns_.push_back(lines_[j * stride].numbers.data());
+  }
+
+  [[nodiscard]] std::span<double* const> columns() const noexcept { return columns_; }
+  /// The numbers of one interval.
+  [[nodiscard]] std::vector<double> row(std::size_t interval) const {
+    std::vector<double> numbers;
+    for (const double* column : columns_) numbers.push_back(column[interval]);
+    return numbers;
+  }
+
+ private:
+  static constexpr std::size_t stride =
+      (BenchmarkedFormulas::intervals + Tape::block_width) / CacheLine{}.numbers.size();
+  std::vector<CacheLine> lines_;
+  std::vector<double*> columns_;
+};
+
+/// A tape with memory for its outputs: one column per output, nothing assembled.
+class TapeRun {
+ public:
+  TapeRun(const Schedule& schedule, InstructionSet set)
+      : tape_(schedule, set), workspace_(tape_), outputs_(tape_.output_count()) {}
+
+  void evaluate(std::span<const Tape::Input> inputs) {
+    tape_.evaluate(BenchmarkedFormulas::intervals, inputs, outputs_.columns(), workspace_);
+  }
+  [[nodiscard]] std::vector<double> row(std::size_t interval) const { return outputs_.row(interval); }
+
+ private:
+  Tape tape_;
+  Tape::Workspace workspace_;
+  IntervalColumns outputs_;
+};
+
+/// The outputs of a schedule on one interval, in its order.
+using ValuesOfInterval = std::function<std::vector<double>(std::size_t interval)>;
+
+/// Throws `Error` unless the values of every interval are the tape's to `tolerance` times the interval's largest: what
+/// is wrong is not timed.
+void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
+                       const ValuesOfInterval& values, double tolerance = 1e-10);
+
+}  // namespace dmocbench::speed

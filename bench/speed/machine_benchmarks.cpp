@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bench/speed/interval_benchmark.hpp"
+#include "bench/speed/interval_tables.hpp"
+#include "bench/speed/kernels.hpp"
+
+namespace dmocbench::speed {
+
+namespace {
+
+/// A level of memory, from the fastest to the slowest, with the capacity that the system tells.
+struct MemoryLevel {
+  std::string name;            ///< "l1", "l2", "l3" or "memory"
+  std::size_t capacity = 0;    ///< bytes; no limit for the last
+  std::size_t triad_size = 0;  ///< bytes of the three arrays by which its rate is measured
+};
+
+/// What the system tells, or a common size where it does not.
+std::size_t size_or(int name, std::size_t common) {
+  const long told = ::sysconf(name);
+  return told > 0 ? static_cast<std::size_t>(told) : common;
+}
+
+void measure_arithmetic(benchmark::State& state, const Kernels& kernels) {
+  constexpr std::size_t turns = 10000;
+  for ([[maybe_unused]] auto turn : state) benchmark::DoNotOptimize(kernels.arithmetic(turns));
+  const auto operations = static_cast<double>(turns * kernels.operations_of_a_turn);
+  state.counters[operations_per_second] = benchmark::Counter(operations, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// `memory` is that of all triads and grows as needed: the largest takes an eighth of what the machine has.
+void measure_triad(benchmark::State& state, TriadLoop triad, std::size_t bytes, std::vector<CacheLine>& memory) {
+  const std::size_t lines = bytes / (3 * sizeof(CacheLine));
+  if (memory.size() < 3 * lines) {
+    memory = {};
+    memory.resize(3 * lines, CacheLine{});
+  }
+  const std::size_t size = lines * CacheLine{}.numbers.size();
+  double* a = memory.front().numbers.data();
+  const double* b = memory[lines].numbers.data();
+  const double* c = memory[2 * lines].numbers.data();
+  for ([[maybe_unused]] auto turn : state) {
+    triad(size, a, b, c, 0.5);
+    benchmark::ClobberMemory();
+  }
+  const auto moved = static_cast<double>(3 * sizeof(double) * size);
+  state.counters[bytes_per_second] = benchmark::Counter(moved, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+std::vector<MemoryLevel> memory_levels() {
+  constexpr std::size_t kibibyte = 1024;
+  const std::size_t l1 = size_or(_SC_LEVEL1_DCACHE_SIZE, 32 * kibibyte);
+  const std::size_t l2 = size_or(_SC_LEVEL2_CACHE_SIZE, 1024 * kibibyte);
+  const std::size_t l3 = std::max(size_or(_SC_LEVEL3_CACHE_SIZE, 16 * l2), 2 * l2);
+  const std::size_t all = size_or(_SC_PHYS_PAGES, l3) * size_or(_SC_PAGESIZE, 4 * kibibyte);
+  return {
+      {"l1", l1, l1 / 2},
+      {"l2", l2, l2 / 2},
+      // A cache that many processors share is not all ours.
+      {"l3", l3, std::min(8 * l2, l3 / 2)},
+      {"memory", std::numeric_limits<std::size_t>::max(), std::min(2 * l3, all / 8)},
+  };
+}
+
+}  // namespace
+
+void register_machine_benchmarks() {
+  const auto memory = std::make_shared<std::vector<CacheLine>>();
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Kernels kernels = kernels_of(set);
+    const std::string label = fmt::format("instruction_set={} limit=", name_of(set));
+    benchmark::RegisterBenchmark(fmt::format("machine/arithmetic/{}", name_of(set)).c_str(),
+                                 [kernels, label](benchmark::State& state) {
+                                   measure_arithmetic(state, kernels);
+                                   state.SetLabel(label + "arithmetic");
+                                 });
+    std::size_t smaller = 0;  // the capacity of the level before
+    for (const MemoryLevel& level : memory_levels()) {
+      // Keys are columns of `machine_table`, and what says which arrays a level holds.
+      const std::string of_level = fmt::format("{}{} array_bytes={} more_than_bytes={} up_to_bytes={}", label,
+                                               level.name, level.triad_size, smaller, level.capacity);
+      smaller = level.capacity;
+      benchmark::RegisterBenchmark(fmt::format("machine/triad_{}/{}", level.name, name_of(set)).c_str(),
+                                   [kernels, size = level.triad_size, of_level, memory](benchmark::State& state) {
+                                     measure_triad(state, kernels.triad, size, *memory);
+                                     state.SetLabel(of_level);
+                                   });
+    }
+  }
+}
+
+}  // namespace dmocbench::speed

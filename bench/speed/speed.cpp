@@ -1,0 +1,42 @@
+// Times of exact derivatives per interval: the tape, the assembled program, formulas written by hand, a replay number
+// by number, ADOL-C; and what the machine can do at most.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/interval_benchmark.hpp"
+#include "bench/speed/interval_tables.hpp"
+#include "problems/registry.hpp"
+
+int main(int argc, char** argv) {
+  using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
+  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
+  FormulasOfPaper paper;
+  const BenchmarkProgram program{
+      .name = "speed",
+      .description = "Times of exact derivatives per interval.",
+      .csv = "write FILE, a row per benchmark, and FILE_machine, what the machine can do",
+      // Without flags it takes a minute: several stages and the chains of links are left out.
+      .default_filter = "-gauss_[2-9]|link_chain",
+      .register_benchmarks =
+          [&paper] {
+            for (const std::string& problem : paper_problem_names()) {
+              paper.push_back(std::make_unique<BenchmarkedFormulas>(Formulas{.problem = problem}));
+            }
+            register_expression_benchmarks(paper);
+            register_program_benchmarks();
+            register_hand_benchmarks(paper);
+#ifdef DMOCBENCH_SPEED_ADOLC
+            register_adolc_benchmarks(paper);
+#endif
+            register_machine_benchmarks();
+          },
+      .tables =
+          [](const Benchmarks& benchmarks) {
+            return std::vector<std::pair<std::string, Table>>{{"", interval_table(benchmarks)},
+                                                              {"_machine", machine_table(benchmarks)}};
+          }};
+  return program.run({argv, static_cast<std::size_t>(argc)});
+}
