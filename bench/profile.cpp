@@ -57,7 +57,7 @@ class Profile final : public Experiment {
     Row& row = solved.row;
     row.set("success", "no");
     row.set("evaluations", solved.solution.evaluations);
-    const auto reference = solved.what.problem->reference_optimum();
+    const auto reference = solved.what.problem->card().reference;
     if (!reference) return;
     row.set("reference_objective", reference->objective);
     row.set("reference_digits", static_cast<long long>(reference->digits));

@@ -24,7 +24,7 @@ void check_independently(SolvedCase& solved) {
     solved.row.set("message", solved.row.text("message") + " " + error.what());
   }
   solved.row.set("violation_between_nodes", violation_between_nodes(problem, trajectory));
-  if (problem.horizon_bounds().is_free() && trajectory.has_costates()) {
+  if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
     solved.row.set("free_horizon_residual", free_horizon_residual(problem, trajectory));
   }
 }

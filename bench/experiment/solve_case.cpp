@@ -133,7 +133,7 @@ SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions&
   if (!missed.empty()) solution.message += " " + missed;
   describe(result);
   Row& row = result.row;
-  row.set("step", transcription.steps(result.start).maxCoeff() * what.problem->time_unit().factor);
+  row.set("step", transcription.steps(result.start).maxCoeff() * what.problem->card().time_unit.factor);
   row.set("variables", static_cast<long long>(transcription.variable_count()));
   row.set("free_variables", static_cast<long long>(free_variable_count(transcription)));
   row.set("constraints", static_cast<long long>(transcription.constraint_count()));

@@ -14,10 +14,16 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
   static constexpr double largest_torque = 16.0;
 
   [[nodiscard]] std::string name() const override { return "two_link_manipulator_bounded"; }
-  [[nodiscard]] Bounds control_bounds() const override {
-    return {Eigen::Vector2d::Constant(-largest_torque), Eigen::Vector2d::Constant(largest_torque)};
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = TwoLinkManipulator::bounds();
+    bounds.u = Bounds::all(2, -largest_torque, largest_torque);
+    return bounds;
   }
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override { return std::nullopt; }
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = TwoLinkManipulator::card();
+    card.reference.reset();
+    return card;
+  }
 };
 
 }  // namespace dmocbench::speed
