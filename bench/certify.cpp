@@ -174,10 +174,10 @@ class Certify final : public Experiment {
   }
 
   static void judge(const Problem& problem, const std::vector<double>& objectives, Row& row) {
-    const RouteAgreement agreement = agreement_of_routes(objectives, problem.reference_optimum());
+    const RouteAgreement agreement = agreement_of_routes(objectives, problem.card().reference);
     if (agreement.routes > 1) row.set("agreeing_digits", agreement.digits);
     row.set("confirmed", agreement.confirmed);
-    const auto reference = problem.reference_optimum();
+    const auto reference = problem.card().reference;
     if (!reference) return;
     row.set("reference", reference->objective);
     row.set("reference_digits", reference->digits);

@@ -73,8 +73,8 @@ std::string end_in_words(const Problem& problem, const BoundaryState& state, con
 }
 
 std::string horizon_in_words(const Problem& problem) {
-  const Unit time = problem.time_unit();
-  const HorizonBounds bounds = problem.horizon_bounds();
+  const Unit time = problem.card().time_unit;
+  const HorizonBounds bounds = problem.bounds().horizon;
   if (!bounds.is_free())
     return fmt::format("T = {:.6g} ({:.6g} {})", bounds.lower, bounds.lower * time.factor, time.name);
   return fmt::format("{:.6g} <= T <= {:.6g}, guessed {:.6g} ({:.6g} {})", bounds.lower, bounds.upper, problem.horizon(),
@@ -82,7 +82,7 @@ std::string horizon_in_words(const Problem& problem) {
 }
 
 void print_reference(const Problem& problem) {
-  const auto reference = problem.reference_optimum();
+  const auto reference = problem.card().reference;
   if (!reference) {
     print_field("optimum", "unknown for these parameters");
     return;
@@ -98,23 +98,23 @@ void print_reference(const Problem& problem) {
 void print_problem(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto q_names = problem.configuration_names();
-  fmt::print("{}\n    {}\n", problem.name(), problem.description());
-  print_field("source", problem.source());
+  fmt::print("{}\n    {}\n", problem.name(), problem.card().description);
+  print_field("source", problem.card().source);
   print_field("q", fmt::format("({})   u  ({})", fmt::join(q_names, ", "), fmt::join(problem.control_names(), ", ")));
-  print_field("start", end_in_words(problem, problem.initial_state(), problem.initial_bounds()));
-  print_field("end", end_in_words(problem, problem.final_state(), problem.final_bounds()));
+  print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
+  print_field("end", end_in_words(problem, problem.final_state(), problem.bounds().last));
   print_field("horizon", horizon_in_words(problem));
   const auto bounds_on = [](const Bounds& bounds, const std::vector<std::string>& names) {
     const std::string words = bounds_in_words(bounds, names);
     return words.empty() ? std::string("none") : words;
   };
-  print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_on(problem.configuration_bounds(), q_names),
-                                    bounds_on(problem.velocity_bounds(), velocity_names(problem)),
-                                    bounds_on(problem.control_bounds(), problem.control_names())));
+  print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_on(problem.bounds().q, q_names),
+                                    bounds_on(problem.bounds().v, velocity_names(problem)),
+                                    bounds_on(problem.bounds().u, problem.control_names())));
   print_field("rows", fmt::format("{} path constraints, {} boundary conditions", traced.path_constraint_count(),
                                   traced.boundary_condition_count()));
   print_reference(problem);
-  print_field("guess", problem.guess_description());
+  print_field("guess", problem.card().guess);
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));
   for (const Parameter& parameter : problem.parameters()) {
     fmt::print("    --set {}={:.6g}{}{}: {}, {}\n", parameter.name, parameter.value, parameter.unit.empty() ? "" : " ",

@@ -60,7 +60,7 @@ class Profile final : public Experiment {
   void complete(SolvedCase& solved) override {
     error_.reset();
     checks_ = {};
-    reference_ = solved.the_case.problem->reference_optimum();
+    reference_ = solved.the_case.problem->card().reference;
     if (!reference_ || !is_solved(solved.solution.status) || !solved.trajectory) return;
     error_ = std::abs(solved.trajectory->cost - reference_->objective);
     largest_error_ = objective_tolerance_ * std::abs(reference_->objective);

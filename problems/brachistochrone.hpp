@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -22,16 +21,18 @@ class Brachistochrone final : public Problem {
  public:
   Brachistochrone()
       : Problem({
-            {.name = "width", .value = 10.0, .unit = "m", .meaning = "x of the end", .lower = 1e-3, .upper = 1e3},
-            {.name = "drop", .value = 5.0, .unit = "m", .meaning = "y lost on the way", .lower = 1e-3, .upper = 1e3},
+            {"width", 10.0, "m", "x of the end", 1e-3, 1e3},
+            {"drop", 5.0, "m", "y lost on the way", 1e-3, 1e3},
             gravity_parameter(1e-3, 9.80665),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "brachistochrone"; }
-  [[nodiscard]] std::string description() const override {
-    return "the fastest descent between two points, controlled by the wire's reaction; free horizon";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "the fastest descent between two points, controlled by the wire's reaction; free horizon",
+            .source = "Johann Bernoulli 1696; data of the Dymos example",
+            .guess = "the slide down a straight wire, u its reaction over the speed at half the time",
+            .reference = reference_optimum()};
   }
-  [[nodiscard]] std::string source() const override { return "Johann Bernoulli 1696; data of the Dymos example"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
 
@@ -39,45 +40,29 @@ class Brachistochrone final : public Problem {
     return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) - parameter("gravity") * x.q[1];
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    ExpressionVector f(2);
-    f << -x.u[0] * x.v[1], x.u[0] * x.v[0];
-    return f;
+    return ExpressionVector{{-x.u[0] * x.v[1], x.u[0] * x.v[0]}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d(0.0, start_height), .v = Eigen::Vector2d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector2d(0.0, start_height));
   }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector2d(parameter("width"), start_height - parameter("drop")), .v = Eigen::Vector2d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector2d(parameter("width"), start_height - parameter("drop")));
   }
-  [[nodiscard]] EndBounds final_bounds() const override {
-    return EndBounds::fixed(final_state()).free_velocity(0).free_velocity(1);
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    constexpr double factor = 10.0;
+    bounds.last.free_velocity(0).free_velocity(1);
+    bounds.horizon = {horizon() / factor, horizon() * factor};
+    return bounds;
   }
   /// Of the guess: the slide down a straight wire.
   [[nodiscard]] double horizon() const override {
     const double w = parameter("width");
     const double d = parameter("drop");
     return std::sqrt(2.0 * (w * w + d * d) / (parameter("gravity") * d));
-  }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override {
-    constexpr double factor = 10.0;
-    return {horizon() / factor, horizon() * factor};
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    const auto [radius, angle] = cycloid();
-    ReferenceOptimum optimum{.objective = angle * std::sqrt(radius / parameter("gravity")),
-                             .digits = 15,
-                             .certificate = "closed form, the cycloid through both points",
-                             .published = {},
-                             .remark =
-                                 "Lobatto tableaus leave the control at t = 0 undetermined and converge badly or not "
-                                 "at all; to certify, take Gauss ones"};
-    if (is_set_to({10.0, 5.0, 9.80665})) optimum.published.push_back({1.8016, "Dymos, example brachistochrone"});
-    if (is_set_to({2.0, 2.0, 9.8})) optimum.published.push_back({0.8247591, "PSOPT, example brac1"});
-    return optimum;
   }
 
   /// The slide down a straight wire, u what its reaction is at half the horizon.
@@ -90,15 +75,10 @@ class Brachistochrone final : public Problem {
             .v = 2.0 * tau / horizon() * way,
             .u = Eigen::VectorXd::Constant(1, normal_gravity / speed_at_half)};
   }
-  [[nodiscard]] std::string guess_description() const override {
-    return "the slide down a straight wire, u its reaction over the speed at half the time";
-  }
 
   /// Horizontal translations; gravity spares this momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 1.0, 0.0;
-    return generator;
+    return ExpressionVector{{1.0, 0.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
@@ -120,11 +100,21 @@ class Brachistochrone final : public Problem {
   }
 
  private:
-  static constexpr double start_height = 10.0;
-
-  [[nodiscard]] bool is_set_to(const std::array<double, 3>& data) const {
-    return parameter("width") == data[0] && parameter("drop") == data[1] && parameter("gravity") == data[2];
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    const auto [radius, angle] = cycloid();
+    ReferenceOptimum optimum{.objective = angle * std::sqrt(radius / parameter("gravity")),
+                             .digits = 15,
+                             .certificate = "closed form, the cycloid through both points",
+                             .remark =
+                                 "Lobatto tableaus leave the control at t = 0 undetermined and converge badly or not "
+                                 "at all; to certify, take Gauss ones"};
+    if (has_default_parameters()) optimum.published.push_back({1.8016, "Dymos, example brachistochrone"});
+    const bool is_psopt = parameter("width") == 2.0 && parameter("drop") == 2.0 && parameter("gravity") == 9.8;
+    if (is_psopt) optimum.published.push_back({0.8247591, "PSOPT, example brac1"});
+    return optimum;
   }
+
+  static constexpr double start_height = 10.0;
 };
 
 }  // namespace dmocbench

@@ -18,47 +18,21 @@ class CartPole final : public Problem {
  public:
   CartPole()
       : Problem({
-            {.name = "cart_mass",
-             .value = 1.0,
-             .unit = "kg",
-             .meaning = "mass m1 of the cart",
-             .lower = 1e-3,
-             .upper = 1e3},
-            {.name = "bob_mass",
-             .value = 0.3,
-             .unit = "kg",
-             .meaning = "mass m2 of the bob",
-             .lower = 1e-3,
-             .upper = 1e3},
-            {.name = "length",
-             .value = 0.5,
-             .unit = "m",
-             .meaning = "length l of the pole",
-             .lower = 1e-3,
-             .upper = 1e3},
+            {"cart_mass", 1.0, "kg", "mass m1 of the cart", 1e-3, 1e3},
+            {"bob_mass", 0.3, "kg", "mass m2 of the bob", 1e-3, 1e3},
+            {"length", 0.5, "m", "length l of the pole", 1e-3, 1e3},
             gravity_parameter(0.0),
-            {.name = "distance",
-             .value = 1.0,
-             .unit = "m",
-             .meaning = "distance d that the cart travels",
-             .lower = -2.0,
-             .upper = 2.0},
+            {"distance", 1.0, "m", "distance d that the cart travels", -2.0, 2.0},
             horizon_parameter(2.0, "swing-up"),
-            {.name = "bounded",
-             .value = 1.0,
-             .unit = "",
-             .meaning = "1: the bounds on force and position hold, 0: there are none",
-             .lower = 0.0,
-             .upper = 1.0,
-             .whole = true},
+            switch_parameter("bounded", true, "1: the bounds on force and position hold, 0: there are none"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "cart_pole"; }
-  [[nodiscard]] std::string description() const override {
-    return "swing-up of a pendulum on a cart in fixed time, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
+            .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
+            .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
+            .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -74,39 +48,57 @@ class CartPole final : public Problem {
     return kinetic + m2 * parameter("gravity") * l * cos(x.q[1]);
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    ExpressionVector f(2);
-    f << x.u[0], 0.0;
-    return f;
+    return ExpressionVector{{x.u[0], 0.0}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d::Zero()};
-  }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector2d(parameter("distance"), std::numbers::pi), .v = Eigen::Vector2d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector2d(parameter("distance"), std::numbers::pi));
   }
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
 
-  [[nodiscard]] Bounds configuration_bounds() const override {
-    if (!is_bounded()) return {};
-    Bounds bounds = Bounds::none(2);
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    if (parameter("bounded") == 0.0) return bounds;
     constexpr double rail = 2.0;  // m to either side
-    bounds.lower[0] = -rail;
-    bounds.upper[0] = rail;
+    bounds.q = Bounds::none(2);
+    bounds.q.lower[0] = -rail;
+    bounds.q.upper[0] = rail;
+    bounds.u = Bounds::all(1, -20.0, 20.0);  // N
     return bounds;
-  }
-  [[nodiscard]] Bounds control_bounds() const override {
-    if (!is_bounded()) return {};
-    const Eigen::VectorXd strongest = Eigen::VectorXd::Constant(1, 20.0);  // N
-    return {.lower = -strongest, .upper = strongest};
   }
 
   /// The optimum is about 58.
   [[nodiscard]] double cost_scale() const override { return 1e-2; }
 
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_published_data()) return std::nullopt;
+  /// x on the straight line; θ swings back first, which is where the cheaper of two minima lies.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    using std::numbers::pi;
+    MotionPoint point = Problem::guess(t);
+    const double phase = pi * t / horizon();
+    point.q[1] -= swing_back * std::sin(phase);
+    point.v[1] -= swing_back * pi / horizon() * std::cos(phase);
+    return point;
+  }
+
+  /// Translations of the cart; the momentum of the whole changes by the work of the control alone.
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
+    return ExpressionVector{{1.0, 0.0}};
+  }
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const double l = parameter("length");
+    return {{"cart_x", "m", x.q[0]},
+            {"bob_x", "m", x.q[0] + l * sin(x.q[1])},
+            {"bob_y", "m", -l * cos(x.q[1])},
+            {"force", "N", x.u[0]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    // The bounds need not hold: they are not active at the optimum.
+    if (!has_default_parameters({"bounded"})) return std::nullopt;
     return ReferenceOptimum{
         .objective = 57.9447803067,
         .digits = 10,
@@ -120,44 +112,7 @@ class CartPole final : public Problem {
             "above that one"};
   }
 
-  /// x on the straight line; θ swings back first, which is where the cheaper of two minima lies.
-  [[nodiscard]] MotionPoint guess(double t) const override {
-    using std::numbers::pi;
-    MotionPoint point = Problem::guess(t);
-    const double phase = pi * t / horizon();
-    point.q[1] -= swing_back * std::sin(phase);
-    point.v[1] -= swing_back * pi / horizon() * std::cos(phase);
-    return point;
-  }
-  [[nodiscard]] std::string guess_description() const override {
-    return "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0";
-  }
-
-  /// Translations of the cart; the momentum of the whole changes by the work of the control alone.
-  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 1.0, 0.0;
-    return generator;
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const double l = parameter("length");
-    return {{"cart_x", "m", x.q[0]},
-            {"bob_x", "m", x.q[0] + l * sin(x.q[1])},
-            {"bob_y", "m", -l * cos(x.q[1])},
-            {"force", "N", x.u[0]}};
-  }
-
- private:
   static constexpr double swing_back = 2.0;  // rad
-
-  /// The bounds need not hold: they are not active at the optimum.
-  [[nodiscard]] bool has_published_data() const {
-    return parameter("cart_mass") == 1.0 && parameter("bob_mass") == 0.3 && parameter("length") == 0.5 &&
-           parameter("gravity") == 9.81 && parameter("distance") == 1.0 && parameter("horizon") == 2.0;
-  }
-
-  [[nodiscard]] bool is_bounded() const { return parameter("bounded") == 1.0; }
 };
 
 }  // namespace dmocbench

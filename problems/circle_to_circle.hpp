@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -16,6 +15,13 @@ namespace dmocbench {
 /// on the target circle, in the time T = d sqrt(4π²/8 (1 + ρ)³) with ρ = r^T/r⁰.
 class CircleToCircle : public Problem {
  public:
+  [[nodiscard]] ProblemCard card() const override {
+    constexpr double seconds_per_hour = 3600.0;
+    return {
+        .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.1",
+        .time_unit = {.name = "h", .factor = time_scale() / seconds_per_hour},
+        .reference = reference_optimum()};
+  }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
@@ -28,63 +34,15 @@ class CircleToCircle : public Problem {
   /// The optimum is about 4e-5.
   [[nodiscard]] double cost_scale() const override { return 1e4; }
 
-  [[nodiscard]] Unit time_unit() const override {
-    constexpr double seconds_per_hour = 3600.0;
-    return {.name = "h", .factor = time_scale() / seconds_per_hour};
-  }
-
  protected:
-  /// The least cost is that of the problem, whatever its coordinates.
-  [[nodiscard]] static ReferenceOptimum known_optimum(double revolutions) {
-    constexpr double after_two = 3.944909084747e-5;
-    constexpr double after_ten = 7.890332317683e-6;
-    return {.objective = revolutions == 2.0 ? after_two : after_ten,
-            .digits = 13,
-            .certificate =
-                "the indirect method with Gauss of orders 16 and 20, in polar and in Cartesian coordinates; the "
-                "replay of its control has the same cost to 13 digits",
-            .published = {},
-            .remark = "the paper shows the cost in a figure only"};
-  }
-  template <class Type>
-  [[nodiscard]] static bool is_known(const Type& transfer) {
-    const double revolutions = transfer.parameter("revolutions");
-    return has_default_parameters(transfer, {"revolutions"}) && (revolutions == 2.0 || revolutions == 10.0);
-  }
-
   CircleToCircle()
       : Problem({
-            {.name = "initial_altitude",
-             .value = 30.0,
-             .unit = "km",
-             .meaning = "altitude of the first orbit",
-             .lower = 0.0,
-             .upper = 1e6},
-            {.name = "target_altitude",
-             .value = 330.0,
-             .unit = "km",
-             .meaning = "altitude of the last orbit",
-             .lower = 0.0,
-             .upper = 1e6},
-            {.name = "revolutions",
-             .value = 2.0,
-             .unit = "",
-             .meaning = "revolutions d during the transfer",
-             .lower = 1.0,
-             .upper = 1000.0,
-             .whole = true},
-            {.name = "earth_radius",
-             .value = 6371.0,
-             .unit = "km",
-             .meaning = "radius of the Earth",
-             .lower = 1.0,
-             .upper = 1e6},
-            {.name = "gravitational_parameter",
-             .value = 398600.0,
-             .unit = "km^3/s^2",
-             .meaning = "gravitational constant times mass of the Earth",
-             .lower = 1.0,
-             .upper = 1e12},
+            {"initial_altitude", 30.0, "km", "altitude of the first orbit", 0.0, 1e6},
+            {"target_altitude", 330.0, "km", "altitude of the last orbit", 0.0, 1e6},
+            {"revolutions", 2.0, "", "revolutions d during the transfer", 1.0, 1000.0, true},
+            {"earth_radius", 6371.0, "km", "radius of the Earth", 1.0, 1e6},
+            {"gravitational_parameter", 398600.0, "km^3/s^2", "gravitational constant times mass of the Earth", 1.0,
+             1e12},
         }) {}
 
   /// r⁰ in km.
@@ -101,6 +59,23 @@ class CircleToCircle : public Problem {
   [[nodiscard]] double acceleration_scale() const {
     constexpr double metres_per_kilometre = 1e3;
     return metres_per_kilometre * initial_radius() / (time_scale() * time_scale());
+  }
+
+ private:
+  /// The least cost does not depend on the coordinates.
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    constexpr double after_two = 3.944909084747e-5;
+    constexpr double after_ten = 7.890332317683e-6;
+    const double revolutions = parameter("revolutions");
+    const bool is_known = revolutions == 2.0 || revolutions == 10.0;
+    if (!is_known || !has_default_parameters({"revolutions"})) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = revolutions == 2.0 ? after_two : after_ten,
+        .digits = 13,
+        .certificate =
+            "the indirect method with Gauss of orders 16 and 20, in polar and in Cartesian coordinates; the "
+            "replay of its control has the same cost to 13 digits",
+        .remark = "the paper shows the cost in a figure only"};
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "methods/mechanics/parameter.hpp"
+#include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
 
@@ -27,6 +27,11 @@ namespace dmocbench {
           .meaning = of.empty() ? "duration T" : "duration T of the " + of,
           .lower = shortest,
           .upper = longest};
+}
+
+/// A parameter that is 0 or 1; `meaning` says what both stand for.
+[[nodiscard]] inline Parameter switch_parameter(const std::string& name, bool on, const std::string& meaning) {
+  return {name, on ? 1.0 : 0.0, "", meaning, 0.0, 1.0, true};
 }
 
 }  // namespace dmocbench

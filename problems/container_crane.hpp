@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -20,21 +19,18 @@ class ContainerCrane final : public Problem {
  public:
   ContainerCrane()
       : Problem({
-            {.name = "control_weight",
-             .value = 0.0,
-             .unit = "s^4/m^2",
-             .meaning = "weight ρ of |u|² in the cost; 0: Teo and Goh, 0.01: Augustin and Maurer",
-             .lower = 0.0,
-             .upper = 1.0},
+            {"control_weight", 0.0, "s^4/m^2",
+             "weight ρ of |u|² in the cost; 0: Teo and Goh, 0.01: Augustin and Maurer", 0.0, 1.0},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "container_crane"; }
-  [[nodiscard]] std::string description() const override {
-    return "container crane in fixed time with the least swing, velocities bounded";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Teo, Goh, Wong: A unified computational approach to optimal control problems (1991), after Sakawa, Shindo "
-           "(1982); Augustin, Maurer: Sensitivity analysis and real-time control of a container crane (2001)";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "container crane in fixed time with the least swing, velocities bounded",
+        .source =
+            "Teo, Goh, Wong: A unified computational approach to optimal control problems (1991), after Sakawa, Shindo "
+            "(1982); Augustin, Maurer: Sensitivity analysis and real-time control of a container crane (2001)",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"s", "l", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
@@ -46,9 +42,8 @@ class ContainerCrane final : public Problem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression& rope = x.q[1];
     const Expression& swing = x.q[2];
-    ExpressionVector f(3);
-    f << x.u[0] + 17.2656 * swing, x.u[1] - rope * x.v[2] * x.v[2], -rope * (x.u[0] + 27.0756 * swing);
-    return f;
+    return ExpressionVector{
+        {x.u[0] + 17.2656 * swing, x.u[1] - rope * x.v[2] * x.v[2], -rope * (x.u[0] + 27.0756 * swing)}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
@@ -63,27 +58,35 @@ class ContainerCrane final : public Problem {
   }
   [[nodiscard]] double horizon() const override { return 9.0; }
 
-  [[nodiscard]] Bounds velocity_bounds() const override {
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {Eigen::Vector3d(-2.5, -1.0, -infinity), Eigen::Vector3d(2.5, 1.0, infinity)};
-  }
-  [[nodiscard]] Bounds control_bounds() const override {
-    return {Eigen::Vector2d(-2.83374, -0.80865), Eigen::Vector2d(2.83374, 0.71265)};
+    bounds.v = {Eigen::Vector3d(-2.5, -1.0, -infinity), Eigen::Vector3d(2.5, 1.0, infinity)};
+    bounds.u = {Eigen::Vector2d(-2.83374, -0.80865), Eigen::Vector2d(2.83374, 0.71265)};
+    return bounds;
   }
 
   /// The optimum is about 5e-3 without the controls in the cost, 4e-2 with them.
   [[nodiscard]] double cost_scale() const override { return 1e2; }
 
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    return {{"trolley", "m", x.q[0]},
+            {"load_x", "m", x.q[0] + x.q[1] * sin(x.q[2])},
+            {"load_z", "m", -x.q[1] * cos(x.q[2])},
+            {"swing", "rad", x.q[2]},
+            {"u_1", "m/s^2", x.u[0]},
+            {"u_2", "m/s^2", x.u[1]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
     const double weight = parameter("control_weight");
     if (weight == 0.01) {
       return ReferenceOptimum{.objective = 0.03751946138,
                               .digits = 10,
                               .certificate =
                                   "Gauss with 3 stages and Lobatto with 4 on 512 intervals, tolerance 1e-13, and the "
-                                  "replays of both controls",
-                              .published = {},
-                              .remark = {}};
+                                  "replays of both controls"};
     }
     if (weight != 0.0) return std::nullopt;
     return ReferenceOptimum{.objective = 0.0051504,
@@ -93,15 +96,6 @@ class ContainerCrane final : public Problem {
                                 "replays of their controls; no more digits, because the control is singular",
                             .published = {{0.0051513, "PSOPT, example crane"}},
                             .remark = "the published value is that of its mesh, 2e-4 above"};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"trolley", "m", x.q[0]},
-            {"load_x", "m", x.q[0] + x.q[1] * sin(x.q[2])},
-            {"load_z", "m", -x.q[1] * cos(x.q[2])},
-            {"swing", "rad", x.q[2]},
-            {"u_1", "m/s^2", x.u[0]},
-            {"u_2", "m/s^2", x.u[1]}};
   }
 };
 

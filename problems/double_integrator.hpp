@@ -13,20 +13,16 @@ class DoubleIntegrator final : public Problem {
  public:
   DoubleIntegrator()
       : Problem({
-            {.name = "distance",
-             .value = 1.0,
-             .unit = "m",
-             .meaning = "distance d to travel",
-             .lower = 1e-3,
-             .upper = 1e3},
+            {"distance", 1.0, "m", "distance d to travel", 1e-3, 1e3},
             horizon_parameter(1.0, "motion"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_integrator"; }
-  [[nodiscard]] std::string description() const override {
-    return "a unit mass from rest to rest in fixed time, least control effort";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "a unit mass from rest to rest in fixed time, least control effort",
+            .source = "folklore; mineng_di of the PSOPT examples",
+            .reference = reference_optimum()};
   }
-  [[nodiscard]] std::string source() const override { return "folklore; mineng_di of the PSOPT examples"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
 
@@ -35,25 +31,12 @@ class DoubleIntegrator final : public Problem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::VectorXd::Zero(1), .v = Eigen::VectorXd::Zero(1)};
+    return BoundaryState::at_rest(Eigen::VectorXd::Zero(1));
   }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::VectorXd::Constant(1, parameter("distance")), .v = Eigen::VectorXd::Zero(1)};
+    return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, parameter("distance")));
   }
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    constexpr int double_precision = 16;
-    const double d = parameter("distance");
-    const double duration = parameter("horizon");
-    ReferenceOptimum optimum{.objective = 6.0 * d * d / (duration * duration * duration),
-                             .digits = double_precision,
-                             .certificate = "closed form, 6 d^2 / T^3",
-                             .published = {},
-                             .remark = {}};
-    if (d == 1.0 && duration == 1.0) optimum.published.push_back({6.000000, "PSOPT, example mineng_di"});
-    return optimum;
-  }
 
   /// Translations; without a potential the momentum changes by the work of the control alone.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
@@ -62,6 +45,18 @@ class DoubleIntegrator final : public Problem {
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     return {{"position", "m", x.q[0]}, {"velocity", "m/s", x.v[0]}, {"force", "N", x.u[0]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    constexpr int double_precision = 16;
+    const double d = parameter("distance");
+    const double duration = parameter("horizon");
+    ReferenceOptimum optimum{.objective = 6.0 * d * d / (duration * duration * duration),
+                             .digits = double_precision,
+                             .certificate = "closed form, 6 d^2 / T^3"};
+    if (has_default_parameters()) optimum.published.push_back({6.000000, "PSOPT, example mineng_di"});
+    return optimum;
   }
 };
 

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -16,35 +15,22 @@ class DoubleOscillator final : public Problem {
  public:
   DoubleOscillator()
       : Problem({
-            {.name = "mass_1", .value = 100.0, .unit = "kg", .meaning = "first mass", .lower = 1e-3, .upper = 1e6},
-            {.name = "mass_2", .value = 2.0, .unit = "kg", .meaning = "second mass", .lower = 1e-3, .upper = 1e6},
-            {.name = "stiffness_1",
-             .value = 100.0,
-             .unit = "N/m",
-             .meaning = "spring between wall and first mass",
-             .lower = 0.0,
-             .upper = 1e6},
-            {.name = "stiffness_2",
-             .value = 3.0,
-             .unit = "N/m",
-             .meaning = "spring between the masses",
-             .lower = 0.0,
-             .upper = 1e6},
-            {.name = "damping",
-             .value = 0.5,
-             .unit = "N s/m",
-             .meaning = "damping of the second mass at u = 0",
-             .lower = 0.0,
-             .upper = 1e3},
+            {"mass_1", 100.0, "kg", "first mass", 1e-3, 1e6},
+            {"mass_2", 2.0, "kg", "second mass", 1e-3, 1e6},
+            {"stiffness_1", 100.0, "N/m", "spring between wall and first mass", 0.0, 1e6},
+            {"stiffness_2", 3.0, "N/m", "spring between the masses", 0.0, 1e6},
+            {"damping", 0.5, "N s/m", "damping of the second mass at u = 0", 0.0, 1e3},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_oscillator"; }
-  [[nodiscard]] std::string description() const override {
-    return "two shaken masses whose damper is the control, initial velocity and final state free";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, Petit: "
-           "Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "two shaken masses whose damper is the control, initial velocity and final state free",
+            .source =
+                "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, "
+                "Petit: "
+                "Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)",
+            .guess = "everything at rest, u = 0",
+            .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x_1", "x_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -56,36 +42,38 @@ class DoubleOscillator final : public Problem {
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    ExpressionVector f(2);
-    f << sin(2.0 * std::numbers::pi / horizon() * x.t), -parameter("damping") * (1.0 - x.u[0]) * x.v[1];
-    return f;
+    return ExpressionVector{
+        {sin(2.0 * std::numbers::pi / horizon() * x.t), -parameter("damping") * (1.0 - x.u[0]) * x.v[1]}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return 0.5 * (x.q.dot(x.q) + x.u[0] * x.u[0]);
   }
 
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d::Zero()};
-  }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
   [[nodiscard]] BoundaryState final_state() const override { return initial_state(); }
-  [[nodiscard]] EndBounds initial_bounds() const override {
-    return {.q = Bounds::fixed(Eigen::Vector2d::Zero()), .v = Bounds::none(2)};
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.first.v = Bounds::none(2);
+    bounds.last = {.q = Bounds::none(2), .v = Bounds::none(2)};
+    bounds.u = Bounds::all(1, -1.0, 1.0);
+    return bounds;
   }
-  [[nodiscard]] EndBounds final_bounds() const override { return {.q = Bounds::none(2), .v = Bounds::none(2)}; }
   [[nodiscard]] double horizon() const override { return 2.0 * std::numbers::pi; }
-
-  [[nodiscard]] Bounds control_bounds() const override {
-    return {Eigen::VectorXd::Constant(1, -1.0), Eigen::VectorXd::Constant(1, 1.0)};
-  }
 
   /// The optimum is about 1e-3.
   [[nodiscard]] double cost_scale() const override { return 1e3; }
 
-  [[nodiscard]] std::string guess_description() const override { return "everything at rest, u = 0"; }
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    return {{"x_1", "m", x.q[0]},
+            {"x_2", "m", x.q[1]},
+            {"shaking_force", "N", sin(2.0 * std::numbers::pi / horizon() * x.t)},
+            {"u", "", x.u[0]}};
+  }
 
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_default_parameters(*this)) return std::nullopt;
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters()) return std::nullopt;
     return ReferenceOptimum{
         .objective = 9.11034863017e-4,
         .digits = 11,
@@ -97,13 +85,6 @@ class DoubleOscillator final : public Problem {
         .remark =
             "the published values are those of their grids: ours of the midpoint and the trapezoidal rule on 200 "
             "intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"x_1", "m", x.q[0]},
-            {"x_2", "m", x.q[1]},
-            {"shaking_force", "N", sin(2.0 * std::numbers::pi / horizon() * x.t)},
-            {"u", "", x.u[0]}};
   }
 };
 

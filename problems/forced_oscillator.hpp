@@ -16,11 +16,11 @@ namespace dmocbench {
 class ForcedOscillator final : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return "forced_oscillator"; }
-  [[nodiscard]] std::string description() const override {
-    return "harmonic oscillator from rest to rest, least control effort; constant mass, optimum 1/pi";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "minimum energy control of a linear system, closed form; not in the paper";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "harmonic oscillator from rest to rest, least control effort; constant mass, optimum 1/pi",
+            .source = "minimum energy control of a linear system, closed form; not in the paper",
+            .time_unit = {.name = "", .factor = 1.0},
+            .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -32,19 +32,9 @@ class ForcedOscillator final : public Problem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::VectorXd::Zero(1), .v = Eigen::VectorXd::Zero(1)};
+    return BoundaryState::at_rest(Eigen::VectorXd::Zero(1));
   }
-  [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::VectorXd::Ones(1), .v = Eigen::VectorXd::Zero(1)};
-  }
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    constexpr int all_digits = 16;
-    return ReferenceOptimum{.objective = std::numbers::inv_pi,
-                            .digits = all_digits,
-                            .certificate = "closed form: 1/pi",
-                            .published = {},
-                            .remark = ""};
-  }
+  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::VectorXd::Ones(1)); }
   [[nodiscard]] double horizon() const override { return std::numbers::pi; }
 
   /// Translations, ξ = 1, under which the kinetic energy is invariant; the spring's force counts as one of the forces.
@@ -52,7 +42,12 @@ class ForcedOscillator final : public Problem {
     return ExpressionVector::Constant(1, Expression(1.0));
   }
 
-  [[nodiscard]] Unit time_unit() const override { return {.name = "", .factor = 1.0}; }
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    constexpr int all_digits = 16;
+    return ReferenceOptimum{
+        .objective = std::numbers::inv_pi, .digits = all_digits, .certificate = "closed form: 1/pi"};
+  }
 };
 
 }  // namespace dmocbench

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -21,40 +20,23 @@ class HangGlider final : public Problem {
  public:
   HangGlider()
       : Problem({
-            {.name = "gravity",
-             .value = 9.81,
-             .unit = "m/s^2",
-             .meaning = "gravitational acceleration",
-             .lower = 1.0,
-             .upper = 1e2},
-            {.name = "forward_velocity",
-             .value = 13.23,
-             .unit = "m/s",
-             .meaning = "horizontal velocity at both ends",
-             .lower = 1.0,
-             .upper = 1e2},
-            {.name = "climb_velocity",
-             .value = -1.288,
-             .unit = "m/s",
-             .meaning = "vertical velocity at both ends",
-             .lower = -1e1,
-             .upper = 1e1},
-            {.name = "updraft", .value = 2.5, .unit = "m/s", .meaning = "u_c of the thermal", .lower = 0, .upper = 1e1},
-            {.name = "wing_load",
-             .value = 100.0 / 14.0,
-             .unit = "kg/m^2",
-             .meaning = "mass m by wing area S",
-             .lower = 1.0,
-             .upper = 1e2},
+            {"gravity", 9.81, "m/s^2", "gravitational acceleration", 1.0, 1e2},
+            {"forward_velocity", 13.23, "m/s", "horizontal velocity at both ends", 1.0, 1e2},
+            {"climb_velocity", -1.288, "m/s", "vertical velocity at both ends", -1e1, 1e1},
+            {"updraft", 2.5, "m/s", "u_c of the thermal", 0, 1e1},
+            {"wing_load", 100.0 / 14.0, "kg/m^2", "mass m by wing area S", 1.0, 1e2},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "hang_glider"; }
-  [[nodiscard]] std::string description() const override {
-    return "hang glider through a thermal updraft to the largest distance";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 11, after "
-           "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "hang glider through a thermal updraft to the largest distance",
+        .source =
+            "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 11, after "
+            "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)",
+        .guess = "q on the straight line to x = 1200 m in T = 100 s, v its slope, c_L = 0.7, half its bound",
+        .time_unit = {.name = "s", .factor = time_unit_in_seconds},
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"c_l"}; }
@@ -74,9 +56,7 @@ class HangGlider final : public Problem {
     const Expression& forward = x.v[0];
     const Expression sink = x.v[1] - updraft(x.q[0]);
     const Expression pressure = factor * sqrt(forward * forward + sink * sink);
-    ExpressionVector f(2);
-    f << -pressure * (lift * sink + drag * forward), pressure * (lift * forward - drag * sink);
-    return f;
+    return ExpressionVector{{-pressure * (lift * sink + drag * forward), pressure * (lift * forward - drag * sink)}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
@@ -88,20 +68,17 @@ class HangGlider final : public Problem {
   [[nodiscard]] BoundaryState final_state() const override {
     return {.q = Eigen::Vector2d(1200.0 / length_unit, 900.0 / length_unit), .v = end_velocity()};
   }
-  [[nodiscard]] EndBounds final_bounds() const override {
-    return EndBounds::fixed(final_state()).free_configuration(0);
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    bounds.last.free_configuration(0);
+    bounds.horizon = {1.0, 100.0};
+    // As in COPS: without ẋ >= 0 a glider that turns back in the thermal could gain altitude without end.
+    bounds.v = {Eigen::Vector2d(0.0, -infinity), Eigen::Vector2d(infinity, infinity)};
+    bounds.u = Bounds::all(1, 0.0, 1.4);
+    return bounds;
   }
   [[nodiscard]] double horizon() const override { return 10.0; }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override { return {1.0, 100.0}; }
-
-  /// As in COPS: without it a glider that turns back in the thermal could gain altitude without end.
-  [[nodiscard]] Bounds velocity_bounds() const override {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {Eigen::Vector2d(0.0, -infinity), Eigen::Vector2d(infinity, infinity)};
-  }
-  [[nodiscard]] Bounds control_bounds() const override {
-    return {Eigen::VectorXd::Constant(1, 0.0), Eigen::VectorXd::Constant(1, 1.4)};
-  }
 
   /// The optimum is about -1250 m.
   [[nodiscard]] double cost_scale() const override { return 1e-3; }
@@ -111,16 +88,20 @@ class HangGlider final : public Problem {
     point.u[0] = 0.7;
     return point;
   }
-  [[nodiscard]] std::string guess_description() const override {
-    return "q on the straight line to x = 1200 m in T = 100 s, v its slope, c_L = 0.7, half its bound";
+
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    return {{"x", "m", length_unit * x.q[0]},
+            {"y", "m", length_unit * x.q[1]},
+            {"updraft", "m/s", velocity_unit * updraft(x.q[0])},
+            {"c_l", "", x.u[0]}};
   }
 
-  [[nodiscard]] Unit time_unit() const override { return {.name = "s", .factor = time_unit_in_seconds}; }
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
     const bool original = parameter("gravity") == 9.80665 && parameter("forward_velocity") == 13.2275675 &&
                           parameter("climb_velocity") == -1.28750052 &&
-                          has_default_parameters(*this, {"gravity", "forward_velocity", "climb_velocity"});
-    if (!original && !has_default_parameters(*this)) return std::nullopt;
+                          has_default_parameters({"gravity", "forward_velocity", "climb_velocity"});
+    if (!original && !has_default_parameters()) return std::nullopt;
     ReferenceOptimum known{
         .objective = -1247.987601,
         .digits = 10,
@@ -142,14 +123,6 @@ class HangGlider final : public Problem {
     return known;
   }
 
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"x", "m", length_unit * x.q[0]},
-            {"y", "m", length_unit * x.q[1]},
-            {"updraft", "m/s", velocity_unit * updraft(x.q[0])},
-            {"c_l", "", x.u[0]}};
-  }
-
- private:
   static constexpr double length_unit = 100.0;          // m, the thermal's r_c
   static constexpr double time_unit_in_seconds = 10.0;  // s
   static constexpr double velocity_unit = length_unit / time_unit_in_seconds;

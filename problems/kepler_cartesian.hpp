@@ -16,12 +16,13 @@ namespace dmocbench {
 class KeplerCartesian final : public CircleToCircle {
  public:
   [[nodiscard]] std::string name() const override { return "kepler_cartesian"; }
-  [[nodiscard]] std::string description() const override {
-    return "the orbital transfer in Cartesian coordinates, where the mass matrix is constant";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.1, in "
-           "another chart";
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = CircleToCircle::card();
+    card.description = "the orbital transfer in Cartesian coordinates, where the mass matrix is constant";
+    card.source += ", in another chart";
+    card.guess =
+        "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
+    return card;
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
 
@@ -29,9 +30,7 @@ class KeplerCartesian final : public CircleToCircle {
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression thrust_by_radius = x.u[0] / radius(x.q);
-    ExpressionVector f(2);
-    f << -thrust_by_radius * x.q[1], thrust_by_radius * x.q[0];
-    return f;
+    return ExpressionVector{{-thrust_by_radius * x.q[1], thrust_by_radius * x.q[0]}};
   }
 
   [[nodiscard]] BoundaryState initial_state() const override {
@@ -45,9 +44,7 @@ class KeplerCartesian final : public CircleToCircle {
 
   /// Rotations: ξ = (-y, x), the momentum is the angular momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
-    ExpressionVector generator(2);
-    generator << -q[1], q[0];
-    return generator;
+    return ExpressionVector{{-q[1], q[0]}};
   }
 
   [[nodiscard]] MotionPoint guess(double t) const override {
@@ -57,14 +54,6 @@ class KeplerCartesian final : public CircleToCircle {
     const Eigen::Vector2d outward(std::cos(rate * t), std::sin(rate * t));
     const Eigen::Vector2d along(-outward[1], outward[0]);
     return {.q = r * outward, .v = growth * outward + r * rate * along, .u = Eigen::VectorXd::Zero(1)};
-  }
-  [[nodiscard]] std::string guess_description() const override {
-    return "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!is_known(*this)) return std::nullopt;
-    return known_optimum(parameter("revolutions"));
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {

@@ -6,7 +6,6 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "problems/common_parameters.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -22,26 +21,24 @@ class LinkChain final : public Problem {
  public:
   LinkChain()
       : Problem({
-            {.name = "links",
-             .value = 3.0,
-             .unit = "",
-             .meaning = "number n of rods",
-             .lower = 1.0,
-             .upper = 32.0,
-             .whole = true},
-            {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of a rod", .lower = 1e-3, .upper = 1e3},
-            {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of a rod", .lower = 1e-3, .upper = 1e3},
+            {"links", 3.0, "", "number n of rods", 1.0, 32.0, true},
+            {"mass", 1.0, "kg", "mass of a rod", 1e-3, 1e3},
+            {"length", 1.0, "m", "length of a rod", 1e-3, 1e3},
             gravity_parameter(0.0),
             horizon_parameter(1.0, "swing-up"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "link_chain"; }
-  [[nodiscard]] std::string description() const override {
-    return "swing-up of a planar chain of n rods in fixed time, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2, with n "
-           "links";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "swing-up of a planar chain of n rods in fixed time, least control effort",
+        .source =
+            "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2, with n "
+            "links",
+        .guess =
+            "q on straight lines plus 2.5 sin(pi t/T) for the last rod, minus it for the rod before and so on with "
+            "changing signs, nothing for the first; v its slope, u = 0",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return numbered("theta_"); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("tau_"); }
@@ -73,10 +70,10 @@ class LinkChain final : public Problem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::VectorXd::Constant(links(), -std::numbers::pi / 2.0), .v = Eigen::VectorXd::Zero(links())};
+    return BoundaryState::at_rest(Eigen::VectorXd::Constant(links(), -std::numbers::pi / 2.0));
   }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::VectorXd::Constant(links(), std::numbers::pi / 2.0), .v = Eigen::VectorXd::Zero(links())};
+    return BoundaryState::at_rest(Eigen::VectorXd::Constant(links(), std::numbers::pi / 2.0));
   }
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
 
@@ -96,30 +93,6 @@ class LinkChain final : public Problem {
       fold = -fold;
     }
     return point;
-  }
-  [[nodiscard]] std::string guess_description() const override {
-    return "q on straight lines plus 2.5 sin(pi t/T) for the last rod, minus it for the rod before and so on with "
-           "changing signs, nothing for the first; v its slope, u = 0";
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_default_parameters(*this, {"links"})) return std::nullopt;
-    ReferenceOptimum known{.objective = 0.0, .digits = 13, .certificate = certificate, .published = {}, .remark = {}};
-    if (links() == 1) {
-      known.objective = 10.2534144826;
-      known.digits = 12;
-    } else if (links() == 2) {
-      known.objective = 80.37902916907;
-      known.remark = "the two-link manipulator's; other minima near 89.56, 167, 171, 192, 205";
-    } else if (links() == 3) {
-      known.objective = 134.8718555982;
-      known.remark =
-          "the cheapest of the minima that 66 perturbed starts found; others near 159.9, 162.8, 177.2, 179.4, 188.9, "
-          "207.3, 227.2, 240.5 and above";
-    } else {
-      return std::nullopt;
-    }
-    return known;
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
@@ -141,6 +114,26 @@ class LinkChain final : public Problem {
   }
 
  private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters({"links"})) return std::nullopt;
+    ReferenceOptimum known{.objective = 0.0, .digits = 13, .certificate = certificate};
+    if (links() == 1) {
+      known.objective = 10.2534144826;
+      known.digits = 12;
+    } else if (links() == 2) {
+      known.objective = 80.37902916907;
+      known.remark = "the two-link manipulator's; other minima near 89.56, 167, 171, 192, 205";
+    } else if (links() == 3) {
+      known.objective = 134.8718555982;
+      known.remark =
+          "the cheapest of the minima that 66 perturbed starts found; others near 159.9, 162.8, 177.2, 179.4, 188.9, "
+          "207.3, 227.2, 240.5 and above";
+    } else {
+      return std::nullopt;
+    }
+    return known;
+  }
+
   static constexpr double largest_fold = 2.5;  // rad
   static constexpr const char* certificate =
       "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 digits";

@@ -14,11 +14,10 @@ namespace dmocbench {
 class OrbitalTransfer final : public CircleToCircle {
  public:
   [[nodiscard]] std::string name() const override { return "orbital_transfer"; }
-  [[nodiscard]] std::string description() const override {
-    return "low thrust transfer of a satellite between two circular orbits, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.1";
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = CircleToCircle::card();
+    card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";
+    return card;
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"r", "phi"}; }
 
@@ -30,9 +29,7 @@ class OrbitalTransfer final : public CircleToCircle {
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    ExpressionVector f(2);
-    f << 0.0, x.q[0] * x.u[0];
-    return f;
+    return ExpressionVector{{0.0, x.q[0] * x.u[0]}};
   }
 
   [[nodiscard]] BoundaryState initial_state() const override {
@@ -47,14 +44,7 @@ class OrbitalTransfer final : public CircleToCircle {
 
   /// Rotations: ξ = (0, 1), the momentum is the angular momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 0.0, 1.0;
-    return generator;
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!is_known(*this)) return std::nullopt;
-    return known_optimum(parameter("revolutions"));
+    return ExpressionVector{{0.0, 1.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {

@@ -18,22 +18,16 @@ class ParticleSteering final : public Problem {
  public:
   ParticleSteering()
       : Problem({
-            {.name = "thrust",
-             .value = 100.0,
-             .unit = "m/s^2",
-             .meaning = "acceleration a of the thrust",
-             .lower = 1.0,
-             .upper = 1e4},
-            {.name = "height", .value = 5.0, .unit = "m", .meaning = "y to reach", .lower = 1e-2, .upper = 1e2},
-            {.name = "speed", .value = 45.0, .unit = "m/s", .meaning = "speed to reach", .lower = 1.0, .upper = 1e3},
+            {"thrust", 100.0, "m/s^2", "acceleration a of the thrust", 1.0, 1e4},
+            {"height", 5.0, "m", "y to reach", 1e-2, 1e2},
+            {"speed", 45.0, "m/s", "speed to reach", 1.0, 1e3},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "particle_steering"; }
-  [[nodiscard]] std::string description() const override {
-    return "a particle steered by the direction of its thrust to a height and a speed, shortest time";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10";
+  [[nodiscard]] ProblemCard card() const override {
+    return {.description = "a particle steered by the direction of its thrust to a height and a speed, shortest time",
+            .source = "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10",
+            .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -43,51 +37,26 @@ class ParticleSteering final : public Problem {
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const double a = parameter("thrust");
-    ExpressionVector f(2);
-    f << a * cos(x.u[0]), a * sin(x.u[0]);
-    return f;
+    return ExpressionVector{{a * cos(x.u[0]), a * sin(x.u[0])}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
 
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d::Zero(), .v = Eigen::Vector2d::Zero()};
-  }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
   /// x(T), which is free, is guessed as at constant acceleration.
   [[nodiscard]] BoundaryState final_state() const override {
     const double v = parameter("speed");
     return {.q = Eigen::Vector2d(0.5 * v * horizon(), parameter("height")), .v = Eigen::Vector2d(v, 0.0)};
   }
-  [[nodiscard]] EndBounds final_bounds() const override {
-    return EndBounds::fixed(final_state()).free_configuration(0);
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.last.free_configuration(0);
+    bounds.horizon = {1e-2, 1e2};
+    bounds.u = Bounds::all(1, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+    return bounds;
   }
   /// COPS guesses T = 1.
   [[nodiscard]] double horizon() const override { return 1.0; }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override {
-    constexpr double shortest = 1e-2;
-    constexpr double longest = 1e2;
-    return {shortest, longest};
-  }
-  [[nodiscard]] Bounds control_bounds() const override {
-    const Eigen::VectorXd right_angle = Eigen::VectorXd::Constant(1, 0.5 * std::numbers::pi);
-    return {.lower = -right_angle, .upper = right_angle};
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    const double c = initial_tangent();
-    ReferenceOptimum optimum{.objective = parameter("speed") * c / (parameter("thrust") * std::asinh(c)),
-                             .digits = 15,
-                             .certificate = "closed form, the bilinear tangent law",
-                             .published = {},
-                             .remark = {}};
-    if (parameter("thrust") == 100.0 && parameter("height") == 5.0 && parameter("speed") == 45.0) {
-      optimum.published = {{0.554577, "COPS 3.0 and the tests of COPSBenchmark.jl"}, {0.5545709, "PSOPT, example lts"}};
-      optimum.remark =
-          "the value of COPS is that of a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here and "
-          "0.5545724 on 200";
-    }
-    return optimum;
-  }
 
   /// tan u at t = 0.
   [[nodiscard]] double initial_tangent() const {
@@ -108,14 +77,27 @@ class ParticleSteering final : public Problem {
 
   /// Translations along x, which nothing but the thrust changes the momentum of.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 1.0, 0.0;
-    return generator;
+    return ExpressionVector{{1.0, 0.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
     constexpr double degrees = 180.0 / std::numbers::pi;
     return {{"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"direction", "degree", degrees * x.u[0]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    const double c = initial_tangent();
+    ReferenceOptimum optimum{.objective = parameter("speed") * c / (parameter("thrust") * std::asinh(c)),
+                             .digits = 15,
+                             .certificate = "closed form, the bilinear tangent law"};
+    if (has_default_parameters()) {
+      optimum.published = {{0.554577, "COPS 3.0 and the tests of COPSBenchmark.jl"}, {0.5545709, "PSOPT, example lts"}};
+      optimum.remark =
+          "the value of COPS is that of a coarse grid: the trapezoidal rule gives 0.5545770 on 100 intervals here and "
+          "0.5545724 on 200";
+    }
+    return optimum;
   }
 };
 

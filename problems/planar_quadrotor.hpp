@@ -18,11 +18,12 @@ class PlanarQuadrotor : public Problem {
   PlanarQuadrotor() : PlanarQuadrotor(flight_duration) {}
 
   [[nodiscard]] std::string name() const override { return "planar_quadrotor"; }
-  [[nodiscard]] std::string description() const override {
-    return "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",
+        .source = "Tedrake: Underactuated Robotics, chapter 3 (the planar quadrotor); the flight is this suite's",
+        .guess = "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
@@ -34,36 +35,21 @@ class PlanarQuadrotor : public Problem {
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression thrust = x.u[0] + x.u[1];
-    ExpressionVector f(3);
-    f << -thrust * sin(x.q[2]), thrust * cos(x.q[2]), parameter("arm") * (x.u[0] - x.u[1]);
-    return f;
+    return ExpressionVector{{-thrust * sin(x.q[2]), thrust * cos(x.q[2]), parameter("arm") * (x.u[0] - x.u[1])}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return x.u[0] * x.u[0] + x.u[1] * x.u[1];
   }
 
-  [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector3d::Zero(), .v = Eigen::Vector3d::Zero()};
-  }
+  [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector3d::Zero()); }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector3d(2.0, 1.0, 0.0), .v = Eigen::Vector3d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector3d(2.0, 1.0, 0.0));
   }
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
-  [[nodiscard]] Bounds control_bounds() const override {
-    if (!is_bounded()) return {};
-    return {.lower = Eigen::Vector2d::Zero(), .upper = Eigen::Vector2d::Constant(weight())};
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_own_data(flight_duration)) return std::nullopt;
-    return ReferenceOptimum{
-        .objective = 19.81198431842,
-        .digits = 11,
-        .certificate = certificate,
-        .published = {},
-        .remark =
-            "no published value is known; the bounds, by option, are not active; dearer minima tumble on "
-            "the way (23.05, 23.38, 25.58)"};
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    if (is_bounded()) bounds.u = Bounds::all(2, 0.0, weight());
+    return bounds;
   }
 
   /// Hovering for a second costs 11.4.
@@ -75,15 +61,10 @@ class PlanarQuadrotor : public Problem {
     point.u.setConstant(0.5 * weight());
     return point;
   }
-  [[nodiscard]] std::string guess_description() const override {
-    return "q on the straight line from q(0) to q(T), v its slope, u_1 = u_2 = m g / 2, which hovers";
-  }
 
   /// Horizontal translations.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(3);
-    generator << 1.0, 0.0, 0.0;
-    return generator;
+    return ExpressionVector{{1.0, 0.0, 0.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
@@ -107,39 +88,29 @@ class PlanarQuadrotor : public Problem {
   /// A flight that lasts `duration` seconds unless it is set.
   explicit PlanarQuadrotor(double duration)
       : Problem({
-            {.name = "mass", .value = 0.486, .unit = "kg", .meaning = "mass m", .lower = 1e-3, .upper = 1e3},
-            {.name = "inertia",
-             .value = 0.00383,
-             .unit = "kg m^2",
-             .meaning = "inertia I about the centre",
-             .lower = 1e-6,
-             .upper = 1e3},
-            {.name = "arm",
-             .value = 0.25,
-             .unit = "m",
-             .meaning = "distance r of the rotors from the centre",
-             .lower = 1e-3,
-             .upper = 1e2},
+            {"mass", 0.486, "kg", "mass m", 1e-3, 1e3},
+            {"inertia", 0.00383, "kg m^2", "inertia I about the centre", 1e-6, 1e3},
+            {"arm", 0.25, "m", "distance r of the rotors from the centre", 1e-3, 1e2},
             gravity_parameter(0.0),
             horizon_parameter(duration, "flight"),
-            {.name = "bounded",
-             .value = 0.0,
-             .unit = "",
-             .meaning = "1: 0 <= u <= m g for either thrust, 0: thrusts are free",
-             .lower = 0.0,
-             .upper = 1.0,
-             .whole = true},
+            switch_parameter("bounded", false, "1: 0 <= u <= m g for either thrust, 0: thrusts are free"),
         }) {}
-
-  /// True if all parameters are the defaults of a flight of that duration, for which references are certified.
-  [[nodiscard]] bool has_own_data(double duration) const {
-    return parameter("mass") == 0.486 && parameter("inertia") == 0.00383 && parameter("arm") == 0.25 &&
-           parameter("gravity") == 9.81 && parameter("horizon") == duration;
-  }
 
   [[nodiscard]] bool is_bounded() const { return parameter("bounded") == 1.0; }
   /// mg in N.
   [[nodiscard]] double weight() const { return parameter("mass") * parameter("gravity"); }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters({"bounded"})) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 19.81198431842,
+        .digits = 11,
+        .certificate = certificate,
+        .remark =
+            "no published value is known; the bounds, by option, are not active; dearer minima tumble on "
+            "the way (23.05, 23.38, 25.58)"};
+  }
 };
 
 }  // namespace dmocbench

@@ -13,29 +13,31 @@ class PlanarQuadrotorFlip final : public PlanarQuadrotor {
   PlanarQuadrotorFlip() : PlanarQuadrotor(flip_duration) {}
 
   [[nodiscard]] std::string name() const override { return "planar_quadrotor_flip"; }
-  [[nodiscard]] std::string description() const override {
-    return "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = PlanarQuadrotor::card();
+    card.description = "a somersault of a planar quadrotor on the spot in fixed time, least control effort";
+    card.reference = reference_optimum();
+    return card;
   }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector3d(0.0, 0.0, 2.0 * std::numbers::pi), .v = Eigen::Vector3d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector3d(0.0, 0.0, 2.0 * std::numbers::pi));
   }
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_own_data(flip_duration)) return std::nullopt;
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters({"bounded"})) return std::nullopt;
     if (is_bounded()) {
-      return ReferenceOptimum{.objective = 15.3075,
-                              .digits = 6,
-                              .certificate = "Gauss s = 3 on 256 and Lobatto s = 4 on 192 intervals and a replay agree",
-                              .published = {},
-                              .remark = {}};
+      return ReferenceOptimum{
+          .objective = 15.3075,
+          .digits = 6,
+          .certificate = "Gauss s = 3 on 256 and Lobatto s = 4 on 192 intervals and a replay agree"};
     }
     return ReferenceOptimum{.objective = 14.19952298017,
                             .digits = 11,
                             .certificate = certificate,
-                            .published = {},
                             .remark = "no published value is known; dearer minima turn unevenly (17.47, 19.09)"};
   }
 
- private:
   static constexpr double flip_duration = 1.0;  // s
 };
 

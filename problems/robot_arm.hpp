@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
-#include "problems/default_parameters.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -20,22 +20,18 @@ class RobotArm final : public Problem {
  public:
   RobotArm()
       : Problem({
-            {.name = "length", .value = 5.0, .unit = "", .meaning = "length of the rod", .lower = 4.5, .upper = 1e2},
-            {.name = "euler_lagrange",
-             .value = 0.0,
-             .unit = "",
-             .meaning = "0: the equations of COPS; 1: the Euler-Lagrange equations of its inertias",
-             .lower = 0.0,
-             .upper = 1.0,
-             .whole = true},
+            {"length", 5.0, "", "length of the rod", 4.5, 1e2},
+            switch_parameter("euler_lagrange", false,
+                             "0: the equations of COPS; 1: the Euler-Lagrange equations of its inertias"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "robot_arm"; }
-  [[nodiscard]] std::string description() const override {
-    return "robot arm that slides and turns from rest to rest in the shortest time";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "robot arm that slides and turns from rest to rest in the shortest time",
+        .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8",
+        .guess = "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"rho", "theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_rho", "u_theta", "u_phi"}; }
@@ -67,21 +63,19 @@ class RobotArm final : public Problem {
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector3d(4.5, 0.0, std::numbers::pi / 4.0), .v = Eigen::Vector3d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector3d(4.5, 0.0, std::numbers::pi / 4.0));
   }
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector3d(4.5, 2.0 * std::numbers::pi / 3.0, std::numbers::pi / 4.0),
-            .v = Eigen::Vector3d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector3d(4.5, 2.0 * std::numbers::pi / 3.0, std::numbers::pi / 4.0));
   }
   [[nodiscard]] double horizon() const override { return 10.0; }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override { return {0.1, 100.0}; }
-
-  [[nodiscard]] Bounds configuration_bounds() const override {
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
     using std::numbers::pi;
-    return {Eigen::Vector3d(0.0, -pi, 0.0), Eigen::Vector3d(parameter("length"), pi, pi)};
-  }
-  [[nodiscard]] Bounds control_bounds() const override {
-    return {Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(1.0)};
+    bounds.horizon = {0.1, 100.0};
+    bounds.q = {Eigen::Vector3d(0.0, -pi, 0.0), Eigen::Vector3d(parameter("length"), pi, pi)};
+    bounds.u = Bounds::all(3, -1.0, 1.0);
+    return bounds;
   }
 
   /// The optimum is about 9.
@@ -89,13 +83,22 @@ class RobotArm final : public Problem {
 
   /// Rotations about the vertical: ξ = (0, 1, 0).
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(3);
-    generator << 0.0, 1.0, 0.0;
-    return generator;
+    return ExpressionVector{{0.0, 1.0, 0.0}};
   }
 
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (parameter("length") != 5.0) return std::nullopt;
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    const Expression across = x.q[0] * sin(x.q[2]);
+    return {{"tip_x", "", across * cos(x.q[1])},
+            {"tip_y", "", across * sin(x.q[1])},
+            {"tip_z", "", x.q[0] * cos(x.q[2])},
+            {"u_rho", "", x.u[0]},
+            {"u_theta", "", x.u[1]},
+            {"u_phi", "", x.u[2]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters({"euler_lagrange"})) return std::nullopt;
     if (parameter("euler_lagrange") == 1.0) {
       return ReferenceOptimum{.objective = 7.84473,
                               .digits = 6,
@@ -103,7 +106,6 @@ class RobotArm final : public Problem {
                                   "DMOC and tangent-space collocation by Gauss with 2 stages on 512 intervals, both "
                                   "replayed, and the limits of both by the midpoint rule; no more digits, because "
                                   "u_theta is singular in the middle of the motion",
-                              .published = {},
                               .remark = "the published values are those of the equations without Coriolis terms"};
     }
     return ReferenceOptimum{
@@ -120,21 +122,6 @@ class RobotArm final : public Problem {
             "on 200 intervals is 9.14140, on 400 9.14103"};
   }
 
-  [[nodiscard]] std::string guess_description() const override {
-    return "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10";
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression across = x.q[0] * sin(x.q[2]);
-    return {{"tip_x", "", across * cos(x.q[1])},
-            {"tip_y", "", across * sin(x.q[1])},
-            {"tip_z", "", x.q[0] * cos(x.q[2])},
-            {"u_rho", "", x.u[0]},
-            {"u_theta", "", x.u[1]},
-            {"u_phi", "", x.u[2]}};
-  }
-
- private:
   /// I_φ(ρ).
   [[nodiscard]] Expression inertia_of(const Expression& rho) const {
     const Expression other = parameter("length") - rho;

@@ -5,7 +5,6 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "problems/common_parameters.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -19,37 +18,21 @@ class SphericalPendulum final : public Problem {
  public:
   SphericalPendulum()
       : Problem({
-            {.name = "mass", .value = 1.0, .unit = "kg", .meaning = "mass of the bob", .lower = 1e-3, .upper = 1e3},
-            {.name = "length", .value = 1.0, .unit = "m", .meaning = "length of the rod", .lower = 1e-3, .upper = 1e3},
+            {"mass", 1.0, "kg", "mass of the bob", 1e-3, 1e3},
+            {"length", 1.0, "m", "length of the rod", 1e-3, 1e3},
             gravity_parameter(1e-3),
-            {.name = "initial_cone",
-             .value = std::numbers::pi / 4.0,
-             .unit = "rad",
-             .meaning = "angle of the first cone from below",
-             .lower = 0.1,
-             .upper = 1.5},
-            {.name = "target_cone",
-             .value = std::numbers::pi / 3.0,
-             .unit = "rad",
-             .meaning = "angle of the last cone from below",
-             .lower = 0.1,
-             .upper = 1.5},
-            {.name = "revolutions",
-             .value = 1.0,
-             .unit = "",
-             .meaning = "revolutions d during the transfer",
-             .lower = 0.0,
-             .upper = 100.0,
-             .whole = true},
+            {"initial_cone", std::numbers::pi / 4.0, "rad", "angle of the first cone from below", 0.1, 1.5},
+            {"target_cone", std::numbers::pi / 3.0, "rad", "angle of the last cone from below", 0.1, 1.5},
+            {"revolutions", 1.0, "", "revolutions d during the transfer", 0.0, 100.0, true},
             horizon_parameter(1.5),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "spherical_pendulum"; }
-  [[nodiscard]] std::string description() const override {
-    return "spherical pendulum from one steady cone to a wider one, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "spherical pendulum from one steady cone to a wider one, least control effort",
+        .source = "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_theta", "u_phi"}; }
@@ -74,20 +57,7 @@ class SphericalPendulum final : public Problem {
 
   /// Rotations about the vertical: ξ = (0, 1).
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 0.0, 1.0;
-    return generator;
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_default_parameters(*this)) return std::nullopt;
-    return ReferenceOptimum{.objective = 0.91134694658953,
-                            .digits = 13,
-                            .certificate =
-                                "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
-                                "same cost to 13 digits",
-                            .published = {},
-                            .remark = {}};
+    return ExpressionVector{{0.0, 1.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
@@ -100,6 +70,15 @@ class SphericalPendulum final : public Problem {
   }
 
  private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters()) return std::nullopt;
+    return ReferenceOptimum{.objective = 0.91134694658953,
+                            .digits = 13,
+                            .certificate =
+                                "the indirect method with Gauss of orders 16 and 20; the replay of its control has the "
+                                "same cost to 13 digits"};
+  }
+
   /// The steady motion on a cone.
   [[nodiscard]] BoundaryState on_cone(double theta, double phi) const {
     const double rate = std::sqrt(parameter("gravity") / (parameter("length") * std::cos(theta)));

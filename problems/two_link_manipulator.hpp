@@ -4,7 +4,6 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "problems/common_parameters.hpp"
-#include "problems/default_parameters.hpp"
 
 namespace dmocbench {
 
@@ -19,32 +18,22 @@ class TwoLinkManipulator : public Problem {
  public:
   TwoLinkManipulator()
       : Problem({
-            {.name = "mass_1", .value = 1.0, .unit = "kg", .meaning = "mass of link 1", .lower = 1e-3, .upper = 1e3},
-            {.name = "mass_2", .value = 1.0, .unit = "kg", .meaning = "mass of link 2", .lower = 1e-3, .upper = 1e3},
-            {.name = "length_1", .value = 1.0, .unit = "m", .meaning = "length of link 1", .lower = 1e-3, .upper = 1e3},
-            {.name = "length_2", .value = 1.0, .unit = "m", .meaning = "length of link 2", .lower = 1e-3, .upper = 1e3},
-            {.name = "inertia_1",
-             .value = 1.0 / 12.0,
-             .unit = "kg m^2",
-             .meaning = "inertia of link 1 about its centre",
-             .lower = 1e-6,
-             .upper = 1e6},
-            {.name = "inertia_2",
-             .value = 1.0 / 12.0,
-             .unit = "kg m^2",
-             .meaning = "inertia of link 2 about its centre",
-             .lower = 1e-6,
-             .upper = 1e6},
+            {"mass_1", 1.0, "kg", "mass of link 1", 1e-3, 1e3},
+            {"mass_2", 1.0, "kg", "mass of link 2", 1e-3, 1e3},
+            {"length_1", 1.0, "m", "length of link 1", 1e-3, 1e3},
+            {"length_2", 1.0, "m", "length of link 2", 1e-3, 1e3},
+            {"inertia_1", 1.0 / 12.0, "kg m^2", "inertia of link 1 about its centre", 1e-6, 1e6},
+            {"inertia_2", 1.0 / 12.0, "kg m^2", "inertia of link 2 about its centre", 1e-6, 1e6},
             gravity_parameter(0.0),
             horizon_parameter(1.0, "swing-up"),
         }) {}
 
   [[nodiscard]] std::string name() const override { return "two_link_manipulator"; }
-  [[nodiscard]] std::string description() const override {
-    return "swing-up of a planar two-link arm in fixed time, least control effort";
-  }
-  [[nodiscard]] std::string source() const override {
-    return "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2";
+  [[nodiscard]] ProblemCard card() const override {
+    return {
+        .description = "swing-up of a planar two-link arm in fixed time, least control effort",
+        .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2",
+        .reference = reference_optimum()};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta_1", "theta_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau_1", "tau_2"}; }
@@ -68,9 +57,7 @@ class TwoLinkManipulator : public Problem {
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    ExpressionVector f(2);
-    f << x.u[0] - x.u[1], x.u[1];
-    return f;
+    return ExpressionVector{{x.u[0] - x.u[1], x.u[1]}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
@@ -78,33 +65,18 @@ class TwoLinkManipulator : public Problem {
   }
 
   [[nodiscard]] BoundaryState initial_state() const override {
-    return {.q = Eigen::Vector2d::Constant(-std::numbers::pi / 2.0), .v = Eigen::Vector2d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector2d::Constant(-std::numbers::pi / 2.0));
   }
 
   [[nodiscard]] BoundaryState final_state() const override {
-    return {.q = Eigen::Vector2d::Constant(std::numbers::pi / 2.0), .v = Eigen::Vector2d::Zero()};
+    return BoundaryState::at_rest(Eigen::Vector2d::Constant(std::numbers::pi / 2.0));
   }
 
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
 
   /// Rotations of the whole arm: ξ = (1, 1). Gravity breaks the symmetry, so its torque counts among the forces.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    ExpressionVector generator(2);
-    generator << 1.0, 1.0;
-    return generator;
-  }
-
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override {
-    if (!has_default_parameters(*this)) return std::nullopt;
-    return ReferenceOptimum{
-        .objective = 80.37902916907,
-        .digits = 13,
-        .certificate =
-            "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 "
-            "digits",
-        .published = {},
-        .remark =
-            "the paper gives no data and shows the cost in a figure only; other minima near 89.56, 167, 171, 192, 205"};
+    return ExpressionVector{{1.0, 1.0}};
   }
 
   [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
@@ -116,6 +88,19 @@ class TwoLinkManipulator : public Problem {
             {"tip_y", "m", elbow_y + parameter("length_2") * sin(x.q[1])},
             {"tau_1", "N m", x.u[0]},
             {"tau_2", "N m", x.u[1]}};
+  }
+
+ private:
+  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
+    if (!has_default_parameters()) return std::nullopt;
+    return ReferenceOptimum{
+        .objective = 80.37902916907,
+        .digits = 13,
+        .certificate =
+            "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 "
+            "digits",
+        .remark =
+            "the paper gives no data and shows the cost in a figure only; other minima near 89.56, 167, 171, 192, 205"};
   }
 };
 

@@ -21,7 +21,7 @@ IndependentChecks check_independently(SolvedCase& solved) {
   IndependentChecks checks{.replay = replay(solved),
                            .violation_between_nodes = violation_between_nodes(problem, trajectory),
                            .free_horizon_residual = {}};
-  if (problem.horizon_bounds().is_free() && trajectory.has_costates()) {
+  if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
     checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
   }
   return checks;

@@ -75,7 +75,7 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
 }
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
-  const Unit time = problem.time_unit();
+  const Unit time = problem.card().time_unit;
   std::vector<std::string> header{fmt::format("t_[{}]", time.name)};
   PointFunction quantities(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
     const std::vector<PictureQuantity> picture = problem.picture(x);

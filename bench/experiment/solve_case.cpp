@@ -53,7 +53,7 @@ auto seconds(double Solution::*member) {
 
 Cell largest_step(const SolvedCase& solved) {
   if (!solved.program) return {};
-  return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->time_unit().factor;
+  return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->card().time_unit.factor;
 }
 
 }  // namespace

@@ -15,8 +15,6 @@ namespace dmocbench {
 class ExampleSystem : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::string description() const override { return "a system that is simulated, not optimised"; }
-  [[nodiscard]] std::string source() const override { return "dmocbench"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return names_; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/mechanics/reference_optimum.hpp"
+#include "methods/mechanics/problem_card.hpp"
 
 namespace dmocbench {
 

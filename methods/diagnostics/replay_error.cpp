@@ -49,8 +49,9 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
   });
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index intervals = trajectory.intervals();
-  const BoundaryState first = end_state(problem.initial_state(), problem.initial_bounds(), trajectory, 0);
-  const BoundaryState last = end_state(problem.final_state(), problem.final_bounds(), trajectory, intervals);
+  const ProblemBounds bounds = problem.bounds();
+  const BoundaryState first = end_state(problem.initial_state(), bounds.first, trajectory, 0);
+  const BoundaryState last = end_state(problem.final_state(), bounds.last, trajectory, intervals);
 
   PhaseVector state(first.q.begin(), first.q.end());  // q, v, cost so far
   state.insert(state.end(), first.v.begin(), first.v.end());

@@ -21,9 +21,7 @@ double outside(const Eigen::VectorXd& x, const Bounds& bounds) {
 double violation_between_nodes(const Problem& problem, const Trajectory& trajectory) {
   constexpr int points_per_interval = 16;
   const TracedProblem traced(problem);
-  const Bounds q_bounds = problem.configuration_bounds();
-  const Bounds v_bounds = problem.velocity_bounds();
-  const Bounds u_bounds = problem.control_bounds();
+  const ProblemBounds bounds = problem.bounds();
   PointFunction path(traced.configuration_size(), traced.control_size(),
                      [&](const ControlledState& x) { return traced.at(x).path_constraints; });
   Eigen::VectorXd h(path.output_count());
@@ -36,7 +34,7 @@ double violation_between_nodes(const Problem& problem, const Trajectory& traject
       const Eigen::VectorXd q = configuration_at(trajectory, t);
       const Eigen::VectorXd v = velocity_on_interval(trajectory, k, t);
       const Eigen::VectorXd u = control_on_interval(trajectory, k, t);
-      worst = std::max({worst, outside(q, q_bounds), outside(v, v_bounds), outside(u, u_bounds)});
+      worst = std::max({worst, outside(q, bounds.q), outside(v, bounds.v), outside(u, bounds.u)});
       if (h.size() == 0) continue;
       path.evaluate(q, v, u, t, h);
       // Where a constraint is not even a number the motion has left its domain.

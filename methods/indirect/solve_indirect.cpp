@@ -62,10 +62,11 @@ void require_smooth_class(const Problem& problem) {
     throw Error("the indirect method does not know " + what + ", which " + problem.name() +
                 " has; measure against a finer grid instead");
   };
-  if (!problem.initial_bounds().all_fixed() || !problem.final_bounds().all_fixed()) refuse("free or bounded ends");
-  if (problem.horizon_bounds().is_free()) refuse("a free horizon");
-  if (problem.control_bounds().any()) refuse("bounds on the controls");
-  if (problem.configuration_bounds().any() || problem.velocity_bounds().any()) refuse("bounds on the state");
+  const ProblemBounds bounds = problem.bounds();
+  if (!bounds.first.all_fixed() || !bounds.last.all_fixed()) refuse("free or bounded ends");
+  if (bounds.horizon.is_free()) refuse("a free horizon");
+  if (bounds.u.any()) refuse("bounds on the controls");
+  if (bounds.q.any() || bounds.v.any()) refuse("bounds on the state");
   if (traced.path_constraint_count() > 0) refuse("path constraints");
   if (traced.boundary_condition_count() > 0) refuse("boundary conditions");
   const Eigen::Index n = traced.configuration_size();

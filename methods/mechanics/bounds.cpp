@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -11,8 +13,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-Bounds Bounds::none(Eigen::Index size) {
-  return {Eigen::VectorXd::Constant(size, -infinity), Eigen::VectorXd::Constant(size, infinity)};
+Bounds Bounds::none(Eigen::Index size) { return all(size, -infinity, infinity); }
+
+Bounds Bounds::all(Eigen::Index size, double lower, double upper) {
+  return {Eigen::VectorXd::Constant(size, lower), Eigen::VectorXd::Constant(size, upper)};
 }
 
 Bounds Bounds::fixed(const Eigen::VectorXd& value) { return {value, value}; }
@@ -35,19 +39,27 @@ EndBounds& EndBounds::free_velocity(Eigen::Index i) {
   return *this;
 }
 
+std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
+  std::vector<Eigen::Index> bounded;
+  for (Eigen::Index i = 0; i < v.lower.size(); ++i) {
+    if (v.is_bounded(i)) bounded.push_back(i);
+  }
+  return bounded;
+}
+
 Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string& what) {
   if (bounds.empty()) return Bounds::none(size);
   for (const Eigen::VectorXd* side : {&bounds.lower, &bounds.upper}) {
     if (side->size() != size) {
-      throw Error(what + " have " + std::to_string(side->size()) + " entries, expected " + std::to_string(size));
+      throw Error(fmt::format("{} has {} entries, expected {}", what, side->size(), size));
     }
   }
   for (Eigen::Index i = 0; i < size; ++i) {
-    const std::string entry = what + ": entry " + std::to_string(i);
+    const std::string entry = fmt::format("{}: entry {}", what, i);
     if (std::isnan(bounds.lower[i]) || std::isnan(bounds.upper[i])) throw Error(entry + " is not a number");
     if (bounds.lower[i] > bounds.upper[i]) {
-      throw Error(entry + " has the lower bound " + std::to_string(bounds.lower[i]) + " above the upper bound " +
-                  std::to_string(bounds.upper[i]));
+      throw Error(fmt::format("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i],
+                              bounds.upper[i]));
     }
   }
   return bounds;

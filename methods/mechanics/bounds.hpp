@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,6 +17,8 @@ struct Bounds {
 
   /// -infinity <= x <= infinity, `size` entries.
   [[nodiscard]] static Bounds none(Eigen::Index size);
+  /// lower <= x <= upper, the same for all of `size` entries.
+  [[nodiscard]] static Bounds all(Eigen::Index size, double lower, double upper);
   /// x = value.
   [[nodiscard]] static Bounds fixed(const Eigen::VectorXd& value);
 
@@ -48,8 +51,21 @@ struct HorizonBounds {
   [[nodiscard]] bool is_free() const noexcept { return lower != upper; }
 };
 
+/// Everything that a problem bounds.
+struct ProblemBounds {
+  EndBounds first;        ///< on (q, q̇)(0)
+  EndBounds last;         ///< on (q, q̇)(T)
+  HorizonBounds horizon;  ///< on T
+  Bounds q;               ///< at every node, n entries or none
+  Bounds v;               ///< at every stage, n entries or none
+  Bounds u;               ///< at every stage, m entries or none
+
+  /// The i whose velocity has a bound, in ascending order.
+  [[nodiscard]] std::vector<Eigen::Index> bounded_velocities() const;
+};
+
 /// The bounds with `size` entries, none where `bounds` is empty. Throws `Error` that begins with `what` if sizes differ
-/// from `size`, an entry is not a number or a bound lies below its partner.
+/// from `size`, an entry is not a number, or a lower bound is above the upper one.
 [[nodiscard]] Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string& what);
 
 }  // namespace dmocbench

@@ -1,19 +1,44 @@
 #include "methods/mechanics/problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
+std::string Parameter::range() const {
+  return fmt::format("{} in [{:g}, {:g}]", whole ? "a whole number" : "a number", lower, upper);
+}
+
+void Parameter::check(double candidate) const {
+  const bool in_range = std::isfinite(candidate) && candidate >= lower && candidate <= upper;
+  if (in_range && (!whole || candidate == std::trunc(candidate))) return;
+  const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
+  throw Error(fmt::format("parameter {} must be {}{}, got {:g}", name, range(), in_unit, candidate));
+}
+
 Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
-  for (const Parameter& parameter : parameters_) parameter.check(parameter.value);
+  for (const Parameter& parameter : parameters_) {
+    parameter.check(parameter.value);
+    defaults_.push_back(parameter.value);
+  }
 }
 
 Eigen::Index Problem::configuration_size() const { return static_cast<Eigen::Index>(configuration_names().size()); }
 
 Eigen::Index Problem::control_size() const { return static_cast<Eigen::Index>(control_names().size()); }
+
+ProblemBounds Problem::bounds() const {
+  ProblemBounds bounds;
+  bounds.first = EndBounds::fixed(initial_state());
+  bounds.last = EndBounds::fixed(final_state());
+  bounds.horizon = {horizon(), horizon()};
+  return bounds;
+}
 
 ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
 
@@ -30,10 +55,6 @@ MotionPoint Problem::guess(double t) const {
   return {.q = first.q + relative * (last.q - first.q),
           .v = (last.q - first.q) / horizon(),
           .u = Eigen::VectorXd::Zero(control_size())};
-}
-
-std::string Problem::guess_description() const {
-  return "q on the straight line from q(0) to q(T), v its slope, u = 0";
 }
 
 std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
@@ -64,6 +85,14 @@ void Problem::set_parameter(std::string_view name, double value) {
   Parameter& parameter = parameters_[parameter_index(name)];
   parameter.check(value);
   parameter.value = value;
+}
+
+bool Problem::has_default_parameters(std::initializer_list<std::string_view> except) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const bool excepted = std::ranges::find(except, parameters_[i].name) != except.end();
+    if (!excepted && parameters_[i].value != defaults_[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace dmocbench

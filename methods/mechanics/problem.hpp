@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,23 +10,25 @@
 #include <Eigen/Core>
 
 #include "methods/mechanics/bounds.hpp"
-#include "methods/mechanics/parameter.hpp"
-#include "methods/mechanics/reference_optimum.hpp"
+#include "methods/mechanics/problem_card.hpp"
 #include "methods/mechanics/state.hpp"
 
 namespace dmocbench {
 
-/// A unit that figures use: one unit of the problem as solved is `factor` of what `name` says.
-struct Unit {
-  std::string name;
-  double factor = 1.0;
-};
+/// A number of a problem that its user may set.
+struct Parameter {
+  std::string name;                                         ///< as on the command line: `--set name=value`
+  double value = 0.0;                                       ///< the default, until set
+  std::string unit;                                         ///< "kg", "km^3/s^2", "" for a pure number
+  std::string meaning;                                      ///< one phrase
+  double lower = -std::numeric_limits<double>::infinity();  ///< smallest allowed value
+  double upper = std::numeric_limits<double>::infinity();   ///< largest allowed value
+  bool whole = false;                                       ///< whole numbers only
 
-/// A quantity that a picture of the motion shows, e.g. the position of a tip.
-struct PictureQuantity {
-  std::string name;  ///< a column's name, "tip_x"
-  std::string unit;  ///< "km", "" for a pure number
-  Expression value;
+  /// The allowed values in words: "a whole number in [1, 100]".
+  [[nodiscard]] std::string range() const;
+  /// Throws `Error` that names the parameter, its range and the value if `candidate` is not allowed.
+  void check(double candidate) const;
 };
 
 /// A mechanical optimal control problem, (eq:LOCP) of the paper:
@@ -32,8 +36,8 @@ struct PictureQuantity {
 ///   minimise  ∫₀ᵀ C(q, q̇, u) dt + Φ(q(T), q̇(T), T)
 ///   such that  δ∫₀ᵀ L(q, q̇) dt + ∫₀ᵀ f(q, q̇, u)·δq dt = 0,   h(q, q̇, u) >= 0,   r(q(0), q̇(0), q(T), q̇(T)) = 0,
 ///
-/// with bounds on both ends, on q, q̇ and u along the motion, and on T. Every formula may depend on time. What is not
-/// overridden is not there: the simplest problem states L, f, C, two ends and T, all of them fixed.
+/// with bounds on both ends, on q, q̇ and u along the motion, and on T. Every formula may depend on time. The simplest
+/// problem states L, f, C, two ends and T, all of them fixed; all that it does not override is absent.
 ///
 /// A problem states its formulas once, as traced expressions; no derivative, mass matrix or Hamiltonian is ever asked
 /// of it. L must be regular: L_vv invertible along the motion. Formulas are plain C++ on `Expression`: they may loop
@@ -51,10 +55,8 @@ class Problem {
 
   /// snake_case, as on the command line.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// One line.
-  [[nodiscard]] virtual std::string description() const = 0;
-  /// Where the problem comes from.
-  [[nodiscard]] virtual std::string source() const = 0;
+  /// Description, source, units and reference optimum, for people.
+  [[nodiscard]] virtual ProblemCard card() const { return {}; }
 
   /// Names of q_1 .. q_n; they name the columns of result files.
   [[nodiscard]] virtual std::vector<std::string> configuration_names() const = 0;
@@ -68,24 +70,17 @@ class Problem {
   /// The integrand C(q, v, u, t) of the cost.
   [[nodiscard]] virtual Expression running_cost(const ControlledState& x) const = 0;
 
-  /// (q⁰, q̇⁰) and (q^T, q̇^T). Of a component that the bounds of that end leave free, the value that the guess takes.
+  /// (q⁰, q̇⁰) and (q^T, q̇^T). Where the bounds of an end leave a component free, the guess takes this value.
   [[nodiscard]] virtual BoundaryState initial_state() const = 0;
   [[nodiscard]] virtual BoundaryState final_state() const = 0;
-  /// T > 0; where it is free, the value that the guess takes.
+  /// T > 0; where T is free, the guess takes this value.
   [[nodiscard]] virtual double horizon() const = 0;
 
-  // What a problem may prescribe besides. Default: both ends and the horizon fixed, nothing else.
+  // What a problem may prescribe besides.
 
-  /// Bounds on (q, q̇)(0) and (q, q̇)(T).
-  [[nodiscard]] virtual EndBounds initial_bounds() const { return EndBounds::fixed(initial_state()); }
-  [[nodiscard]] virtual EndBounds final_bounds() const { return EndBounds::fixed(final_state()); }
-  [[nodiscard]] virtual HorizonBounds horizon_bounds() const { return {horizon(), horizon()}; }
-  /// Bounds on q at every node, n entries or none.
-  [[nodiscard]] virtual Bounds configuration_bounds() const { return {}; }
-  /// Bounds on q̇ at every stage, n entries or none.
-  [[nodiscard]] virtual Bounds velocity_bounds() const { return {}; }
-  /// Bounds on u at every stage, m entries or none.
-  [[nodiscard]] virtual Bounds control_bounds() const { return {}; }
+  /// Bounds on the ends, on T and along the motion. Default: both ends and T fixed, nothing else bounded. Overrides
+  /// start from `Problem::bounds()`.
+  [[nodiscard]] virtual ProblemBounds bounds() const;
   /// h(q, q̇, u, t) >= 0 at every stage (eq:LOCP4), (eq:gDLOCP5): as many entries as there are constraints.
   [[nodiscard]] virtual ExpressionVector path_constraints(const ControlledState& x) const;
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
@@ -94,11 +89,7 @@ class Problem {
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;
 
-  /// The least cost as far as it is known, for the parameters as they are set.
-  [[nodiscard]] virtual std::optional<ReferenceOptimum> reference_optimum() const { return std::nullopt; }
-
-  /// What the cost is multiplied by before a solver sees it, so that its optimum is of order 1. Tables show the true
-  /// cost.
+  /// The factor by which solvers see the cost, so that its optimum is of order 1. Tables show the true cost.
   [[nodiscard]] virtual double cost_scale() const { return 1.0; }
 
   /// The infinitesimal generator ξ(q) of a group action under which the momentum p·ξ(q) is worth watching: L or its
@@ -106,13 +97,10 @@ class Problem {
   [[nodiscard]] virtual std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const;
 
   /// The motion from which solves start at time t: straight lines, constants, or an elementary formula of a few
-  /// numbers. Default: q on the straight line between the ends, v its slope, u = 0.
+  /// numbers. Default: q on the straight line between the ends, v constant, u = 0. `ProblemCard::guess` says it in
+  /// words.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
-  /// The guess in words.
-  [[nodiscard]] virtual std::string guess_description() const;
 
-  /// The unit of time that tables use for the step, and figures for the time axis.
-  [[nodiscard]] virtual Unit time_unit() const { return {"s", 1.0}; }
   /// What a picture of the motion shows. Default: q and u by their names.
   [[nodiscard]] virtual std::vector<PictureQuantity> picture(const ControlledState& x) const;
 
@@ -124,6 +112,9 @@ class Problem {
   [[nodiscard]] double parameter(std::string_view name) const;
   /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
   void set_parameter(std::string_view name, double value);
+  /// True if every parameter has its default value, those in `except` apart: a certified optimum holds for the data
+  /// with which it was computed.
+  [[nodiscard]] bool has_default_parameters(std::initializer_list<std::string_view> except = {}) const;
 
  protected:
   explicit Problem(std::vector<Parameter> parameters = {});
@@ -131,6 +122,7 @@ class Problem {
  private:
   [[nodiscard]] std::size_t parameter_index(std::string_view name) const;
   std::vector<Parameter> parameters_;
+  std::vector<double> defaults_;
 };
 
 }  // namespace dmocbench

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include <Eigen/Core>
 
 #include "methods/expression/vectors.hpp"
@@ -27,6 +29,12 @@ struct ControlledState {
 struct BoundaryState {
   Eigen::VectorXd q;  ///< n entries
   Eigen::VectorXd v;  ///< n entries
+
+  /// (q, 0).
+  [[nodiscard]] static BoundaryState at_rest(Eigen::VectorXd q) {
+    const Eigen::Index n = q.size();
+    return {.q = std::move(q), .v = Eigen::VectorXd::Zero(n)};
+  }
 };
 
 /// A point of a motion, as numbers.

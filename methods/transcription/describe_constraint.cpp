@@ -51,13 +51,13 @@ class Wording {
     const Place place = layout_->structure().unknowns[unknown];
     if (unknown < layout_->configuration_column(n_)) {
       const auto i = static_cast<Eigen::Index>(unknown / (layout_->intervals() + 1));
-      return "configuration_bounds: " + coordinate(i) + where(place);
+      return "bounds().q: " + coordinate(i) + where(place);
     }
     for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
       for (Eigen::Index i = 0; i < shape.control_size; ++i) {
         const std::size_t column = layout_->control_column(stage, i);
         if (unknown >= column && unknown - column < layout_->intervals()) {
-          return "control_bounds: " + named("u", i, problem_->control_names()) + in_interval(unknown - column);
+          return "bounds().u: " + named("u", i, problem_->control_names()) + in_interval(unknown - column);
         }
       }
     }
@@ -84,15 +84,16 @@ class Wording {
 
   /// DMOC's: the momenta of both sides of a node.
   [[nodiscard]] std::string node_row(Eigen::Index i, std::size_t node) const {
-    if (node == 0) return end_momentum("initial", transcription_->bounds().first, i) + in_interval(0);
+    if (node == 0)
+      return end_momentum("initial_state", "bounds().first", transcription_->bounds().first, i) + in_interval(0);
     if (node == layout_->intervals()) {
-      return end_momentum("final", transcription_->bounds().last, i) + in_interval(node - 1);
+      return end_momentum("final_state", "bounds().last", transcription_->bounds().last, i) + in_interval(node - 1);
     }
     return equation_of(i) + where({Place::Kind::node, node});
   }
-  [[nodiscard]] std::string end_momentum(const std::string& end, const EndBounds& bounds, Eigen::Index i) const {
-    return end + (bounds.v.is_fixed(i) ? "_state" : "_bounds") + ": the momentum (p = L_v of its velocity) of " +
-           coordinate(i);
+  [[nodiscard]] std::string end_momentum(const std::string& state, const std::string& bounds, const EndBounds& end,
+                                         Eigen::Index i) const {
+    return (end.v.is_fixed(i) ? state : bounds) + ": the momentum (p = L_v of its velocity) of " + coordinate(i);
   }
   [[nodiscard]] std::string equation_of(Eigen::Index i) const {
     return "lagrangian and force: the Euler-Lagrange equation of " + coordinate(i);
@@ -108,7 +109,7 @@ class Wording {
     const auto bounded = static_cast<Eigen::Index>(velocities.size());
     const Eigen::Index i = path % per_stage;
     if (i >= bounded) return indexed("path_constraints", i - bounded) + in_interval(k);
-    return "velocity_bounds: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
+    return "bounds().v: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
   }
   /// The element's own. An element of another kind than these three families has rows of which only the number is
   /// known.

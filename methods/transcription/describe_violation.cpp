@@ -58,19 +58,18 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
       }
     }
     if (2 * held <= stages) continue;
-    text += " control_bounds hold u[" + std::to_string(i) + "] (" +
-            problem.control_names()[static_cast<std::size_t>(i)] + ") at " + std::to_string(held) + " of " +
-            std::to_string(stages) + " stages.";
+    text += " bounds().u holds u[" + std::to_string(i) + "] (" + problem.control_names()[static_cast<std::size_t>(i)] +
+            ") at " + std::to_string(held) + " of " + std::to_string(stages) + " stages.";
   }
   return text;
 }
 
 std::string held_horizon(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   if (!transcription.has_free_horizon()) return "";
-  const HorizonBounds bounds = problem.horizon_bounds();
+  const HorizonBounds bounds = problem.bounds().horizon;
   const double horizon = transcription.horizon(x);
-  if (is_held(horizon, bounds.lower)) return " horizon_bounds hold T at its lower bound.";
-  if (is_held(horizon, bounds.upper)) return " horizon_bounds hold T at its upper bound.";
+  if (is_held(horizon, bounds.lower)) return " bounds().horizon holds T at its lower bound.";
+  if (is_held(horizon, bounds.upper)) return " bounds().horizon holds T at its upper bound.";
   return "";
 }
 

@@ -53,11 +53,12 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   rules.node_state = node_state;
   rules.cost_scale = problem.cost_scale();
   rules.mayer = mayer;
-  rules.free_horizon = problem.horizon_bounds().is_free();
-  rules.first_clamped = problem.initial_bounds().all_fixed();
+  const ProblemBounds bounds = problem.bounds();
+  rules.free_horizon = bounds.horizon.is_free();
+  rules.first_clamped = bounds.first.all_fixed();
   // With a free horizon the momentum of a given velocity may depend on T.
   const bool moves = rules.free_horizon && traced.momentum_depends_on_time() && node_state != NodeState::velocity;
-  rules.last_clamped = problem.final_bounds().all_fixed() && !moves;
+  rules.last_clamped = bounds.last.all_fixed() && !moves;
   return rules;
 }
 

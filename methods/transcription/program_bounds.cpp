@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/program/nonlinear_program.hpp"
@@ -16,22 +18,14 @@ void require_inside(double value, double lower, double upper, const std::string&
   // Ends are computed numbers: a value may miss its own bound by rounding.
   const double slack = 1e-12 * std::max(1.0, std::abs(value));
   if (value >= lower - slack && value <= upper + slack) return;
-  throw Error(what + " is " + std::to_string(value) + ", outside its bounds " + std::to_string(lower) + " and " +
-              std::to_string(upper));
-}
-
-/// "what: q[1]".
-std::string named_entry(std::string what, char part, Eigen::Index i) {
-  what.append(": ").append(1, part).append("[").append(std::to_string(i)).append("]");
-  return what;
+  throw Error(fmt::format("{} is {:g}, outside its bounds {:g} and {:g}", what, value, lower, upper));
 }
 
 void require_state(const BoundaryState& state, const Problem& problem, const char* name) {
   const std::string what = problem.name() + ": the boundary state " + name;
   for (const Eigen::VectorXd* part : {&state.q, &state.v}) {
     if (part->size() != problem.configuration_size()) {
-      throw Error(what + " has " + std::to_string(part->size()) + " entries, expected " +
-                  std::to_string(problem.configuration_size()));
+      throw Error(fmt::format("{} has {} entries, expected {}", what, part->size(), problem.configuration_size()));
     }
     if (!part->allFinite()) throw Error(what + " is not finite");
   }
@@ -41,37 +35,31 @@ void require_state_inside(const BoundaryState& state, const EndBounds& bounds, c
                           const char* name) {
   const std::string what = problem.name() + ": the boundary state " + name;
   for (Eigen::Index i = 0; i < state.q.size(); ++i) {
-    require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], named_entry(what, 'q', i));
-    require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], named_entry(what, 'v', i));
+    require_inside(state.q[i], bounds.q.lower[i], bounds.q.upper[i], fmt::format("{}: q[{}]", what, i));
+    require_inside(state.v[i], bounds.v.lower[i], bounds.v.upper[i], fmt::format("{}: v[{}]", what, i));
   }
 }
 
-EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, const Problem& problem, const char* name) {
-  const Eigen::Index n = problem.configuration_size();
-  const std::string what = problem.name() + ": " + name;
-  if (end.q.empty() || end.v.empty()) throw Error(what + " need " + std::to_string(n) + " entries each for q and v");
-  EndBounds checked{checked_bounds(end.q, n, what + " of q"), checked_bounds(end.v, n, what + " of v")};
+EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, Eigen::Index n, const std::string& what) {
+  if (end.q.empty() || end.v.empty()) throw Error(fmt::format("{} needs {} entries each for q and v", what, n));
+  EndBounds checked{checked_bounds(end.q, n, what + ".q"), checked_bounds(end.v, n, what + ".v")};
   for (Eigen::Index i = 0; i < n; ++i) {
     const double lower = std::max(checked.q.lower[i], everywhere.lower[i]);
     const double upper = std::min(checked.q.upper[i], everywhere.upper[i]);
-    if (lower > upper) {
-      throw Error(what + " and configuration_bounds leave no value for q[" + std::to_string(i) + "]");
-    }
+    if (lower > upper) throw Error(fmt::format("{} and bounds().q leave no value for q[{}]", what, i));
     checked.q.lower[i] = lower;
     checked.q.upper[i] = upper;
   }
   return checked;
 }
 
-HorizonBounds checked_horizon(const Problem& problem) {
-  const HorizonBounds bounds = problem.horizon_bounds();
+void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
   if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
   if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
-    throw Error(problem.name() + ": horizon_bounds must be positive and ascend, got " + std::to_string(bounds.lower) +
-                " and " + std::to_string(bounds.upper));
+    throw Error(fmt::format("{}: bounds().horizon must be positive and ascend, got {:g} and {:g}", problem.name(),
+                            bounds.lower, bounds.upper));
   }
   require_inside(problem.horizon(), bounds.lower, bounds.upper, problem.name() + ": horizon");
-  return bounds;
 }
 
 /// Writes the bounds of columns of unknowns, or of rows.
@@ -131,26 +119,18 @@ Bounds end_momentum(bool clamped, const Eigen::VectorXd& q, const Eigen::VectorX
 
 }  // namespace
 
-std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
-  std::vector<Eigen::Index> bounded;
-  for (Eigen::Index i = 0; i < v.lower.size(); ++i) {
-    if (v.is_bounded(i)) bounded.push_back(i);
-  }
-  return bounded;
-}
-
 ProblemBounds problem_bounds(const Problem& problem) {
   const Eigen::Index n = problem.configuration_size();
-  const std::string name = problem.name() + ": ";
+  const std::string name = problem.name() + ": bounds()";
   require_state(problem.initial_state(), problem, "initial_state");
   require_state(problem.final_state(), problem, "final_state");
-  ProblemBounds bounds;
-  bounds.horizon = checked_horizon(problem);
-  bounds.q = checked_bounds(problem.configuration_bounds(), n, name + "configuration_bounds");
-  bounds.v = checked_bounds(problem.velocity_bounds(), n, name + "velocity_bounds");
-  bounds.u = checked_bounds(problem.control_bounds(), problem.control_size(), name + "control_bounds");
-  bounds.first = checked_end(problem.initial_bounds(), bounds.q, problem, "initial_bounds");
-  bounds.last = checked_end(problem.final_bounds(), bounds.q, problem, "final_bounds");
+  ProblemBounds bounds = problem.bounds();
+  require_horizon(problem, bounds.horizon);
+  bounds.q = checked_bounds(bounds.q, n, name + ".q");
+  bounds.v = checked_bounds(bounds.v, n, name + ".v");
+  bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
+  bounds.first = checked_end(bounds.first, bounds.q, n, name + ".first");
+  bounds.last = checked_end(bounds.last, bounds.q, n, name + ".last");
   require_state_inside(problem.initial_state(), bounds.first, problem, "initial_state");
   require_state_inside(problem.final_state(), bounds.last, problem, "final_state");
   return bounds;

@@ -11,22 +11,9 @@
 
 namespace dmocbench {
 
-/// Everything that a problem bounds, whole and in order.
-struct ProblemBounds {
-  EndBounds first;
-  EndBounds last;
-  HorizonBounds horizon;
-  Bounds q;  ///< at the nodes
-  Bounds v;  ///< at the stages
-  Bounds u;  ///< at the stages
-
-  /// The i whose velocity has a bound.
-  [[nodiscard]] std::vector<Eigen::Index> bounded_velocities() const;
-};
-
-/// The problem's bounds, those of the configuration also applied to both ends. Throws `Error` that names the function
-/// if a size is wrong, a bound lies below its partner, no value is left at an end, or the state or horizon that the
-/// problem states lies outside.
+/// The problem's bounds, complete (no part is empty), those of q also applied to both ends. Throws `Error` that names
+/// the function if a size is wrong, a lower bound is above the upper one, no value is left at an end, or the state or
+/// the horizon of the problem lies outside.
 [[nodiscard]] ProblemBounds problem_bounds(const Problem& problem);
 
 /// The bounds of a program, one entry per variable or row.

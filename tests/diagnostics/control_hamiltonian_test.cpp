@@ -73,7 +73,11 @@ class GrowingMomentum final : public tests::SmallProblem {
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0] + 1.0; }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override { return {0.5, 5.0}; }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    bounds.horizon = {0.5, 5.0};
+    return bounds;
+  }
 };
 
 TEST(FreeHorizonResidual, KnowsMomentaThatGrowWithTime) {

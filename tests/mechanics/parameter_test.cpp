@@ -1,9 +1,9 @@
-#include "methods/mechanics/parameter.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "methods/error.hpp"
+#include "methods/mechanics/problem.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {

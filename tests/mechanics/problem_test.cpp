@@ -21,8 +21,6 @@ class Tunable final : public Problem {
                   .upper = 9.0,
                   .whole = true}}) {}
   [[nodiscard]] std::string name() const override { return "tunable"; }
-  [[nodiscard]] std::string description() const override { return "a problem for tests"; }
-  [[nodiscard]] std::string source() const override { return "tests"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"a", "b"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"c"}; }
   [[nodiscard]] Expression lagrangian(const State& x) const override {

@@ -54,7 +54,7 @@ TEST(Acrobot, CannotBeAsCheapAsPublished) {
   // 2 · 9.81 (1.5 + 2) J are gained, of which every joule costs at least 4 · 0.1.
   Acrobot problem;
   EXPECT_NEAR(problem.energy_bound(), 0.4 * 2.0 * 9.81 * 3.5, 1e-12);
-  const auto optimum = problem.reference_optimum();
+  const auto optimum = problem.card().reference;
   ASSERT_TRUE(optimum.has_value());
   EXPECT_FALSE(optimum->published.empty());
   for (const PublishedOptimum& published : optimum->published) {
@@ -64,7 +64,7 @@ TEST(Acrobot, CannotBeAsCheapAsPublished) {
   EXPECT_NEAR(problem.energy_bound(), 0.4 * 2.0 * 9.81 * 2.5, 1e-12);
   for (const double physical : {0.0, 1.0}) {
     problem.set_parameter("physical", physical);
-    EXPECT_GT(problem.reference_optimum()->objective, problem.energy_bound());
+    EXPECT_GT(problem.card().reference->objective, problem.energy_bound());
   }
 }
 

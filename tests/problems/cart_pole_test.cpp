@@ -49,12 +49,12 @@ TEST(CartPole, BeginsAndEndsInEquilibriumAtRest) {
 
 TEST(CartPole, DropsItsBoundsByOption) {
   CartPole problem;
-  EXPECT_EQ(problem.control_bounds().upper[0], 20.0);
-  EXPECT_EQ(problem.configuration_bounds().lower[0], -2.0);
-  EXPECT_FALSE(problem.configuration_bounds().is_bounded(1));
+  EXPECT_EQ(problem.bounds().u.upper[0], 20.0);
+  EXPECT_EQ(problem.bounds().q.lower[0], -2.0);
+  EXPECT_FALSE(problem.bounds().q.is_bounded(1));
   problem.set_parameter("bounded", 0.0);
-  EXPECT_TRUE(problem.control_bounds().empty());
-  EXPECT_TRUE(problem.configuration_bounds().empty());
+  EXPECT_TRUE(problem.bounds().u.empty());
+  EXPECT_TRUE(problem.bounds().q.empty());
 }
 
 TEST(CartPole, IsSymmetricUnderTranslationsOfTheCart) {

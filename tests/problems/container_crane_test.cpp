@@ -34,7 +34,7 @@ TEST(ContainerCrane, CostsWhatItSwingsAndTheControlsByOption) {
 TEST(ContainerCrane, ComesNearItsReferenceWithinItsBounds) {
   ContainerCrane problem;
   problem.set_parameter("control_weight", 0.01);
-  const double reference = problem.reference_optimum().value().objective;
+  const double reference = problem.card().reference.value().objective;
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 1}, Grid::uniform(48), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference, 1e-2 * reference) << method;

@@ -39,7 +39,7 @@ TEST(DoubleOscillator, LosesInItsDamperWhatTheControlLeavesOpen) {
 
 TEST(DoubleOscillator, ReachesItsReferenceWithVelocitiesOfItsOwnChoice) {
   const DoubleOscillator problem;
-  const ReferenceOptimum reference = problem.reference_optimum().value();
+  const ReferenceOptimum reference = problem.card().reference.value();
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(32), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
@@ -53,7 +53,7 @@ TEST(DoubleOscillator, HasThePublishedValuesOnTheirGrids) {
   const auto cost = [&](const tests::Scheme& scheme) {
     return tests::solve(problem, scheme, Grid::uniform(200), guessed_motion(problem)).trajectory.cost;
   };
-  const std::vector<PublishedOptimum> published = problem.reference_optimum().value().published;
+  const std::vector<PublishedOptimum> published = problem.card().reference.value().published;
   EXPECT_NEAR(cost({"tangent", 1}), published.at(0).objective, 1e-9);                    // midpoint rule
   EXPECT_NEAR(cost({"tangent", 2, "lobatto_shared"}), published.at(1).objective, 1e-9);  // trapezoidal rule
 }

@@ -67,18 +67,18 @@ TEST(HangGlider, StatesItsRangeInMetres) {
   const HangGlider problem;
   EXPECT_EQ(problem.initial_state().q, Eigen::Vector2d(0.0, 10.0));
   EXPECT_EQ(problem.final_state().q[1], 9.0);
-  EXPECT_TRUE(problem.final_bounds().q.is_fixed(1));
-  EXPECT_FALSE(problem.final_bounds().q.is_fixed(0));
-  EXPECT_EQ(problem.time_unit().factor, 10.0);
+  EXPECT_TRUE(problem.bounds().last.q.is_fixed(1));
+  EXPECT_FALSE(problem.bounds().last.q.is_fixed(0));
+  EXPECT_EQ(problem.card().time_unit.factor, 10.0);
   const Trajectory found = tests::solve(problem, {"dmoc", 1}, Grid::uniform(64), guessed_motion(problem)).trajectory;
   EXPECT_NEAR(found.cost, -100.0 * found.q(64, 0), 1e-9);
-  EXPECT_NEAR(found.cost, problem.reference_optimum().value().objective, 10.0);
+  EXPECT_NEAR(found.cost, problem.card().reference.value().objective, 10.0);
 }
 
 TEST(HangGlider, FliesAsFarAsPublishedByTheMidpointRuleOnTwoHundredIntervals) {
   const HangGlider problem;
   const double found = tests::solve(problem, {"dmoc", 1}, Grid::uniform(200), guessed_motion(problem)).trajectory.cost;
-  const std::vector<PublishedOptimum> published = problem.reference_optimum().value().published;
+  const std::vector<PublishedOptimum> published = problem.card().reference.value().published;
   EXPECT_NEAR(found, published.back().objective, 1e-3);
 }
 

@@ -54,7 +54,7 @@ TEST(Hovercraft, KeepsItsAngularMomentumWithoutControls) {
 
 TEST(Hovercraft, ReachesItsReference) {
   const Hovercraft problem;
-  const ReferenceOptimum reference = problem.reference_optimum().value();
+  const ReferenceOptimum reference = problem.card().reference.value();
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;

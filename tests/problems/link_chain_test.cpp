@@ -32,7 +32,7 @@ TEST(LinkChain, OfTwoLinksIsTheTwoLinkManipulator) {
   EXPECT_EQ(chain->initial_state().v, arm.initial_state().v);
   EXPECT_EQ(chain->final_state().v, arm.final_state().v);
   EXPECT_EQ(chain->horizon(), arm.horizon());
-  EXPECT_EQ(chain->reference_optimum().value().objective, arm.reference_optimum().value().objective);
+  EXPECT_EQ(chain->card().reference.value().objective, arm.card().reference.value().objective);
 }
 
 TEST(LinkChain, HasTheEnergiesOfRodsComputedFromTheirTips) {
@@ -92,7 +92,7 @@ TEST(LinkChain, HasAKineticEnergyThatRotationsLeaveAlone) {
 TEST(LinkChain, ReachesItsReferenceFromItsFoldedGuess) {
   for (const int n : {1, 2, 3}) {
     const auto chain = chain_of(n);
-    const double reference = chain->reference_optimum().value().objective;
+    const double reference = chain->card().reference.value().objective;
     const Trajectory found = tests::solve(*chain, {"dmoc", 2}, Grid::uniform(64), guessed_motion(*chain)).trajectory;
     EXPECT_NEAR(found.cost, reference, 2e-4 * reference) << n;
   }

@@ -52,8 +52,8 @@ TEST(OrbitalTransfer, UnwrapsTheAngleOfItsRevolutions) {
 TEST(OrbitalTransfer, LastsTheHoursThatThePaperPrints) {
   // T = 2.93 h and h = 2.9e-3 h at N = 1024.
   const OrbitalTransfer problem;
-  EXPECT_EQ(problem.time_unit().name, "h");
-  const double hours = problem.horizon() * problem.time_unit().factor;
+  EXPECT_EQ(problem.card().time_unit.name, "h");
+  const double hours = problem.horizon() * problem.card().time_unit.factor;
   EXPECT_NEAR(hours, 2.93, 0.005);
   EXPECT_NEAR(hours / 1024.0, 2.9e-3, 5e-5);
 }

@@ -21,7 +21,7 @@ TEST(ParticleSteering, MeetsItsEndByTheBilinearTangentLaw) {
   ParticleSteering problem;
   for (const double height : {2.0, 5.0, 8.0}) {
     problem.set_parameter("height", height);
-    const double horizon = problem.reference_optimum()->objective;
+    const double horizon = problem.card().reference->objective;
     const double c = problem.initial_tangent();
     using State = std::array<double, 3>;  // y, ẋ, ẏ
     State state{0.0, 0.0, 0.0};
@@ -41,7 +41,7 @@ TEST(ParticleSteering, MeetsItsEndByTheBilinearTangentLaw) {
 }
 
 TEST(ParticleSteering, TakesTheTimeThatIsPublishedToTheirDigits) {
-  const auto optimum = ParticleSteering().reference_optimum();
+  const auto optimum = ParticleSteering().card().reference;
   EXPECT_NEAR(optimum->objective, 0.554570878334603, 1e-14);
   for (const PublishedOptimum& published : optimum->published) {
     EXPECT_NEAR(published.objective, optimum->objective, 1e-5) << published.source;
@@ -50,12 +50,12 @@ TEST(ParticleSteering, TakesTheTimeThatIsPublishedToTheirDigits) {
 
 TEST(ParticleSteering, LeavesTheWayOpenAndTheTimeFree) {
   const ParticleSteering problem;
-  EXPECT_FALSE(problem.final_bounds().q.is_bounded(0));
-  EXPECT_TRUE(problem.final_bounds().q.is_fixed(1));
-  EXPECT_TRUE(problem.final_bounds().v.all_fixed());
-  EXPECT_TRUE(problem.horizon_bounds().is_free());
+  EXPECT_FALSE(problem.bounds().last.q.is_bounded(0));
+  EXPECT_TRUE(problem.bounds().last.q.is_fixed(1));
+  EXPECT_TRUE(problem.bounds().last.v.all_fixed());
+  EXPECT_TRUE(problem.bounds().horizon.is_free());
   // The bound on the direction is not what decides: u(0) = 0.953.
-  EXPECT_LT(std::atan(problem.initial_tangent()), problem.control_bounds().upper[0]);
+  EXPECT_LT(std::atan(problem.initial_tangent()), problem.bounds().u.upper[0]);
   EXPECT_NEAR(std::atan(problem.initial_tangent()), 0.953409756443994, 1e-12);
 }
 

@@ -33,10 +33,10 @@ TEST(PlanarQuadrotor, HoversUnderItsGuessedThrust) {
 
 TEST(PlanarQuadrotor, MayPushUpOnlyAndToTheWeightByOption) {
   PlanarQuadrotor problem;
-  EXPECT_TRUE(problem.control_bounds().empty());
+  EXPECT_TRUE(problem.bounds().u.empty());
   problem.set_parameter("bounded", 1.0);
-  EXPECT_EQ(problem.control_bounds().lower, Eigen::Vector2d::Zero());
-  EXPECT_NEAR(problem.control_bounds().upper[1], 0.486 * 9.81, 1e-15);
+  EXPECT_EQ(problem.bounds().u.lower, Eigen::Vector2d::Zero());
+  EXPECT_NEAR(problem.bounds().u.upper[1], 0.486 * 9.81, 1e-15);
 }
 
 TEST(PlanarQuadrotor, IsSymmetricUnderHorizontalTranslations) {

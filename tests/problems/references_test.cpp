@@ -27,7 +27,7 @@ class StatedReference : public testing::TestWithParam<Instance> {};
 TEST_P(StatedReference, IsWhatGaussWithThreeStagesFinds) {
   const auto problem = make_problem(GetParam().problem);
   for (const auto& [name, value] : GetParam().settings) problem->set_parameter(name, value);
-  const auto reference = problem->reference_optimum();
+  const auto reference = problem->card().reference;
   ASSERT_TRUE(reference.has_value());
   const double cost = tests::solve(*problem, {"dmoc", 3}, Grid::uniform(GetParam().intervals), guessed_motion(*problem))
                           .trajectory.cost;
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(References, SayHowTheyAreKnown) {
   for (const std::string& name : problem_names()) {
-    const auto reference = make_problem(name)->reference_optimum();
+    const auto reference = make_problem(name)->card().reference;
     if (!reference) continue;
     EXPECT_TRUE(std::isfinite(reference->objective)) << name;
     EXPECT_GE(reference->digits, 1) << name;

@@ -32,12 +32,12 @@ TEST(Problems, UnknownNamesListTheKnownOnes) {
 TEST(Problems, SayWhatTheyAreAndWhereTheyComeFrom) {
   for (const std::string& name : problem_names()) {
     const auto problem = make_problem(name);
-    EXPECT_FALSE(problem->description().empty());
-    EXPECT_FALSE(problem->source().empty());
-    EXPECT_FALSE(problem->guess_description().empty());
+    EXPECT_FALSE(problem->card().description.empty());
+    EXPECT_FALSE(problem->card().source.empty());
+    EXPECT_FALSE(problem->card().guess.empty());
     EXPECT_GT(problem->horizon(), 0.0);
     EXPECT_GT(problem->cost_scale(), 0.0);
-    EXPECT_GT(problem->time_unit().factor, 0.0);
+    EXPECT_GT(problem->card().time_unit.factor, 0.0);
     std::set<std::string> parameters;
     for (const Parameter& parameter : problem->parameters()) {
       EXPECT_TRUE(parameters.insert(parameter.name).second) << parameter.name;

@@ -70,14 +70,14 @@ TEST(SphericalPendulum, DoesNotKnowItsAzimuth) {
 
 TEST(SphericalPendulum, ReachesItsReference) {
   const SphericalPendulum problem;
-  const ReferenceOptimum reference = problem.reference_optimum().value();
+  const ReferenceOptimum reference = problem.card().reference.value();
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
   }
 }
 
-TEST(SphericalPendulum, HasNoReferenceForOtherData) { EXPECT_FALSE(heavy()->reference_optimum().has_value()); }
+TEST(SphericalPendulum, HasNoReferenceForOtherData) { EXPECT_FALSE(heavy()->card().reference.has_value()); }
 
 }  // namespace
 }  // namespace dmocbench

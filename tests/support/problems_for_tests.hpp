@@ -14,8 +14,6 @@ namespace dmocbench::tests {
 class SmallProblem : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::string description() const override { return "a problem for tests"; }
-  [[nodiscard]] std::string source() const override { return "tests"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return numbered("q", first_.q.size()); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("u", controls_); }
   [[nodiscard]] BoundaryState initial_state() const override { return first_; }
@@ -155,8 +153,6 @@ class WithEnds : public Problem {
   WithEnds(const Problem& base, BoundaryState first, BoundaryState last)
       : base_(base), first_(std::move(first)), last_(std::move(last)) {}
   [[nodiscard]] std::string name() const override { return base_.name(); }
-  [[nodiscard]] std::string description() const override { return base_.description(); }
-  [[nodiscard]] std::string source() const override { return base_.source(); }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }

@@ -10,13 +10,7 @@ namespace dmocbench::tests {
 /// Another problem with some of what it prescribes said in another way; `state` changes what is to be changed.
 class Restated final : public Problem {
  public:
-  struct Statement {
-    EndBounds first;
-    EndBounds last;
-    HorizonBounds horizon;
-    Bounds q;
-    Bounds v;
-    Bounds u;
+  struct Statement : ProblemBounds {
     std::function<ExpressionVector(const ControlledState&)> path;
     std::function<ExpressionVector(const State&, const State&)> conditions;
     std::function<Expression(const State&)> final_cost;
@@ -24,14 +18,13 @@ class Restated final : public Problem {
   };
 
   explicit Restated(const Problem& base, const std::function<void(Statement&)>& state) : base_(base) {
-    statement_.first = base.initial_bounds();
-    statement_.last = base.final_bounds();
-    statement_.horizon = base.horizon_bounds();
+    const ProblemBounds bounds = base.bounds();
+    statement_.first = bounds.first;
+    statement_.last = bounds.last;
+    statement_.horizon = bounds.horizon;
     state(statement_);
   }
   [[nodiscard]] std::string name() const override { return base_.name(); }
-  [[nodiscard]] std::string description() const override { return base_.description(); }
-  [[nodiscard]] std::string source() const override { return base_.source(); }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_.configuration_names(); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return base_.control_names(); }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return base_.lagrangian(x); }
@@ -42,12 +35,7 @@ class Restated final : public Problem {
   [[nodiscard]] BoundaryState initial_state() const override { return base_.initial_state(); }
   [[nodiscard]] BoundaryState final_state() const override { return base_.final_state(); }
   [[nodiscard]] double horizon() const override { return base_.horizon(); }
-  [[nodiscard]] EndBounds initial_bounds() const override { return statement_.first; }
-  [[nodiscard]] EndBounds final_bounds() const override { return statement_.last; }
-  [[nodiscard]] HorizonBounds horizon_bounds() const override { return statement_.horizon; }
-  [[nodiscard]] Bounds configuration_bounds() const override { return statement_.q; }
-  [[nodiscard]] Bounds velocity_bounds() const override { return statement_.v; }
-  [[nodiscard]] Bounds control_bounds() const override { return statement_.u; }
+  [[nodiscard]] ProblemBounds bounds() const override { return statement_; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return statement_.path ? statement_.path(x) : ExpressionVector();
   }

@@ -69,7 +69,7 @@ TEST_P(ViolationInWords, UnreachableFinalStateIsNamedWithTheBoundsThatHold) {
   EXPECT_PRED2(says, words, "Missed most is ");
   EXPECT_PRED2(says, words, " of q[0] (q1) ");
   EXPECT_PRED2(says, words, "(t = ");
-  EXPECT_PRED2(says, words, "control_bounds hold u[0] (u1) at ");
+  EXPECT_PRED2(says, words, "bounds().u holds u[0] (u1) at ");
   EXPECT_PRED2(says, words, "No motion near this one meets final_state within the bounds and the horizon.");
   const std::size_t by = words.find(", by ");
   ASSERT_NE(by, std::string::npos);
@@ -91,7 +91,7 @@ TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
   const Restated velocity(base, [](Statement& s) {
     s.v = Bounds{Eigen::Vector2d(-tests::infinity, 100.0), Eigen::Vector2d(tests::infinity, 200.0)};
   });
-  EXPECT_PRED2(says, Ended(velocity, GetParam()).words(), "velocity_bounds: the velocity of q[1] (q2) in interval ");
+  EXPECT_PRED2(says, Ended(velocity, GetParam()).words(), "bounds().v: the velocity of q[1] (q2) in interval ");
 
   const Restated conditions(base, [](Statement& s) {
     s.last = tests::free_end(2);
@@ -108,7 +108,7 @@ TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
   });
   Ended pushed(bounded, GetParam());
   pushed.control(1, 3) = -1e6;
-  EXPECT_PRED2(says, pushed.words(), "control_bounds: u[1] (u2) in interval 3 (");
+  EXPECT_PRED2(says, pushed.words(), "bounds().u: u[1] (u2) in interval 3 (");
 }
 
 TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
@@ -130,7 +130,7 @@ TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
     EXPECT_PRED2(says, words, place_in_words(structure.rows[i]));
     all.insert(words);
   }
-  for (const char* kind : {"the Euler-Lagrange equation of q[1] (q2)", "velocity_bounds: the velocity of q[1] (q2)",
+  for (const char* kind : {"the Euler-Lagrange equation of q[1] (q2)", "bounds().v: the velocity of q[1] (q2)",
                            "path_constraints[0]", "path_constraints[1]", "boundary_conditions[0]"}) {
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const std::string& words) { return says(words, kind); }))
         << kind;

@@ -223,18 +223,16 @@ TEST(ProblemClassRefusals, NameTheFunctionAndTheQuantity) {
     const Restated problem(base, change);
     return tests::sentence_of_error([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
   };
-  EXPECT_NE(
-      sentence([](Statement& s) { s.u = all_between(1, 2.0, 1.0); }).find("control_bounds: entry 0 has the lower"),
-      std::string::npos);
-  EXPECT_NE(sentence([](Statement& s) { s.v = all_between(2, -1.0, 1.0); }).find("velocity_bounds have 2 entries"),
+  EXPECT_NE(sentence([](Statement& s) { s.u = all_between(1, 2.0, 1.0); }).find("bounds().u: entry 0 has the lower"),
             std::string::npos);
-  EXPECT_NE(
-      sentence([](Statement& s) { s.q = all_between(1, -1.0, 0.5); }).find("final_bounds and configuration_bounds"),
-      std::string::npos);
+  EXPECT_NE(sentence([](Statement& s) { s.v = all_between(2, -1.0, 1.0); }).find("bounds().v has 2 entries"),
+            std::string::npos);
+  EXPECT_NE(sentence([](Statement& s) { s.q = all_between(1, -1.0, 0.5); }).find("bounds().last and bounds().q"),
+            std::string::npos);
   EXPECT_NE(sentence([](Statement& s) { s.horizon = {2.0, 3.0}; }).find("horizon is 1"), std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
               s.horizon = {-1.0, 3.0};
-            }).find("horizon_bounds must be positive"),
+            }).find("bounds().horizon must be positive"),
             std::string::npos);
 }
 

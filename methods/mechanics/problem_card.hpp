@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/mechanics/state.hpp"
+
+namespace dmocbench {
+
+/// A unit that tables and figures use: one unit of the problem as solved is `factor` times the unit `name`.
+struct Unit {
+  std::string name;
+  double factor = 1.0;
+};
+
+/// A published value of a problem's least cost.
+struct PublishedOptimum {
+  double objective = 0.0;
+  std::string source;
+};
+
+/// What is known of a problem's least cost: a closed form, or a number on which independent methods agree.
+struct ReferenceOptimum {
+  double objective = 0.0;
+  /// Significant digits of `objective` that are certain; 16 for a closed form.
+  int digits = 0;
+  /// How it is known: "closed form", or which independent routes agree to that many digits.
+  std::string certificate = {};
+  std::vector<PublishedOptimum> published = {};
+  /// Where the published values differ from `objective`, and why; empty if they do not.
+  std::string remark = {};
+};
+
+/// What people want to know about a problem besides its mathematics: words, units and a reference. No solver reads it.
+struct ProblemCard {
+  std::string description = {};  ///< one line
+  std::string source = {};       ///< where the problem comes from
+  /// `Problem::guess` in words.
+  std::string guess = "q on the straight line from q(0) to q(T), v its slope, u = 0";
+  /// The unit of time that tables use for the step and figures for the time axis.
+  Unit time_unit = {"s", 1.0};
+  /// The least cost as far as it is known, for the parameters as they are set.
+  std::optional<ReferenceOptimum> reference = {};
+};
+
+/// A quantity that a picture of the motion shows, e.g. the position of a tip.
+struct PictureQuantity {
+  std::string name;  ///< a column's name, "tip_x"
+  std::string unit;  ///< "km", "" for a pure number
+  Expression value;
+};
+
+}  // namespace dmocbench
