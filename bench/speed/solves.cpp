@@ -38,11 +38,17 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
   static constexpr const char* own_name = "two_link_manipulator_bounded";
 
   [[nodiscard]] std::string name() const override { return own_name; }
-  [[nodiscard]] Bounds control_bounds() const override {
+  [[nodiscard]] ProblemBounds bounds() const override {
     constexpr double largest_torque = 16.0;
-    return {Eigen::Vector2d::Constant(-largest_torque), Eigen::Vector2d::Constant(largest_torque)};
+    ProblemBounds bounds = TwoLinkManipulator::bounds();
+    bounds.u = Bounds::all(2, -largest_torque, largest_torque);
+    return bounds;
   }
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const override { return std::nullopt; }
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = TwoLinkManipulator::card();
+    card.reference.reset();
+    return card;
+  }
 };
 
 /// How much memory of this process was in use at most since the object was made, beyond what was then; Linux tells.
