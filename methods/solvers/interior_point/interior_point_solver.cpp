@@ -91,18 +91,17 @@ class InteriorPointRun {
   [[nodiscard]] std::optional<Status> iterate() {
     const BarrierBounds& bounds = program_.bounds();
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
-    // E_0 <= ε, (5) and (6).
+    // Stop where E_0 <= ε, (5) and (6).
     if (has_converged(errors)) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
-    // (7), as long as E_μ <= κ_ε μ.
+    // Lower μ while E_μ <= κ_ε μ, (7).
     update_barrier_parameter(errors);
     ++iterations_;
-    // (13), with the shift of Algorithm IC.
+    // The Newton step (13), its Hessian shifted by Algorithm IC until the inertia is right.
     program_.evaluate_hessian(at_);
-    bool is_accepted = newton_.compute(at_, mu_, gradient_, values_.constraints, step_);
-    if (is_accepted) {
-      // from α_max, (15a), until filter and decrease accept the point or α < α_min, (23).
-      const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
+    bool is_accepted = false;
+    if (newton_.compute(at_, mu_, gradient_, values_.constraints, step_)) {
+      // From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
       const double derivative = newton_.directional_derivative(at_, mu_, step_);
       const double alpha_min = smallest_length(derivative);
       double alpha = bounds.fraction_to_boundary(at_, step_, tau());
@@ -111,14 +110,15 @@ class InteriorPointRun {
         alpha *= 0.5;
         is_accepted = try_step(step_, alpha, derivative, alpha);
       }
-      // (14b); (14c) with α_z of (15b), and (16).
+      length_ = alpha;
+      // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
+        const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
         bounds.update_multipliers(step_, alpha_z, mu_, at_);
-        length_ = alpha;
       }
     }
-    //
+    // Restore feasibility where no step is acceptable.
     if (!is_accepted) {
       if (const auto reason = restoration_phase()) return reason;
     }
