@@ -32,9 +32,12 @@ std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program
   const Factorisation choice = choices.factorisation;
   if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
   if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
-  auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
-  if (!by_intervals) return nullptr;
-  return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(by_intervals));
+  auto by_intervals = interior_point::IntervalKkt::make(program);
+  if (!by_intervals) {
+    why = by_intervals.error();
+    return nullptr;
+  }
+  return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(*by_intervals));
 }
 
 }  // namespace
