@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
@@ -58,10 +59,10 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 /// Algorithm A.
 class InteriorPointRun {
  public:
-  InteriorPointRun(CountedProgram& program, const ProgramRuns& runs, KktSystem& kkt, const SolverOptions& options)
+  InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
       : uncounted_(program.uncounted()),
         options_(options),
-        program_(program, runs),
+        program_(program),
         newton_(program_, kkt),
         allowed_(program, options.tolerance) {}
 
@@ -345,17 +346,19 @@ using Factorisation = InteriorPointOptions::Factorisation;
 constexpr std::array<NamedChoice<Factorisation>, 3> factorisations{
     {{"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}}};
 
-/// Null, with the reason in `why`, where the program has no structure that intervals need.
-std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program,
-                                                       const interior_point::ProgramRuns& runs,
-                                                       const InteriorPointOptions& choices, std::string& why) {
+/// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
+tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                                  const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
-  const Factorisation choice = choices.factorisation;
-  if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
-  auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
-  if (!by_intervals) return nullptr;
-  return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(by_intervals));
+  if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
+  if (choices.factorisation == Factorisation::banded) {
+    std::string why;
+    if (auto banded = interior_point::BandedKkt::make(program, why)) return banded;
+    return tl::unexpected(why);
+  }
+  auto by_intervals = interior_point::IntervalKkt::make(program);
+  if (!by_intervals) return tl::unexpected(by_intervals.error());
+  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
 }
 
 }  // namespace
@@ -377,19 +380,17 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
     throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
                             program.constraint_count()));
   }
-  std::string why;
-  const interior_point::ProgramRuns runs(program);
-  const auto kkt = make_system(program, runs, choices_, why);
+  const auto kkt = make_system(program, choices_);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
     refused.message = fmt::format(
         "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
         "factorisation=sparse.",
-        why);
+        kkt.error());
     return refused;
   }
-  interior_point::InteriorPointRun run(program, runs, *kkt, options());
+  interior_point::InteriorPointRun run(program, **kkt, options());
   std::optional<Status> end = run.begin(start);
   while (!end) end = run.iterate();
   return run.solution(*end);
