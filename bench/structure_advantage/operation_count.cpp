@@ -57,8 +57,8 @@ OperationCount count_operations(NonlinearProgram& program, const Solution& solut
   std::string why;
   System system(program, solution);
   if (factorisation == "intervals") {
-    const auto kkt = interior_point::IntervalKkt::make(program, why, counting_segment_kernel);
-    if (kkt && system.is_solved_by(*kkt)) count.elimination = operations_of_last_sweep(program);
+    const auto kkt = interior_point::IntervalKkt::make(program, counting_segment_kernel);
+    if (kkt && system.is_solved_by(**kkt)) count.elimination = operations_of_last_sweep(program);
   } else if (factorisation == "banded") {
     const auto kkt = interior_point::BandedKkt::make(program, why);
     if (!kkt || !system.is_solved_by(*kkt)) return count;

@@ -33,13 +33,13 @@ std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
 
 }  // namespace
 
-BarrierProgram::BarrierProgram(NonlinearProgram& program, const ProgramRuns& runs)
+BarrierProgram::BarrierProgram(NonlinearProgram& program)
     : program_(program),
       inequalities_(inequalities_of(program)),
       fixed_(fixed_entries(program.variable_lower(), program.variable_upper())),
       bounds_({program.variable_lower(), program.constraint_lower()(inequalities_)},
               {program.variable_upper(), program.constraint_upper()(inequalities_)}),
-      transposed_jacobian_(MatrixProduct::transposed(runs.jacobian)) {
+      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure().runs())) {
   resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
   resize_unwritten(jacobian_, static_cast<Eigen::Index>(program.jacobian_structure().size()));
   resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));

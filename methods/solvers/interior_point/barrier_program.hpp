@@ -34,7 +34,7 @@ struct OptimalityErrors {
 /// d the distances from the bounds, with the derivatives at the last point that they were asked for.
 class BarrierProgram {
  public:
-  BarrierProgram(NonlinearProgram& program, const ProgramRuns& runs);
+  explicit BarrierProgram(NonlinearProgram& program);
 
   [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
   [[nodiscard]] const BarrierBounds& bounds() const noexcept { return bounds_; }

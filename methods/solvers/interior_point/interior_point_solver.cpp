@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
@@ -58,10 +59,10 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 /// Algorithm A.
 class InteriorPointRun {
  public:
-  InteriorPointRun(CountedProgram& program, const ProgramRuns& runs, KktSystem& kkt, const SolverOptions& options)
+  InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
       : uncounted_(program.uncounted()),
         options_(options),
-        program_(program, runs),
+        program_(program),
         newton_(program_, kkt),
         allowed_(program, options.tolerance) {}
 
@@ -91,18 +92,17 @@ class InteriorPointRun {
   [[nodiscard]] std::optional<Status> iterate() {
     const BarrierBounds& bounds = program_.bounds();
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
-    // E_0 <= ε, (5) and (6).
+    // Stop where E_0 <= ε, (5) and (6).
     if (has_converged(errors)) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
-    // (7), as long as E_μ <= κ_ε μ.
+    // Lower μ while E_μ <= κ_ε μ, (7).
     update_barrier_parameter(errors);
     ++iterations_;
-    // (13), with the shift of Algorithm IC.
+    // The Newton step (13), its Hessian shifted by Algorithm IC until the inertia is right.
     program_.evaluate_hessian(at_);
-    bool is_accepted = newton_.compute(at_, mu_, gradient_, values_.constraints, step_);
-    if (is_accepted) {
-      // from α_max, (15a), until filter and decrease accept the point or α < α_min, (23).
-      const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
+    bool is_accepted = false;
+    if (newton_.compute(at_, mu_, gradient_, values_.constraints, step_)) {
+      // From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
       const double derivative = newton_.directional_derivative(at_, mu_, step_);
       const double alpha_min = smallest_length(derivative);
       double alpha = bounds.fraction_to_boundary(at_, step_, tau());
@@ -111,14 +111,15 @@ class InteriorPointRun {
         alpha *= 0.5;
         is_accepted = try_step(step_, alpha, derivative, alpha);
       }
-      // (14b); (14c) with α_z of (15b), and (16).
+      length_ = alpha;
+      // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
+        const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
         bounds.update_multipliers(step_, alpha_z, mu_, at_);
-        length_ = alpha;
       }
     }
-    //
+    // Restore feasibility where no step is acceptable.
     if (!is_accepted) {
       if (const auto reason = restoration_phase()) return reason;
     }
@@ -345,17 +346,19 @@ using Factorisation = InteriorPointOptions::Factorisation;
 constexpr std::array<NamedChoice<Factorisation>, 3> factorisations{
     {{"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}}};
 
-/// Null, with the reason in `why`, where the program has no structure that intervals need.
-std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program,
-                                                       const interior_point::ProgramRuns& runs,
-                                                       const InteriorPointOptions& choices, std::string& why) {
+/// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
+tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                                  const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
-  const Factorisation choice = choices.factorisation;
-  if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
-  auto by_intervals = interior_point::IntervalKkt::make(program, runs, why);
-  if (!by_intervals) return nullptr;
-  return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(by_intervals));
+  if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
+  if (choices.factorisation == Factorisation::banded) {
+    std::string why;
+    if (auto banded = interior_point::BandedKkt::make(program, why)) return banded;
+    return tl::unexpected(why);
+  }
+  auto by_intervals = interior_point::IntervalKkt::make(program);
+  if (!by_intervals) return tl::unexpected(by_intervals.error());
+  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
 }
 
 }  // namespace
@@ -377,19 +380,17 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
     throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
                             program.constraint_count()));
   }
-  std::string why;
-  const interior_point::ProgramRuns runs(program);
-  const auto kkt = make_system(program, runs, choices_, why);
+  const auto kkt = make_system(program, choices_);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
     refused.message = fmt::format(
         "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
         "factorisation=sparse.",
-        why);
+        kkt.error());
     return refused;
   }
-  interior_point::InteriorPointRun run(program, runs, *kkt, options());
+  interior_point::InteriorPointRun run(program, **kkt, options());
   std::optional<Status> end = run.begin(start);
   while (!end) end = run.iterate();
   return run.solution(*end);

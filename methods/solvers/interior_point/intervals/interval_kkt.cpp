@@ -17,15 +17,14 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-std::unique_ptr<IntervalKkt> IntervalKkt::make(const NonlinearProgram& program, const ProgramRuns& runs,
-                                               std::string& why, SegmentKernelChoice choose) {
-  auto entries = interval_entries(program, runs, why);
-  if (!entries) return nullptr;
+tl::expected<std::unique_ptr<IntervalKkt>, std::string> IntervalKkt::make(const NonlinearProgram& program,
+                                                                          SegmentKernelChoice choose) {
+  auto entries = interval_entries(program);
+  if (!entries) return tl::unexpected(std::move(entries).error());
   try {
     return std::make_unique<IntervalKkt>(program, std::move(*entries), choose);
   } catch (const Error& error) {
-    why = error.what();
-    return nullptr;
+    return tl::unexpected(std::string(error.what()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
@@ -22,14 +23,9 @@ namespace dmocbench::interior_point {
 /// linearly with their number; README.md tells how.
 class IntervalKkt : public KktSystem {
  public:
-  /// Null, with the reason in `why`, for a program whose structure does not allow it (interval_entries.hpp).
-  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, const ProgramRuns& runs,
-                                                         std::string& why,
-                                                         SegmentKernelChoice choose = segment_kernel_for);
-  [[nodiscard]] static std::unique_ptr<IntervalKkt> make(const NonlinearProgram& program, std::string& why,
-                                                         SegmentKernelChoice choose = segment_kernel_for) {
-    return make(program, ProgramRuns(program), why, choose);
-  }
+  /// The reason instead for a program whose structure does not allow it (interval_entries.hpp).
+  [[nodiscard]] static tl::expected<std::unique_ptr<IntervalKkt>, std::string> make(
+      const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
