@@ -1,6 +1,5 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -22,11 +21,6 @@ namespace {
 
 using Factorisation = InteriorPointOptions::Factorisation;
 
-constexpr std::array<NamedChoice<Factorisation>, 4> factorisations{{{"intervals", Factorisation::intervals},
-                                                                    {"recombined", Factorisation::recombined},
-                                                                    {"banded", Factorisation::banded},
-                                                                    {"sparse", Factorisation::sparse}}};
-
 /// Null, with the reason in `why`, where the program has no structure that intervals need.
 std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program,
                                                        const interior_point::ProgramRuns& runs,
@@ -45,9 +39,12 @@ std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program
 
 InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
     : Solver(std::move(options)), choices_(std::move(choices)) {
-  NamedOptions named("interior_point", this->options().passed_on);
-  named.read("factorisation", choices_.factorisation, factorisations);
-  named.refuse_others();
+  read_named_options("interior_point", this->options().passed_on,
+                     {named_option("factorisation", choices_.factorisation,
+                                   {{"intervals", Factorisation::intervals},
+                                    {"recombined", Factorisation::recombined},
+                                    {"banded", Factorisation::banded},
+                                    {"sparse", Factorisation::sparse}})});
 }
 
 std::string InteriorPointSolver::description() const {
