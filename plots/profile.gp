@@ -43,7 +43,8 @@ do for [i = 1:count] { eval sprintf("set linetype %d %s pointtype %d pointsize 0
 
 # --- Performance profiles --------------------------------------------------------------------------------------------
 measures = "seconds evaluations major_iterations"
-measure_labels = "'time of the solver' 'evaluations' 'major iterations'"
+# An evaluation is a call for the objective, the constraints or one of their derivatives, counted alike for all solvers.
+measure_labels = "'time of the solver' 'evaluations (values and derivatives)' 'major iterations'"
 profile_rows(i, measure) = rows("profile_profiles", where_of(i).",measure=".measure, "")
 fine_ratios = "set xtics (1, 1.5, 2, 3, 5, 10, 15, 20)"
 coarse_ratios = "set xtics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)"

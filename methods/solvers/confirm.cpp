@@ -9,13 +9,13 @@
 
 namespace dmocbench {
 
-Status judged(Status claim, double scaled_residual) {
-  if (scaled_residual <= confirmation_factor) return Status::solved;
-  const bool is_near = scaled_residual <= confirmation_factor * acceptable_factor;
+Status judged(Status claim, double residual) {
+  if (residual <= confirmation_factor) return Status::solved;
+  const bool is_near = residual <= confirmation_factor * acceptable_factor;
   return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
 }
 
-void measure(NonlinearProgram& program, Solution& solution) {
+void judge_residuals(NonlinearProgram& program, Solution& solution) {
   solution.objective = program.objective(solution.primal);
   if (static_cast<std::size_t>(solution.multipliers.size()) != program.constraint_count()) {
     solution.multipliers = least_squares_multipliers(program, solution.primal);
@@ -26,14 +26,14 @@ void measure(NonlinearProgram& program, Solution& solution) {
   solution.constraint_violation = residual.constraint_violation;
 }
 
-double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution) {
-  const StopRule allowed(program, tolerance);
+double scaled_residual(const NonlinearProgram& program, double tolerance, const Solution& solution) {
+  const StopRule tolerances(program, tolerance);
   const bool has_multipliers = solution.multipliers.size() > 0;
   const double mean =
       has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
   const double largest = has_multipliers ? solution.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  const double stationarity = solution.kkt_residual.value_or(unbounded) / allowed.stationarity(mean, largest);
-  const double violation = solution.constraint_violation.value_or(unbounded) / allowed.violation();
+  const double stationarity = solution.kkt_residual.value_or(unbounded) / tolerances.stationarity(mean, largest);
+  const double violation = solution.constraint_violation.value_or(unbounded) / tolerances.violation();
   return std::isnan(stationarity) ? stationarity
          : std::isnan(violation)  ? violation
                                   : std::max(stationarity, violation);
@@ -46,10 +46,10 @@ void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
     solution.message = sentence_of(solution.status);
     return;
   }
-  measure(program, solution);
+  judge_residuals(program, solution);
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
-  solution.status = judged(solution.status, times_the_tolerance(program, tolerance, solution));
+  solution.status = judged(solution.status, scaled_residual(program, tolerance, solution));
   solution.message = sentence_of(solution.status);
 }
 

@@ -5,32 +5,29 @@
 
 namespace dmocbench {
 
-/// Fills in what we compute ourselves at `solution.primal`: objective, KKT residual, constraint violation; and, where
-/// the solver gave no multipliers, their least-squares estimate, so that its point is judged like everyone's.
-/// The point has variable_count() entries.
-void measure(NonlinearProgram& program, Solution& solution);
+/// Computes the objective, KKT residual and constraint violation at `solution.primal` (variable_count() entries); where
+/// the solver gave no multipliers, also their least-squares estimate, so that every point is judged alike.
+void judge_residuals(NonlinearProgram& program, Solution& solution);
 
-/// How many times what `tolerance` allows a measured solution misses, NaN if it is not a number, infinity if it was not
-/// measured.
+/// The larger of KKT residual and constraint violation, each divided by what `StopRule` allows it at this tolerance: at
+/// most 1 where a solver may stop. Infinity if the residuals have not been computed, NaN if one of them is NaN. The
+/// mean multiplier of the rule is that of the constraints, since those of bounds are not known.
+[[nodiscard]] double scaled_residual(const NonlinearProgram& program, double tolerance, const Solution& solution);
+
+/// What becomes of the claim "solved" or "acceptable" at this scaled residual.
 ///
-/// `StopRule` says what is allowed; its mean is that of the multipliers of rows, for those of bounds are not known.
-[[nodiscard]] double times_the_tolerance(const NonlinearProgram& program, double tolerance, const Solution& solution);
+/// "Solved" if it is at most `confirmation_factor`; an "acceptable" one stays so up to `acceptable_factor` times that;
+/// all else is "not confirmed".
+[[nodiscard]] Status judged(Status claim, double residual);
 
-/// What becomes of the claim "solved" or "acceptable" of a solution that misses by that many times the tolerance; see
-/// `confirm`.
-[[nodiscard]] Status judged(Status claim, double scaled_residual);
-
-/// Measures a solution and judges the solver's word.
-///
-/// It is confirmed as "solved" if it misses by at most `confirmation_factor` times the tolerance (see above).
-/// "Acceptable" becomes "solved" by the same test, and "solved" becomes "not confirmed" where it fails; so does
-/// "acceptable" beyond a hundred times what confirms.
+/// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
+/// without a point, unless it claims to be solved. The message says what the judgement was.
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 
-/// How much larger than the tolerance our residual may be: ours is the plain largest entry, solvers scale theirs.
+/// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
 inline constexpr double confirmation_factor = 10.0;
 
-/// How much farther than a solved one an acceptable solution may be.
+/// How much larger the residual of an acceptable solution may be than that of a solved one.
 inline constexpr double acceptable_factor = 100.0;
 
 }  // namespace dmocbench

@@ -16,6 +16,9 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <map>
+
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/solvers/counted_program.hpp"
@@ -45,15 +48,15 @@ class Magnitudes {
   double mean = 0.0;
 };
 
-/// Whether an iterate of Ipopt fulfils our rule. Ipopt's own test knows nothing of rounding: on long grids it would go
-/// on where other solvers stop.
-bool fulfils(const StopRule& tolerances, const Ipopt::IteratesVector& at,
-             Ipopt::IpoptCalculatedQuantities& quantities) {
+/// Whether an iterate of Ipopt meets our stopping rule. Ipopt's own test ignores rounding, so that on long grids it
+/// would go on where other solvers stop.
+bool meets(const StopRule& tolerances, const Ipopt::IteratesVector& at, Ipopt::IpoptCalculatedQuantities& quantities) {
   if (quantities.curr_primal_infeasibility(Ipopt::NORM_MAX) > tolerances.violation()) return false;
-  const Magnitudes of_rows({at.y_c(), at.y_d()});
+  const Magnitudes of_constraints({at.y_c(), at.y_d()});
   const Magnitudes of_bounds({at.z_L(), at.z_U(), at.v_L(), at.v_U()});
   const Magnitudes all({at.y_c(), at.y_d(), at.z_L(), at.z_U(), at.v_L(), at.v_U()});
-  return quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <= tolerances.stationarity(all.mean, of_rows.largest) &&
+  return quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <=
+             tolerances.stationarity(all.mean, of_constraints.largest) &&
          quantities.curr_complementarity(0.0, Ipopt::NORM_MAX) <= tolerances.complementarity(of_bounds.mean);
 }
 
@@ -69,7 +72,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
         tolerances_(program, options.tolerance),
         has_rule_of_its_own_(options.passed_on.contains("tol")) {}
 
-  /// Whether Ipopt was told to stop because its point fulfils our rule.
+  /// Whether Ipopt was told to stop because its point meets our rule.
   [[nodiscard]] bool has_converged() const { return has_converged_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
@@ -130,7 +133,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities* quantities) override {
     solution_.major_iterations = static_cast<int>(iteration);
     has_converged_ = !has_rule_of_its_own_ && mode == Ipopt::RegularMode && data != nullptr && quantities != nullptr &&
-                     fulfils(tolerances_, *data->curr(), *quantities);
+                     meets(tolerances_, *data->curr(), *quantities);
     if (has_converged_) return false;
     return !(options_.stop_requested && options_.stop_requested());
   }
@@ -164,37 +167,26 @@ class ProgramForIpopt final : public Ipopt::TNLP {
 };
 
 Status status_of(Ipopt::ApplicationReturnStatus status) {
-  switch (status) {
-    case Ipopt::Solve_Succeeded:
-    case Ipopt::Feasible_Point_Found:
-      return Status::solved;
-    case Ipopt::Solved_To_Acceptable_Level:
-      return Status::acceptable;
-    case Ipopt::Infeasible_Problem_Detected:
-      return Status::infeasible;
-    case Ipopt::Search_Direction_Becomes_Too_Small:
-    case Ipopt::Restoration_Failed:
-    case Ipopt::Error_In_Step_Computation:
-      return Status::step_failed;
-    case Ipopt::Diverging_Iterates:
-      return Status::diverged;
-    case Ipopt::User_Requested_Stop:
-      return Status::interrupted;
-    case Ipopt::Maximum_Iterations_Exceeded:
-      return Status::iteration_limit;
-    case Ipopt::Maximum_CpuTime_Exceeded:
-      return Status::time_limit;
-    case Ipopt::Not_Enough_Degrees_Of_Freedom:
-    case Ipopt::Invalid_Problem_Definition:
-    case Ipopt::Invalid_Option:
-      return Status::invalid_program;
-    case Ipopt::Invalid_Number_Detected:
-      return Status::evaluation_failed;
-    case Ipopt::Insufficient_Memory:
-      return Status::out_of_memory;
-    default:
-      return Status::solver_error;  // exceptions and internal errors; later versions add codes
-  }
+  static const std::map<Ipopt::ApplicationReturnStatus, Status> meanings{
+      {Ipopt::Solve_Succeeded, Status::solved},
+      {Ipopt::Feasible_Point_Found, Status::solved},
+      {Ipopt::Solved_To_Acceptable_Level, Status::acceptable},
+      {Ipopt::Infeasible_Problem_Detected, Status::infeasible},
+      {Ipopt::Search_Direction_Becomes_Too_Small, Status::step_failed},
+      {Ipopt::Restoration_Failed, Status::step_failed},
+      {Ipopt::Error_In_Step_Computation, Status::step_failed},
+      {Ipopt::Diverging_Iterates, Status::diverged},
+      {Ipopt::User_Requested_Stop, Status::interrupted},
+      {Ipopt::Maximum_Iterations_Exceeded, Status::iteration_limit},
+      {Ipopt::Maximum_CpuTime_Exceeded, Status::time_limit},
+      {Ipopt::Not_Enough_Degrees_Of_Freedom, Status::invalid_program},
+      {Ipopt::Invalid_Problem_Definition, Status::invalid_program},
+      {Ipopt::Invalid_Option, Status::invalid_program},
+      {Ipopt::Invalid_Number_Detected, Status::evaluation_failed},
+      {Ipopt::Insufficient_Memory, Status::out_of_memory},
+  };
+  const auto found = meanings.find(status);
+  return found != meanings.end() ? found->second : Status::solver_error;  // exceptions and internal errors
 }
 
 /// Sets an option whose type only Ipopt knows: as an integer, a number or a string, whichever it takes.
@@ -207,7 +199,7 @@ void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::strin
   const auto as_number = std::from_chars(value.data(), end, number);
   if (as_number.ec == std::errc() && as_number.ptr == end && list.SetNumericValue(name, number)) return;
   if (list.SetStringValue(name, value)) return;
-  throw Error("Ipopt does not take the option " + name + "=" + value);
+  throw Error(fmt::format("Ipopt does not take the option {}={}", name, value));
 }
 
 void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options) {
@@ -239,6 +231,7 @@ Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start)
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw Error("Ipopt refuses one of the options passed on to it");
   }
+  program.restart_clock();
   const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options(), solution);
   const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
   solution.status = for_ipopt->has_converged() ? Status::solved : status_of(status);

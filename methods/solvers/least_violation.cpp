@@ -7,20 +7,21 @@ namespace dmocbench {
 
 bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
   const BlockPattern& pattern = program.jacobian_structure();
-  Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
+  Eigen::VectorXd constraints(static_cast<Eigen::Index>(program.constraint_count()));
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(pattern.size()));
-  program.constraints(primal, rows);
+  program.constraints(primal, constraints);
   program.jacobian(primal, jacobian);
-  if (!primal.allFinite() || !rows.allFinite() || !jacobian.allFinite()) return false;
+  if (!primal.allFinite() || !constraints.allFinite() || !jacobian.allFinite()) return false;
 
-  const Eigen::VectorXd outside = rows - rows.cwiseMax(program.constraint_lower()).cwiseMin(program.constraint_upper());
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(primal.size());
-  pattern.for_each([&](Eigen::Index e, int row, int column) { slope[column] += jacobian[e] * outside[row]; });
+  const Eigen::VectorXd outside =
+      constraints - constraints.cwiseMax(program.constraint_lower()).cwiseMin(program.constraint_upper());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(primal.size());
+  pattern.for_each([&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * outside[row]; });
   double steepest = 0.0;
   for (Eigen::Index i = 0; i < primal.size(); ++i) {
-    const bool is_held = (slope[i] > 0.0 && primal[i] <= program.variable_lower()[i]) ||
-                         (slope[i] < 0.0 && primal[i] >= program.variable_upper()[i]);
-    if (!is_held) steepest = std::max(steepest, std::abs(slope[i]) * std::max(1.0, std::abs(primal[i])));
+    const bool is_held = (gradient[i] > 0.0 && primal[i] <= program.variable_lower()[i]) ||
+                         (gradient[i] < 0.0 && primal[i] >= program.variable_upper()[i]);
+    if (!is_held) steepest = std::max(steepest, std::abs(gradient[i]) * std::max(1.0, std::abs(primal[i])));
   }
   return outside.squaredNorm() > 0.0 && steepest <= least_violation_share * outside.squaredNorm();
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,36 +13,34 @@ namespace dmocbench {
 namespace {
 
 /// "a, b or c".
-std::string listed(std::span<const std::string_view> names, std::string_view last) {
-  if (names.size() < 2) return std::string(names.front());
-  return fmt::format("{} {} {}", fmt::join(names.first(names.size() - 1), ", "), last, names.back());
+std::string listed(std::vector<std::string_view> words, std::string_view conjunction) {
+  const std::string_view last = words.back();
+  words.pop_back();
+  return words.empty() ? std::string(last) : fmt::format("{} {} {}", fmt::join(words, ", "), conjunction, last);
 }
 
 }  // namespace
 
-const std::string* NamedOptions::find(std::string_view option) {
-  known_.push_back(option);
-  const auto found = given_.find(std::string(option));
-  return found == given_.end() ? nullptr : &found->second;
+NamedOption named_option(std::string_view name, std::uint32_t& result) {
+  return {.name = name, .takes = {"a whole number"}, .read = [&result](const std::string& text) {
+            const char* end = text.data() + text.size();
+            const auto [read_to, error] = std::from_chars(text.data(), end, result);
+            return error == std::errc() && read_to == end;
+          }};
 }
 
-void NamedOptions::refuse(std::string_view option, std::string_view text,
-                          const std::vector<std::string_view>& names) const {
-  throw Error(fmt::format("the solver {}: {} must be {}, not {}", solver_, option, listed(names, "or"), text));
-}
-
-void NamedOptions::read(std::string_view option, std::uint32_t& result) {
-  const std::string* text = find(option);
-  if (text == nullptr) return;
-  const char* end = text->data() + text->size();
-  const auto [read_to, error] = std::from_chars(text->data(), end, result);
-  if (error != std::errc() || read_to != end) refuse(option, *text, {"a whole number"});
-}
-
-void NamedOptions::refuse_others() const {
-  for (const auto& [option, value] : given_) {
-    if (std::ranges::find(known_, option) != known_.end()) continue;
-    throw Error(fmt::format("the solver {} has no option {}; it has {}", solver_, option, listed(known_, "and")));
+void read_named_options(std::string_view solver, const std::map<std::string, std::string>& given,
+                        const std::vector<NamedOption>& options) {
+  for (const auto& [name, text] : given) {
+    const auto option = std::ranges::find(options, name, &NamedOption::name);
+    if (option == options.end()) {
+      std::vector<std::string_view> known;
+      for (const NamedOption& each : options) known.push_back(each.name);
+      throw Error(fmt::format("the solver {} has no option {}; it has {}", solver, name, listed(known, "and")));
+    }
+    if (!option->read(text)) {
+      throw Error(fmt::format("the solver {}: {} must be {}, not {}", solver, name, listed(option->takes, "or"), text));
+    }
   }
 }
 

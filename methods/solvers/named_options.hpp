@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,45 +10,34 @@
 
 namespace dmocbench {
 
-/// A word that stands for a choice on the command line.
-template <class Choice>
-using NamedChoice = std::pair<std::string_view, Choice>;
-
-/// Reads options that were given as text, name=value, into the typed options of one of our own solvers. Every refusal
-/// is an `Error` that names the solver, the option and what it takes.
-class NamedOptions {
- public:
-  NamedOptions(std::string_view solver, const std::map<std::string, std::string>& given)
-      : solver_(solver), given_(given) {}
-
-  /// Sets `result` to the choice that the option names, if it was given.
-  template <class Choice, std::size_t count>
-  void read(std::string_view option, Choice& result, const std::array<NamedChoice<Choice>, count>& choices) {
-    const std::string* text = find(option);
-    if (text == nullptr) return;
-    std::vector<std::string_view> names;
-    for (const auto& [name, choice] : choices) {
-      names.push_back(name);
-      if (*text != name) continue;
-      result = choice;
-      return;
-    }
-    refuse(option, *text, names);
-  }
-  /// Sets `result` to the whole number that the option gives, if it was given.
-  void read(std::string_view option, std::uint32_t& result);
-
-  /// Refuses an option that was given but never read.
-  void refuse_others() const;
-
- private:
-  [[nodiscard]] const std::string* find(std::string_view option);
-  [[noreturn]] void refuse(std::string_view option, std::string_view text,
-                           const std::vector<std::string_view>& names) const;
-
-  std::string_view solver_;
-  const std::map<std::string, std::string>& given_;
-  std::vector<std::string_view> known_;
+/// An option of one of our own solvers that a command line may give as text.
+struct NamedOption {
+  std::string_view name;
+  std::vector<std::string_view> takes;           ///< the words it takes, for people
+  std::function<bool(const std::string&)> read;  ///< sets the typed option; false if the text is none of these
 };
+
+/// An option that is one of several choices.
+template <class Choice>
+NamedOption named_option(std::string_view name, Choice& result,
+                         const std::vector<std::pair<std::string_view, Choice>>& choices) {
+  NamedOption option{.name = name, .takes = {}, .read = [&result, choices](const std::string& text) {
+                       for (const auto& [word, choice] : choices) {
+                         if (text != word) continue;
+                         result = choice;
+                         return true;
+                       }
+                       return false;
+                     }};
+  for (const auto& [word, choice] : choices) option.takes.push_back(word);
+  return option;
+}
+
+/// An option that is a whole number.
+[[nodiscard]] NamedOption named_option(std::string_view name, std::uint32_t& result);
+
+/// Sets typed options from text, name=value. Throws `Error` that names the solver, the option and what it takes.
+void read_named_options(std::string_view solver, const std::map<std::string, std::string>& given,
+                        const std::vector<NamedOption>& options);
 
 }  // namespace dmocbench

@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,53 +17,37 @@
 #include <nlopt.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/least_violation.hpp"
-#include "methods/solvers/one_sided_rows.hpp"
+#include "methods/solvers/one_sided_constraints.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// Why we stopped NLopt, if we did.
-enum class OwnStop : std::uint8_t { none, converged, interrupted, not_finite, exception };
-
-/// How near a point is to what is asked for: points that meet the rows before those that do not.
+/// How near a point is to a solution: points that meet the constraints before those that do not.
 struct Nearness {
   bool violates = true;
-  double misses = std::numeric_limits<double>::infinity();  // times the tolerance
+  double residual = unbounded;  // scaled_residual of confirm.hpp
 
   [[nodiscard]] bool is_nearer_than(const Nearness& other) const {
-    return violates == other.violates ? misses < other.misses : other.violates;
+    return violates == other.violates ? residual < other.residual : other.violates;
   }
 };
 
 /// True if `after` is nearer than `before` by a tenth.
 bool helped(const Nearness& before, const Nearness& after) {
-  return after.is_nearer_than({before.violates, 0.9 * before.misses});
+  return after.is_nearer_than({before.violates, 0.9 * before.residual});
 }
 
-/// The variables that NLopt sees.
-struct FreeVariables {
+std::vector<Eigen::Index> free_indices(const NonlinearProgram& program) {
   std::vector<Eigen::Index> indices;
-  std::vector<Eigen::Index> numbers;  // the inverse: -1 of a fixed variable
-
-  explicit FreeVariables(const NonlinearProgram& program) {
-    for (Eigen::Index i = 0; i < program.variable_lower().size(); ++i) {
-      const bool is_fixed = program.variable_lower()[i] == program.variable_upper()[i];
-      numbers.push_back(is_fixed ? -1 : static_cast<Eigen::Index>(indices.size()));
-      if (!is_fixed) indices.push_back(i);
-    }
+  for (Eigen::Index i = 0; i < program.variable_lower().size(); ++i) {
+    if (program.variable_lower()[i] != program.variable_upper()[i]) indices.push_back(i);
   }
-  [[nodiscard]] std::vector<double> of(const Eigen::VectorXd& all) const {
-    std::vector<double> result;
-    result.reserve(indices.size());
-    for (const Eigen::Index i : indices) result.push_back(all[i]);
-    return result;
-  }
-};
+  return indices;
+}
 
 /// NLopt's view of a program; it judges the points that NLopt visits and keeps the best one.
 class ProgramForNlopt {
@@ -73,37 +57,42 @@ class ProgramForNlopt {
       : program_(program),
         options_(options),
         solution_(solution),
-        free_(program),
-        equalities_(program, OneSidedRows::Kind::equalities, free_.numbers, free_.indices.size()),
-        inequalities_(program, OneSidedRows::Kind::inequalities, free_.numbers, free_.indices.size()),
+        free_(free_indices(program)),
+        equalities_(program, OneSidedConstraints::Kind::equalities),
+        inequalities_(program, OneSidedConstraints::Kind::inequalities),
         point_(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper())),
         gradient_(point_.size()),
-        rows_(static_cast<Eigen::Index>(program.constraint_count())),
-        jacobian_(static_cast<Eigen::Index>(program.jacobian_structure().size())) {
+        constraints_(static_cast<Eigen::Index>(program.constraint_count())),
+        jacobian_values_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
+        jacobian_(OneSidedConstraints::RowMajor::Zero(constraints_.size(), point_.size())) {
     solution.primal = point_;
   }
 
-  [[nodiscard]] std::vector<double> best_point() const { return free_.of(solution_.primal); }
+  [[nodiscard]] Eigen::VectorXd best_point() const { return solution_.primal(free_); }
   [[nodiscard]] const Nearness& nearest() const noexcept { return nearest_; }
   [[nodiscard]] std::size_t equality_count() const noexcept { return equalities_.size(); }
   [[nodiscard]] int visits() const noexcept { return visits_; }
-  [[nodiscard]] OwnStop own_stop() const noexcept { return own_stop_; }
+  [[nodiscard]] double seconds() const { return program_.elapsed_seconds(); }
+  /// Why we stopped NLopt, if we did.
+  [[nodiscard]] const std::optional<Status>& own_stop() const noexcept { return own_stop_; }
   [[nodiscard]] const std::exception_ptr& exception() const noexcept { return exception_; }
 
   /// States the program to NLopt, which must not outlive this.
   void state(nlopt_opt handle) {
     handle_ = handle;
-    nlopt_set_lower_bounds(handle, free_.of(program_.variable_lower()).data());
-    nlopt_set_upper_bounds(handle, free_.of(program_.variable_upper()).data());
+    nlopt_set_lower_bounds(handle, Eigen::VectorXd(program_.variable_lower()(free_)).data());
+    nlopt_set_upper_bounds(handle, Eigen::VectorXd(program_.variable_upper()(free_)).data());
     nlopt_set_min_objective(handle, objective, this);
-    const std::vector<double> all_allowed(std::max(equalities_.size(), inequalities_.size()), row_tolerance());
-    if (!equalities_.empty()) {
-      nlopt_add_equality_mconstraint(handle, static_cast<unsigned>(equalities_.size()), equalities, this,
-                                     all_allowed.data());
+    const std::vector<double> tolerances(std::max(equalities_.size(), inequalities_.size()), constraint_tolerance());
+    if (equalities_.size() > 0) {
+      const auto count = static_cast<unsigned>(equalities_.size());
+      nlopt_add_equality_mconstraint(handle, count, constraints<&ProgramForNlopt::equalities_>, this,
+                                     tolerances.data());
     }
-    if (!inequalities_.empty()) {
-      nlopt_add_inequality_mconstraint(handle, static_cast<unsigned>(inequalities_.size()), inequalities, this,
-                                       all_allowed.data());
+    if (inequalities_.size() > 0) {
+      const auto count = static_cast<unsigned>(inequalities_.size());
+      nlopt_add_inequality_mconstraint(handle, count, constraints<&ProgramForNlopt::inequalities_>, this,
+                                       tolerances.data());
     }
   }
 
@@ -116,84 +105,82 @@ class ProgramForNlopt {
       return self.visit(x, gradient);
     } catch (...) {  // NLopt is C: the exception waits until it has returned
       self.exception_ = std::current_exception();
-      return self.stop(OwnStop::exception);
+      return self.stop(Status::solver_error);
     }
   }
-  static void equalities(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
-                         void* data) noexcept {
-    from(data).copy(from(data).equalities_, values, gradient);
-  }
-  static void inequalities(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
-                           void* data) noexcept {
-    from(data).copy(from(data).inequalities_, values, gradient);
+  /// SLSQP asks for the constraints where it has just asked for the objective, with the same wish for derivatives.
+  template <OneSidedConstraints ProgramForNlopt::*some>
+  static void constraints(unsigned /*m*/, double* values, unsigned /*n*/, const double* /*x*/, double* gradient,
+                          void* data) noexcept {
+    const ProgramForNlopt& self = from(data);
+    (self.*some).values(self.constraints_, values);
+    if (gradient != nullptr) (self.*some).jacobian(self.jacobian_(Eigen::all, self.free_), gradient);
   }
 
-  [[nodiscard]] double row_tolerance() const { return std::max(options_.tolerance, program_.rounding_floor()); }
+  [[nodiscard]] double constraint_tolerance() const { return std::max(options_.tolerance, program_.rounding_floor()); }
 
-  double stop(OwnStop why) noexcept {
-    own_stop_ = why;
+  double stop(Status status) noexcept {
+    own_stop_ = status;
     nlopt_force_stop(handle_);
-    return std::numeric_limits<double>::infinity();
+    return unbounded;
   }
 
-  /// The objective; infinity, from which SLSQP's line search turns back, where it or a row is not a number.
+  /// The objective; infinity, from which SLSQP's line search turns back, where it or a constraint is not a number.
   double visit(const double* x, double* gradient) {
-    if (options_.stop_requested && options_.stop_requested()) return stop(OwnStop::interrupted);
+    if (options_.stop_requested && options_.stop_requested()) return stop(Status::interrupted);
     const bool is_start = visits_++ == 0;
     const double value = evaluate(x, gradient != nullptr);
-    if (!std::isfinite(value) || !rows_.allFinite()) {
-      return is_start ? stop(OwnStop::not_finite) : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(value) || !constraints_.allFinite()) {
+      return is_start ? stop(Status::evaluation_failed) : unbounded;
     }
     if (gradient == nullptr) return value;
-    if (!gradient_.allFinite() || !jacobian_.allFinite()) return stop(OwnStop::not_finite);
-    for (const Eigen::Index i : free_.indices) *gradient++ = gradient_[i];
-    return meets_the_tolerance() ? stop(OwnStop::converged) : value;
+    if (!gradient_.allFinite() || !jacobian_values_.allFinite()) return stop(Status::evaluation_failed);
+    Eigen::Map<Eigen::VectorXd>(gradient, size()) = gradient_(free_);
+    return meets_the_tolerance() ? stop(Status::solved) : value;
   }
 
   double evaluate(const double* x, bool with_derivatives) {
-    for (const Eigen::Index i : free_.indices) point_[i] = *x++;
+    point_(free_) = Eigen::Map<const Eigen::VectorXd>(x, size());
     const double value = program_.objective(point_);
-    program_.constraints(point_, rows_);
-    if (with_derivatives) {
-      program_.gradient(point_, gradient_);
-      program_.jacobian(point_, jacobian_);
-    }
+    program_.constraints(point_, constraints_);
+    if (!with_derivatives) return value;
+    program_.gradient(point_, gradient_);
+    program_.jacobian(point_, jacobian_values_);
+    program_.jacobian_structure().for_each(
+        [&](Eigen::Index e, int row, int column) { jacobian_(row, column) = jacobian_values_[e]; });
     return value;
   }
 
   bool meets_the_tolerance() {
     Solution here;
     here.primal = point_;
-    measure(program_.uncounted(), here);
-    const bool violates = !(here.constraint_violation.value_or(unbounded) <= row_tolerance());
-    const Nearness nearness{violates, times_the_tolerance(program_, options_.tolerance, here)};
+    judge_residuals(program_.uncounted(), here);
+    const bool violates = !(here.constraint_violation.value_or(unbounded) <= constraint_tolerance());
+    const Nearness nearness{violates, scaled_residual(program_, options_.tolerance, here)};
     if (nearness.is_nearer_than(nearest_)) {
       nearest_ = nearness;
       solution_.primal = point_;
     }
-    return nearness.misses <= 1.0;
+    return nearness.residual <= 1.0;
   }
 
-  /// SLSQP asks for the rows where it has just asked for the objective, with the same wish for derivatives.
-  void copy(const OneSidedRows& rows, double* values, double* gradient) const noexcept {
-    rows.values(rows_, values);
-    if (gradient != nullptr) rows.jacobian(jacobian_, gradient);
-  }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
 
   CountedProgram& program_;
   const SolverOptions& options_;
   Solution& solution_;
-  FreeVariables free_;
-  OneSidedRows equalities_;
-  OneSidedRows inequalities_;
+  std::vector<Eigen::Index> free_;  // the variables that NLopt sees
+  OneSidedConstraints equalities_;
+  OneSidedConstraints inequalities_;
   Eigen::VectorXd point_;
   Eigen::VectorXd gradient_;
-  Eigen::VectorXd rows_;
-  Eigen::VectorXd jacobian_;
+  Eigen::VectorXd constraints_;
+  Eigen::VectorXd jacobian_values_;
+  OneSidedConstraints::RowMajor jacobian_;
   nlopt_opt handle_ = nullptr;
   int visits_ = 0;
   Nearness nearest_;
-  OwnStop own_stop_ = OwnStop::none;
+  std::optional<Status> own_stop_;
   std::exception_ptr exception_;
 };
 
@@ -241,32 +228,32 @@ void set_options(nlopt_opt handle, const SolverOptions& options) {
   for (const auto& [name, text] : options.passed_on) setting_named(name).set(handle, value_of(name, text));
 }
 
-/// True if what is allowed is not used up; allows NLopt the rest.
-bool allow_the_rest(nlopt_opt handle, int most_evaluations, int evaluations, double most_seconds, double seconds) {
+/// Limits NLopt to what is left of evaluations and seconds; false if nothing is.
+bool set_remaining_limits(nlopt_opt handle, int most_evaluations, int evaluations, double most_seconds,
+                          double seconds) {
   if (most_evaluations > 0) nlopt_set_maxeval(handle, std::max(most_evaluations - evaluations, 1));
   if (most_seconds > 0.0) nlopt_set_maxtime(handle, std::max(most_seconds - seconds, 1e-9));
   return (most_evaluations <= 0 || evaluations < most_evaluations) && (most_seconds <= 0.0 || seconds < most_seconds);
 }
 
-/// Runs SLSQP. Where it can make no more of its digits, it starts afresh from its best point, without its quasi-Newton
-/// matrix, as long as that helps and is allowed; a tolerance that was passed on is the last word.
+/// Runs SLSQP. Where it makes no further progress, it starts again from its best point, without its quasi-Newton
+/// matrix, as long as that helps and the limits allow it; not if a tolerance was passed on.
 nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const SolverOptions& options) {
-  const auto start_time = Clock::now();
-  const bool is_last_word = std::any_of(options.passed_on.begin(), options.passed_on.end(), [](const auto& option) {
-    return option.first.find("tol") != std::string::npos;
-  });
+  const bool has_own_tolerance =
+      std::any_of(options.passed_on.begin(), options.passed_on.end(),
+                  [](const auto& option) { return option.first.find("tol") != std::string::npos; });
   const int most_evaluations = nlopt_get_maxeval(handle);
   const double most_seconds = nlopt_get_maxtime(handle);
   const auto run = [&] {
-    std::vector<double> x = view.best_point();
+    Eigen::VectorXd x = view.best_point();
     double value = 0.0;
     return nlopt_optimize(handle, x.data(), &value);
   };
   const nlopt_result first = run();
   nlopt_result last = first;
-  while (!is_last_word && view.nearest().misses > confirmation_factor &&
+  while (!has_own_tolerance && view.nearest().residual > confirmation_factor &&
          (last == NLOPT_XTOL_REACHED || last == NLOPT_ROUNDOFF_LIMITED) &&
-         allow_the_rest(handle, most_evaluations, view.visits(), most_seconds, seconds_since(start_time))) {
+         set_remaining_limits(handle, most_evaluations, view.visits(), most_seconds, view.seconds())) {
     const Nearness before = view.nearest();
     last = run();
     if (!helped(before, view.nearest())) break;
@@ -274,21 +261,9 @@ nlopt_result optimize(nlopt_opt handle, const ProgramForNlopt& view, const Solve
   return first;
 }
 
-/// What NLopt says, unless we stopped it ourselves. It judges no KKT residual, so it cannot claim more than that it
-/// stopped: "acceptable", for our residual to confirm.
-Status claim_of(OwnStop own_stop, nlopt_result result) {
-  switch (own_stop) {
-    case OwnStop::none:
-      break;
-    case OwnStop::converged:
-      return Status::solved;
-    case OwnStop::interrupted:
-      return Status::interrupted;
-    case OwnStop::not_finite:
-      return Status::evaluation_failed;
-    case OwnStop::exception:
-      return Status::solver_error;
-  }
+/// What NLopt says. It judges no KKT residual, so it cannot claim more than that it stopped: "acceptable", for our
+/// residual to confirm.
+Status claim_of(nlopt_result result) {
   switch (result) {
     case NLOPT_MAXEVAL_REACHED:
       return Status::iteration_limit;
@@ -357,8 +332,8 @@ Solution NloptSolver::run(CountedProgram& program, const Eigen::VectorXd& start)
   const nlopt_result result = optimize(handle.get(), view, options());
   if (view.exception()) std::rethrow_exception(view.exception());
 
-  solution.status = claim_of(view.own_stop(), result);
-  const bool is_confirmed = judged(solution.status, view.nearest().misses) != Status::not_confirmed;
+  solution.status = view.own_stop().value_or(claim_of(result));
+  const bool is_confirmed = judged(solution.status, view.nearest().residual) != Status::not_confirmed;
   if (solution.status == Status::acceptable && !is_confirmed) {
     if (is_point_of_least_violation(program.uncounted(), solution.primal)) {
       solution.status = Status::infeasible;

@@ -17,7 +17,7 @@ bool has_only_equalities(const NonlinearProgram& program) {
   return (program.constraint_lower().array() == program.constraint_upper().array()).all();
 }
 
-/// True if no free variable is at a bound, where the KKT system would be another one.
+/// True if no free variable is at a bound, where the KKT system would differ.
 bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& x) {
   constexpr double margin = 1e-6;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
@@ -29,7 +29,7 @@ bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd&
   return true;
 }
 
-/// The larger of both residuals; infinity where they are no numbers.
+/// The larger of both residuals; infinity where one is not finite.
 double residual_of(const Solution& solution) {
   const double stationarity = solution.kkt_residual.value_or(unbounded);
   const double violation = solution.constraint_violation.value_or(unbounded);
@@ -40,7 +40,7 @@ double residual_of(const Solution& solution) {
 /// True if what is left is no more than the rounding of the program's terms.
 bool is_rounding(const NonlinearProgram& program, const Solution& solution) {
   constexpr double nothing = std::numeric_limits<double>::min();
-  return times_the_tolerance(program, nothing, solution) <= 1.0;
+  return scaled_residual(program, nothing, solution) <= 1.0;
 }
 
 /// The solution after one Newton step; with an infinite residual if there is none.
@@ -66,7 +66,7 @@ Solution stepped(NonlinearProgram& program, SymmetricFactorisation& factorisatio
   const Eigen::VectorXd step = factorisation.solve(std::move(right_hand_side));
   next.primal += step.head(n);
   next.multipliers += step.tail(m);
-  measure(program, next);
+  judge_residuals(program, next);
   return next;
 }
 

@@ -31,10 +31,9 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) 
         fmt::format("the start has {} entries, the program {} variables", start.size(), program.variable_count()));
   }
   CountedProgram counted(program);
-  const Clock::time_point begin = Clock::now();
   Solution solution = run(counted, start);
-  solution.seconds = seconds_since(begin);
-  solution.evaluation_seconds = counted.seconds();
+  solution.seconds = counted.elapsed_seconds();
+  solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
   confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);

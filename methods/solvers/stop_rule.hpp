@@ -6,15 +6,15 @@
 
 namespace dmocbench {
 
-/// What residuals may be left where a program counts as solved: the tolerance, or rounding where that is more. One
-/// rule, by which solvers that are compared stop and by which all are judged (`confirm`).
+/// The residuals at which a program counts as solved: the tolerance, or rounding where that is larger. The solvers that
+/// are compared stop by this rule, and all are judged by it (`confirm`).
 class StopRule {
  public:
   /// `tolerance` > 0, of the program as the solver sees it.
   StopRule(const NonlinearProgram& program, double tolerance)
       : tolerance_(tolerance), rounding_(program.rounding_floor()) {}
 
-  /// For the largest violation of a row or bound.
+  /// For the largest violation of a constraint or bound.
   [[nodiscard]] double violation() const { return std::max(tolerance_, rounding_); }
 
   /// For the largest entry of ∇_x of the Lagrangian. `mean_multiplier`, `largest_multiplier`: magnitudes; the mean

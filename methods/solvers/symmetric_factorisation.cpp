@@ -1,9 +1,10 @@
 #include "methods/solvers/symmetric_factorisation.hpp"
 
-#include <string>
+#include <utility>
 #include <vector>
 
 #include <dmumps_c.h>
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 
@@ -33,7 +34,7 @@ struct SymmetricFactorisation::Mumps {
   std::vector<MUMPS_INT> rows;
   std::vector<MUMPS_INT> columns;
   std::vector<double> values;
-  std::vector<MUMPS_INT> positions;  // from 1 on; empty if MUMPS shall choose
+  std::vector<MUMPS_INT> positions;  // from 1 on; empty to let MUMPS choose
   bool analysed = false;
 
   Mumps() {
@@ -45,7 +46,7 @@ struct SymmetricFactorisation::Mumps {
     for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
     data.icntl[control(4)] = 0;   // silent
     data.icntl[control(13)] = 1;  // counts negative pivots in the root too
-    data.icntl[control(24)] = 1;  // finds pivots that are rounding, which else become as large as their reciprocals
+    data.icntl[control(24)] = 1;  // detects pivots that are mere rounding
   }
   ~Mumps() {
     data.job = job_end;
@@ -63,7 +64,7 @@ struct SymmetricFactorisation::Mumps {
   }
 
   [[noreturn]] static void fail(int info) {
-    throw Error("MUMPS failed with code " + std::to_string(info) + "; its manual lists the codes");
+    throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", info));
   }
 
   /// True if the pattern differs from the one analysed.
@@ -92,7 +93,7 @@ struct SymmetricFactorisation::Mumps {
 
 SymmetricFactorisation::SymmetricFactorisation() : mumps_(std::make_unique<Mumps>()) {}
 SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : SymmetricFactorisation() {
-  constexpr int more_workspace_percent = 100;  // lines that wait need it, and to begin anew takes longer
+  constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
   for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
   if (positions.empty()) return;
   mumps_->data.icntl[control(7)] = order_is_given;

@@ -12,8 +12,8 @@ namespace dmocbench {
 class SymmetricFactorisation {
  public:
   SymmetricFactorisation();
-  /// Eliminates in a given order, which is kept: `positions` tells for every line of the matrix when its turn is, from
-  /// 0 on. Where a pivot is too small a line waits until later.
+  /// Eliminates in a given order, which is kept: `positions` says for every row of the matrix when it is eliminated,
+  /// from 0 on. A row whose pivot is too small is postponed.
   explicit SymmetricFactorisation(const std::vector<int>& positions);
   ~SymmetricFactorisation();
   SymmetricFactorisation(const SymmetricFactorisation&) = delete;

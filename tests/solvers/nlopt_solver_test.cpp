@@ -1,13 +1,10 @@
 #include "methods/solvers/nlopt_solver.hpp"
 
-#include <limits>
 #include <map>
 #include <stdexcept>
-#include <utility>
 
 #include <gtest/gtest.h>
 
-#include "methods/program/kkt_residual.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 
@@ -38,52 +35,6 @@ SolverOptions passing_on(const std::string& name, const std::string& value) {
   return options;
 }
 
-TEST(Nlopt, FindsTheKnownOptimaOfHockAndSchittkowski) {
-  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
-    SCOPED_TRACE("HS " + std::to_string(known.number));
-    SmallProgram program(known.statement);
-    const Solution solution = solve_by_nlopt(program, known.start);
-    EXPECT_EQ(solution.status, Status::solved) << solution.message;
-    EXPECT_NEAR(solution.objective, known.objective, 1e-7);
-    EXPECT_LT((solution.primal - known.optimum).norm(), 2e-4);
-    EXPECT_LT(solution.kkt_residual.value_or(unbounded), 1e-7);
-    EXPECT_LT(solution.constraint_violation.value_or(unbounded), 1e-7);
-    EXPECT_GT(solution.total_evaluations().value_or(0), 0);
-    EXPECT_FALSE(solution.major_iterations.has_value());
-    EXPECT_FALSE(solution.minor_iterations.has_value());
-    EXPECT_TRUE(solution.multipliers_are_estimated);
-  }
-}
-
-TEST(Nlopt, ReportsWhatWeComputeAtItsAnswer) {
-  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
-    SmallProgram program(known.statement);
-    const Solution solution = solve_by_nlopt(program, known.start);
-    EXPECT_EQ(solution.objective, program.objective(solution.primal));
-    const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);
-    EXPECT_EQ(solution.kkt_residual, residual.stationarity);
-    EXPECT_EQ(solution.constraint_violation, residual.constraint_violation);
-    EXPECT_EQ(solution.message, sentence_of(solution.status));
-  }
-}
-
-TEST(Nlopt, MinimisesWithoutRows) {
-  SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}));
-  EXPECT_EQ(solution.status, Status::solved) << solution.message;
-  EXPECT_LT((solution.primal - vector({1.0, 1.0})).norm(), 1e-5);
-}
-
-TEST(Nlopt, KeepsFixedVariablesAtTheirValues) {
-  tests::KnownProgram known = tests::hock_schittkowski().back();
-  known.statement.variable_lower[1] = known.statement.variable_upper[1] = 4.5;
-  SmallProgram program(known.statement);
-  const Solution solution = solve_by_nlopt(program, known.start);
-  EXPECT_EQ(solution.status, Status::solved) << solution.message;
-  EXPECT_EQ(solution.primal[1], 4.5);
-  EXPECT_GT(solution.objective, known.objective);
-}
-
 TEST(Nlopt, StartsWithinTheBounds) {
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   SmallProgram program(known.statement);
@@ -108,15 +59,6 @@ TEST(Nlopt, HoldsARowBetweenTwoBounds) {
   }
 }
 
-TEST(Nlopt, SaysInfeasibleWhereTheRowsCannotBeMet) {
-  SmallProgram program = tests::equality_program(
-      [](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
-      [](const HyperVector& x) { return HyperVector{x[0] * x[0] + x[1] * x[1]}; }, 2, vector({-1.0}));
-  const Solution solution = solve_by_nlopt(program, vector({1.0, 0.5}));
-  EXPECT_EQ(solution.status, Status::infeasible);
-  EXPECT_NEAR(solution.constraint_violation.value_or(unbounded), 1.0, 1e-4);
-}
-
 TEST(Nlopt, NeverSaysSolvedWhereRowsContradictEachOther) {
   SmallProgram program = tests::equality_program([](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
                                                  [](const HyperVector& x) {
@@ -138,46 +80,6 @@ TEST(Nlopt, TakesAFeasiblePointOfAProgramWithoutFreedom) {
   EXPECT_FALSE(is_solved(solve_by_nlopt(infeasible, vector({3.0})).status));
 }
 
-TEST(Nlopt, StopsAtTheEvaluationLimit) {
-  SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  options.most_iterations = 3;
-  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
-  EXPECT_EQ(solution.status, Status::iteration_limit);
-  EXPECT_EQ(solution.evaluations->objective, 3);
-  EXPECT_EQ(solution.primal.size(), 2);
-  EXPECT_GT(solution.kkt_residual.value_or(0.0), 1e-3);
-}
-
-TEST(Nlopt, StopsAtTheTimeLimit) {
-  SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  options.most_seconds = 1e-12;
-  EXPECT_EQ(solve_by_nlopt(program, vector({-1.2, 1.0}), options).status, Status::time_limit);
-}
-
-TEST(Nlopt, StopsWhenAskedTo) {
-  SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  int asked = 0;
-  options.stop_requested = [&] { return ++asked == 4; };
-  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), options);
-  EXPECT_EQ(solution.status, Status::interrupted);
-  EXPECT_EQ(asked, 4);
-  EXPECT_EQ(solution.evaluations->objective, 3);
-}
-
-TEST(Nlopt, SaysEvaluationFailedWhereTheStartIsNotANumber) {
-  SmallProgram objective =
-      tests::equality_program([](const HyperVector& x) { return log(x[0]); },
-                              [](const HyperVector& x) { return HyperVector{x[0]}; }, 1, vector({2.0}));
-  EXPECT_EQ(solve_by_nlopt(objective, vector({-1.0})).status, Status::evaluation_failed);
-  SmallProgram row =
-      tests::equality_program([](const HyperVector& x) { return x[0] * x[0] + x[1]; },
-                              [](const HyperVector& x) { return HyperVector{sqrt(x[0])}; }, 2, vector({2.0}));
-  EXPECT_EQ(solve_by_nlopt(row, vector({-1.0, 0.0})).status, Status::evaluation_failed);
-}
-
 TEST(Nlopt, TurnsBackWhereAStepLeavesTheDomain) {
   // From 3 the slope is 20/3, so the first step goes to 3 - 20/3, where the logarithm is not a number.
   SmallProgram program =
@@ -186,32 +88,6 @@ TEST(Nlopt, TurnsBackWhereAStepLeavesTheDomain) {
   const Solution solution = solve_by_nlopt(program, vector({3.0}));
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   EXPECT_NEAR(solution.primal[0], 1.0, 1e-6);
-}
-
-/// Values are right, one kind of derivative is not a number.
-class BrokenFirstDerivatives final : public SmallProgram {
- public:
-  BrokenFirstDerivatives(SmallProgram::Statement statement, bool in_gradient)
-      : SmallProgram(std::move(statement)), in_gradient_(in_gradient) {}
-  void gradient(const VectorIn& x, VectorOut result) override {
-    SmallProgram::gradient(x, result);
-    if (in_gradient_) result[0] = std::numeric_limits<double>::quiet_NaN();
-  }
-  void jacobian(const VectorIn& x, VectorOut values) override {
-    SmallProgram::jacobian(x, values);
-    if (!in_gradient_) values[0] = std::numeric_limits<double>::quiet_NaN();
-  }
-
- private:
-  bool in_gradient_;
-};
-
-TEST(Nlopt, SaysEvaluationFailedWhereADerivativeIsNotANumber) {
-  const tests::KnownProgram known = tests::hock_schittkowski().back();
-  for (const bool in_gradient : {true, false}) {
-    BrokenFirstDerivatives program(known.statement, in_gradient);
-    EXPECT_EQ(solve_by_nlopt(program, known.start).status, Status::evaluation_failed);
-  }
 }
 
 TEST(Nlopt, LetsExceptionsOfAProgramThrough) {
@@ -280,11 +156,6 @@ TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
       static_cast<void>(solve_by_nlopt(program, vector({0.0, 0.0}), options));
     });
   }
-}
-
-TEST(Nlopt, RefusesAStartOfTheWrongSize) {
-  SmallProgram program = tests::rosenbrock();
-  tests::expect_error_naming({"3", "2"}, [&] { static_cast<void>(solve_by_nlopt(program, everywhere(3, 0.0))); });
 }
 
 }  // namespace

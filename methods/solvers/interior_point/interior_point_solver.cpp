@@ -343,9 +343,6 @@ namespace {
 
 using Factorisation = InteriorPointOptions::Factorisation;
 
-constexpr std::array<NamedChoice<Factorisation>, 3> factorisations{
-    {{"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}}};
-
 /// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
 tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
                                                                                   const InteriorPointOptions& choices) {
@@ -365,9 +362,11 @@ tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_syste
 
 InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
     : Solver(std::move(options)), choices_(std::move(choices)) {
-  NamedOptions named("interior_point", this->options().passed_on);
-  named.read("factorisation", choices_.factorisation, factorisations);
-  named.refuse_others();
+  read_named_options("interior_point", this->options().passed_on,
+                     {named_option("factorisation", choices_.factorisation,
+                                   {{"intervals", Factorisation::intervals},
+                                    {"banded", Factorisation::banded},
+                                    {"sparse", Factorisation::sparse}})});
 }
 
 std::string InteriorPointSolver::description() const {

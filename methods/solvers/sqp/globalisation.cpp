@@ -25,20 +25,21 @@ double Globalisation::merit(const Linearisation& at) const {
 LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
                                        double first_share) {
   constexpr double sufficient = 1e-4;
-  constexpr double kept = 0.5;  // of the reduction of the violation that the model must predict for the merit
+  constexpr double kept = 0.5;  // share of the reduction of the violation that the merit must be predicted to keep
   constexpr double smallest_share = 1e-8;
   const double violation = violations(program_, from.constraints).lpNorm<1>();
-  const double slope_of_objective = from.gradient.dot(step);
+  const double objective_derivative = from.gradient.dot(step);
   if (violation > 0.0) {
-    const double needed = (slope_of_objective + 0.5 * std::max(0.0, curvature)) / ((1.0 - kept) * violation);
+    const double needed = (objective_derivative + 0.5 * std::max(0.0, curvature)) / ((1.0 - kept) * violation);
     weight_ = std::max(weight_ / 2, needed);
   }
-  const double slope = slope_of_objective - weight_ * violation;
+  const double merit_derivative = objective_derivative - weight_ * violation;
   const double merit_before = merit(from);
-  // Close to the solution differences of the merit are rounding.
+  // Close to the solution, differences of the merit are rounding.
   const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(merit_before));
   const auto falls_enough = [&](const Linearisation& at, double share) {
-    return at.has_finite_values() && merit(at) <= merit_before + sufficient * share * std::min(slope, 0.0) + rounding;
+    return at.has_finite_values() &&
+           merit(at) <= merit_before + sufficient * share * std::min(merit_derivative, 0.0) + rounding;
   };
 
   double share = first_share;

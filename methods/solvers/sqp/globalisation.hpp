@@ -14,17 +14,17 @@ struct LineSearchResult {
 };
 
 /// The l1 merit function φ(ξ) + μ Σ violations, with the weight μ from the predicted reduction of the quadratic model:
-/// weights from the multipliers grow too large and stall.
+/// weights taken from the multipliers grow too large, and the method stalls.
 class Globalisation {
  public:
   explicit Globalisation(NonlinearProgram& program) : program_(program) {}
 
-  /// How much of a step may be tried: |d_j| <= 2 (1 + |ξ_j|).
+  /// The largest share of a step that may be tried: |d_j| <= 2 (1 + |ξ_j|).
   [[nodiscard]] static double longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
 
   /// Backtracks along `step` (with curvature dᵀHd) from a share of `first_share` until the merit falls enough. A whole
   /// step that fails is tried once more with a second-order correction, the shortest vector that removes the violation
-  /// of the rows to first order.
+  /// of the constraints to first order.
   [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
                                         double first_share);
 

@@ -24,15 +24,15 @@ class ShiftedHessian final : public Hessian {
   double shift_;
 };
 
-/// Finds the shift δ >= 0 that makes H + δI positive definite on the null space of the equality rows, by the inertia of
+/// Finds the shift δ >= 0 that makes H + δI positive definite on the null space of the equalities, by the inertia of
 /// the matrix (H + δI, Eᵀ; E, 0): as many negative eigenvalues as rows E, and no eigenvalue 0.
 class Convexification {
  public:
   static constexpr double least_shift = 1e-4;
 
-  /// 0 if H is positive definite there already; otherwise at most a tenth more than what is needed, and no less than
-  /// `least_shift`: where there is no curvature at all, less would make steps without measure. `free` says which
-  /// variables may move, `equalities` which rows count.
+  /// 0 if H is positive definite there already; otherwise at most a tenth more than is needed, and at least
+  /// `least_shift`: where there is no curvature at all, a smaller shift would allow steps of any length. `free` says
+  /// which variables may move, `equalities` which rows count.
   [[nodiscard]] double shift_for(const Eigen::SparseMatrix<double>& hessian,
                                  const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
                                  const std::vector<bool>& equalities);
@@ -41,8 +41,8 @@ class Convexification {
   SymmetricFactorisation factorisation_;
 };
 
-/// A quasi-Newton approximation as SNOPT keeps it: a diagonal and at most ten damped BFGS updates; then the diagonal of
-/// the whole becomes the new start. Always positive definite.
+/// A quasi-Newton approximation like SNOPT's: a diagonal and at most ten damped BFGS updates, after which the diagonal
+/// of their sum becomes the new start. Always positive definite.
 class LimitedMemoryHessian final : public Hessian {
  public:
   explicit LimitedMemoryHessian(Eigen::Index variables) : diagonal_(Eigen::VectorXd::Ones(variables)) {}

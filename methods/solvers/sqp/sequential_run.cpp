@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/least_violation.hpp"
@@ -14,8 +13,7 @@ namespace dmocbench::sqp {
 
 namespace {
 
-/// Quadratic programs are solved far more accurately than the whole: with equal tolerances the last major iterations
-/// stall.
+/// Of the tolerance of the whole: with equal tolerances the last major iterations stall.
 constexpr double tolerance_of_quadratic_programs = 0.1;
 
 }  // namespace
@@ -42,8 +40,7 @@ SequentialRun::SequentialRun(CountedProgram& program, const Eigen::VectorXd& sta
                         Pricing(choices.pricing, choices.seed),
                         [this](const MinorIteration& minor) { return observe(minor); }),
       globalisation_(program),
-      multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))),
-      begin_(Clock::now()) {
+      multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))) {
   at_.point = start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper());
 }
 
@@ -72,7 +69,7 @@ Solution SequentialRun::run() {
 
 std::optional<Status> SequentialRun::reason_to_stop() const {
   if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
-  if (options_.most_seconds > 0.0 && seconds_since(begin_) > options_.most_seconds) return Status::time_limit;
+  if (options_.most_seconds > 0.0 && program_.elapsed_seconds() > options_.most_seconds) return Status::time_limit;
   return std::nullopt;
 }
 
@@ -87,8 +84,8 @@ bool SequentialRun::has_converged() {
   Solution now;
   now.primal = at_.point;
   now.multipliers = multipliers_;
-  measure(program_.uncounted(), now);
-  return times_the_tolerance(program_, options_.tolerance, now) <= 1.0;
+  judge_residuals(program_.uncounted(), now);
+  return scaled_residual(program_, options_.tolerance, now) <= 1.0;
 }
 
 void SequentialRun::choose_hessian() {
@@ -137,11 +134,9 @@ std::optional<Status> SequentialRun::major_iteration() {
 }
 
 void SequentialRun::print(double longest, double share, double objective) const {
-  std::ostringstream line;
-  line << "major " << majors_ << ", minors " << phase_one_minors_ << " + " << phase_two_minors_ << std::scientific
-       << std::setprecision(2) << ", merit weight " << globalisation_.weight() << ", shift " << shift_ << ", step "
-       << longest << " taken by " << share << ", objective " << std::setprecision(10) << objective << '\n';
-  std::cout << line.str();
+  fmt::print(
+      "major {}, minors {} + {}, merit weight {:.2e}, shift {:.2e}, step {:.2e} taken by {:.2e}, objective {:.10e}\n",
+      majors_, phase_one_minors_, phase_two_minors_, globalisation_.weight(), shift_, longest, share, objective);
 }
 
 void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution& quadratic) {

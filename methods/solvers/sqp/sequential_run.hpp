@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "methods/program/solution.hpp"
-#include "methods/runtime/clock.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/solver.hpp"
@@ -58,7 +57,6 @@ class SequentialRun {
   int phase_one_minors_ = 0;
   int phase_two_minors_ = 0;
   std::string message_;
-  Clock::time_point begin_;
 };
 
 }  // namespace dmocbench::sqp

@@ -8,27 +8,18 @@
 
 namespace dmocbench {
 
-namespace {
-
-using sqp::Crash;
-using sqp::PricingRule;
-
-constexpr std::array<NamedChoice<Crash>, 2> crashes{{{"none", Crash::none}, {"basis", Crash::basis}}};
-constexpr std::array<NamedChoice<bool>, 2> hessians{{{"exact", false}, {"limited_memory", true}}};
-constexpr std::array<NamedChoice<PricingRule>, 4> pricing_rules{{{"largest", PricingRule::largest},
-                                                                 {"lowest", PricingRule::lowest},
-                                                                 {"last", PricingRule::last},
-                                                                 {"random", PricingRule::random}}};
-
-}  // namespace
-
 SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices) : Solver(std::move(options)), choices_(choices) {
-  NamedOptions named("sqp", this->options().passed_on);
-  named.read("crash", choices_.crash, crashes);
-  named.read("hessian", choices_.limited_memory, hessians);
-  named.read("pricing", choices_.pricing, pricing_rules);
-  named.read("seed", choices_.seed);
-  named.refuse_others();
+  using sqp::Crash;
+  using sqp::PricingRule;
+  read_named_options("sqp", this->options().passed_on,
+                     {named_option("crash", choices_.crash, {{"none", Crash::none}, {"basis", Crash::basis}}),
+                      named_option("hessian", choices_.limited_memory, {{"exact", false}, {"limited_memory", true}}),
+                      named_option("pricing", choices_.pricing,
+                                   {{"largest", PricingRule::largest},
+                                    {"lowest", PricingRule::lowest},
+                                    {"last", PricingRule::last},
+                                    {"random", PricingRule::random}}),
+                      named_option("seed", choices_.seed)});
 }
 
 std::string SqpSolver::description() const {

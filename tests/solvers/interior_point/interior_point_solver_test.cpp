@@ -219,17 +219,6 @@ TEST(InteriorPoint, RefusesAProgramWithoutIntervalsInASentence) {
   EXPECT_NE(solution.message.find("factorisation=sparse"), std::string::npos) << solution.message;
 }
 
-TEST(InteriorPoint, SolvesAnyProgramBySparseFactorisation) {
-  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
-    SCOPED_TRACE("HS " + std::to_string(known.number));
-    tests::SmallProgram program(known.statement);
-    const Solution solution = solve_by_interior_point(program, known.start, options_with("sparse"));
-    EXPECT_EQ(solution.status, Status::solved) << solution.message;
-    EXPECT_NEAR(solution.objective, known.objective, 1e-8);
-    EXPECT_LT((solution.primal - known.optimum).norm(), 2e-5);
-  }
-}
-
 TEST(InteriorPoint, KnowsItsOptions) {
   SolverOptions options;
   options.passed_on["mu_strategy"] = "adaptive";
@@ -256,80 +245,6 @@ TEST(InteriorPoint, NeverSaysThatAnInfeasibleProblemIsSolved) {
         << name_of(solution.status);
     EXPECT_GT(solution.constraint_violation.value_or(0.0), 1e-3);
   }
-}
-
-/// x² + y² = -1.
-TEST(InteriorPoint, SaysInfeasibleAtAPointOfLeastViolation) {
-  tests::SmallProgram program =
-      tests::equality_program([](const tests::HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
-                              [](const tests::HyperVector& x) { return tests::HyperVector{x[0] * x[0] + x[1] * x[1]}; },
-                              2, tests::vector({-1.0}));
-  const Solution solution = solve_by_interior_point(program, tests::vector({1.0, 0.5}), options_with("sparse"));
-  EXPECT_TRUE(solution.status == Status::infeasible || solution.status == Status::step_failed)
-      << name_of(solution.status);
-  EXPECT_NEAR(solution.constraint_violation.value_or(0.0), 1.0, 1e-2);
-}
-
-/// A program of intervals for the tests of how a solve ends.
-class PendulumProgram {
- public:
-  PendulumProgram()
-      : program_(problem_, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16)),
-        start_(sample(program_, guessed_motion(problem_))) {}
-  [[nodiscard]] Transcription& program() { return program_; }
-  [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
-
- private:
-  tests::Pendulum problem_;
-  Transcription program_;
-  Eigen::VectorXd start_;
-};
-
-TEST(InteriorPoint, EndsWhereAFormulaIsNotANumberAtTheStart) {
-  PendulumProgram of;
-  Eigen::VectorXd start = of.start();
-  start[3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(solve_by_interior_point(of.program(), start).status, Status::evaluation_failed);
-}
-
-TEST(InteriorPoint, EndsWhenAskedTo) {
-  PendulumProgram of;
-  SolverOptions options;
-  int asked = 0;
-  options.stop_requested = [&] { return ++asked == 3; };
-  const Solution solution = solve_by_interior_point(of.program(), of.start(), options);
-  EXPECT_EQ(solution.status, Status::interrupted);
-  EXPECT_EQ(solution.major_iterations, 2);
-}
-
-TEST(InteriorPoint, EndsAtTheIterationLimitWithItsLastPoint) {
-  PendulumProgram of;
-  SolverOptions options;
-  options.most_iterations = 2;
-  const Solution solution = solve_by_interior_point(of.program(), of.start(), options);
-  EXPECT_EQ(solution.status, Status::iteration_limit);
-  EXPECT_EQ(solution.major_iterations, 2);
-  EXPECT_EQ(solution.primal.size(), of.start().size());
-  EXPECT_NE(solution.primal, of.start());
-  EXPECT_TRUE(solution.kkt_residual.has_value());
-}
-
-TEST(InteriorPoint, EndsAtTheTimeLimit) {
-  PendulumProgram of;
-  SolverOptions options;
-  options.most_seconds = 1e-12;
-  EXPECT_EQ(solve_by_interior_point(of.program(), of.start(), options).status, Status::time_limit);
-}
-
-TEST(InteriorPoint, TellsWhatWeComputeAtItsAnswer) {
-  PendulumProgram of;
-  const Solution solution = solve_by_interior_point(of.program(), of.start());
-  ASSERT_EQ(solution.status, Status::solved) << solution.message;
-  EXPECT_EQ(solution.objective, of.program().objective(solution.primal));
-  EXPECT_LT(solution.kkt_residual.value_or(1.0), 1e-9);
-  EXPECT_LT(solution.constraint_violation.value_or(1.0), 1e-9);
-  EXPECT_GT(solution.major_iterations.value_or(0), 2);
-  EXPECT_GT(solution.total_evaluations().value_or(0), 2);
 }
 
 }  // namespace

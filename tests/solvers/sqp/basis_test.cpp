@@ -1,7 +1,7 @@
+#include "methods/solvers/sqp/quadratic/basis.hpp"
+
 #include <gtest/gtest.h>
 
-#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
-#include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
 
 namespace dmocbench::sqp {

@@ -1,8 +1,5 @@
 #include "methods/solvers/sqp/sqp_solver.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "problems/registry.hpp"
@@ -14,8 +11,6 @@
 namespace dmocbench {
 namespace {
 
-using tests::everywhere;
-using tests::HyperDual;
 using tests::HyperVector;
 using tests::SmallProgram;
 using tests::vector;
@@ -28,38 +23,6 @@ SolverOptions with(const std::string& option, const std::string& value) {
   SolverOptions options;
   options.passed_on[option] = value;
   return options;
-}
-
-TEST(Sqp, FindsTheKnownOptimaOfHockAndSchittkowski) {
-  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
-    for (const char* hessian : {"exact", "limited_memory"}) {
-      SCOPED_TRACE("HS " + std::to_string(known.number) + " " + hessian);
-      SmallProgram program(known.statement);
-      const Solution solution = solve_by_sqp(program, known.start, with("hessian", hessian));
-      EXPECT_EQ(solution.status, Status::solved) << solution.message;
-      EXPECT_NEAR(solution.objective, known.objective, 1e-8);
-      EXPECT_LT((solution.primal - known.optimum).norm(), 2e-5);
-      EXPECT_LT(solution.kkt_residual.value(), 1e-9);
-      EXPECT_GT(solution.major_iterations.value(), 0);
-      EXPECT_GE(solution.minor_iterations.value(), solution.major_iterations.value());
-    }
-  }
-}
-
-TEST(Sqp, FollowsRosenbrocksValley) {
-  SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve_by_sqp(program, vector({-1.2, 1.0}));
-  EXPECT_EQ(solution.status, Status::solved) << solution.message;
-  EXPECT_LT((solution.primal - vector({1.0, 1.0})).norm(), 1e-8);
-}
-
-TEST(Sqp, GivesMultipliersOfOurSign) {
-  // HS 71: x₁x₂x₃x₄ >= 25 is active from below: more of it would cost more, so its multiplier is negative.
-  const tests::KnownProgram known = tests::hock_schittkowski().back();
-  SmallProgram program(known.statement);
-  const Solution solution = solve_by_sqp(program, known.start);
-  EXPECT_NEAR(solution.multipliers[0], -0.5522936596, 1e-8);
-  EXPECT_NEAR(solution.multipliers[1], 0.1614685642, 1e-8);
 }
 
 TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
@@ -100,24 +63,6 @@ TEST(Sqp, SolvesWithActiveControlBoundsToAPointWhereIpoptStays) {
   }
 }
 
-TEST(Sqp, KeepsFixedVariablesAtTheirValues) {
-  tests::KnownProgram known = tests::hock_schittkowski().back();
-  known.statement.variable_lower[1] = known.statement.variable_upper[1] = 4.5;
-  SmallProgram program(known.statement);
-  const Solution solution = solve_by_sqp(program, known.start);
-  EXPECT_EQ(solution.status, Status::solved) << solution.message;
-  EXPECT_EQ(solution.primal[1], 4.5);
-}
-
-TEST(Sqp, SaysInfeasibleWhereTheRowsCannotBeMet) {
-  SmallProgram program = tests::equality_program(
-      [](const HyperVector& x) { return x[0] * x[0] + x[1] * x[1]; },
-      [](const HyperVector& x) { return HyperVector{x[0] * x[0] + x[1] * x[1]}; }, 2, vector({-1.0}));
-  const Solution solution = solve_by_sqp(program, vector({1.0, 0.5}));
-  EXPECT_EQ(solution.status, Status::infeasible) << solution.message;
-  EXPECT_NEAR(solution.constraint_violation.value(), 1.0, 1e-3);
-}
-
 TEST(Sqp, GivesUpWithAWordWhereTheObjectiveFallsForever) {
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return x[0]; },
@@ -127,26 +72,6 @@ TEST(Sqp, GivesUpWithAWordWhereTheObjectiveFallsForever) {
   const Solution solution = solve_by_sqp(program, vector({0.0}), options);
   EXPECT_FALSE(is_solved(solution.status));
   EXPECT_FALSE(solution.message.empty());
-}
-
-TEST(Sqp, StopsAtTheIterationLimitAndWhenAsked) {
-  SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  options.most_iterations = 3;
-  const Solution limited = solve_by_sqp(program, vector({-1.2, 1.0}), options);
-  EXPECT_EQ(limited.status, Status::iteration_limit);
-  EXPECT_EQ(limited.major_iterations, 3);
-  options.most_iterations = 500;
-  int asked = 0;
-  options.stop_requested = [&] { return ++asked > 4; };
-  EXPECT_EQ(solve_by_sqp(program, vector({-1.2, 1.0}), options).status, Status::interrupted);
-}
-
-TEST(Sqp, SaysWhereAFormulaGivesNoNumber) {
-  SmallProgram program =
-      tests::equality_program([](const HyperVector& x) { return log(x[0]); },
-                              [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));
-  EXPECT_EQ(solve_by_sqp(program, vector({-1.0})).status, Status::evaluation_failed);
 }
 
 TEST(Sqp, StepsBackFromPlacesWhereAFormulaGivesNoNumber) {
@@ -168,12 +93,6 @@ TEST(Sqp, RefusesWhatItDoesNotKnow) {
             "the solver sqp: pricing must be largest, lowest, last or random, not steepest");
   EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("seed", "1.5")); }),
             "the solver sqp: seed must be a whole number, not 1.5");
-}
-
-TEST(Sqp, RefusesAStartOfTheWrongSize) {
-  SmallProgram program = tests::rosenbrock();
-  EXPECT_EQ(tests::sentence_of_error([&] { static_cast<void>(solve_by_sqp(program, vector({1.0}))); }),
-            "the start has 1 entries, the program 2 variables");
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <utility>
-
-#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
+#include <vector>
 
 namespace dmocbench::sqp {
 
@@ -26,16 +25,45 @@ double Iterate::infeasibility() const {
   return sum;
 }
 
-Eigen::VectorXd Iterate::at_basics(const Eigen::VectorXd& of_columns) const { return of_columns(sets_.basics()); }
-
-Eigen::VectorXd Iterate::at_superbasics(const Eigen::VectorXd& of_columns) const {
-  return of_columns(sets_.superbasics());
-}
-
 double Iterate::objective() const {
   const Eigen::VectorXd d = variables();
   const Eigen::VectorXd curved = program_->hessian->times(d);
   return program_->gradient.dot(d) + 0.5 * d.dot(curved);
+}
+
+Eigen::VectorXd Iterate::null_space_times(const Eigen::VectorXd& of_superbasics) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(program_->column_count());
+  change(sets_.superbasics()) = of_superbasics;
+  const Eigen::Index n = program_->variable_count();
+  const Eigen::VectorXd moved = program_->rows * change.head(n) - change.tail(program_->row_count());
+  change(sets_.basics()) = -basis_.solve(moved);
+  return change;
+}
+
+Eigen::VectorXd Iterate::null_space_transposed_times(const Eigen::VectorXd& of_variables) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(program_->column_count());
+  all.head(program_->variable_count()) = of_variables;
+  const Eigen::VectorXd multipliers = basis_.solve_transposed(at_basics(all));
+  return at_superbasics(all - program_->transposed_times(multipliers));
+}
+
+Eigen::MatrixXd Iterate::reduced_hessian() const {
+  const std::vector<Eigen::Index>& superbasics = sets_.superbasics();
+  if (superbasics.empty()) return {};  // Eigen's triangular product looks at its first entry
+  const Eigen::Index n = program_->variable_count();
+  Eigen::MatrixXd directions =
+      Eigen::MatrixXd::Zero(program_->column_count(), static_cast<Eigen::Index>(superbasics.size()));
+  for (std::size_t place = 0; place < superbasics.size(); ++place) {
+    auto direction = directions.col(static_cast<Eigen::Index>(place));
+    direction(sets_.basics()) = -basis_.solve(program_->column(superbasics[place]));
+    direction[superbasics[place]] = 1.0;
+  }
+  const Eigen::MatrixXd of_variables = directions.topRows(n);
+  const Eigen::MatrixXd curved = program_->hessian->times(of_variables);
+  Eigen::MatrixXd result(directions.cols(), directions.cols());
+  result.triangularView<Eigen::Lower>() = of_variables.transpose() * curved;
+  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+  return result;
 }
 
 void Iterate::replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved) {

@@ -5,14 +5,14 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/quadratic/basis_factorisation.hpp"
+#include "methods/solvers/sqp/quadratic/basis.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 #include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
 
-/// The basis became singular, or the reduced Hessian is not positive definite: the quadratic program cannot be solved
-/// from these sets.
+/// Thrown where the basis is singular or the reduced Hessian not positive definite: the quadratic program cannot be
+/// solved from these sets.
 class Breakdown : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -40,11 +40,25 @@ class Iterate {
   /// Sum over all columns of the distance to their bounds, where it exceeds the tolerance.
   [[nodiscard]] double infeasibility() const;
   /// The entries of a vector over all columns that belong to the basic ones, in the order of positions.
-  [[nodiscard]] Eigen::VectorXd at_basics(const Eigen::VectorXd& of_columns) const;
+  [[nodiscard]] Eigen::VectorXd at_basics(const Eigen::VectorXd& of_columns) const {
+    return of_columns(sets_.basics());
+  }
   /// The same for the superbasic ones.
-  [[nodiscard]] Eigen::VectorXd at_superbasics(const Eigen::VectorXd& of_columns) const;
+  [[nodiscard]] Eigen::VectorXd at_superbasics(const Eigen::VectorXd& of_columns) const {
+    return of_columns(sets_.superbasics());
+  }
   /// gᵀd + ½ dᵀHd.
   [[nodiscard]] double objective() const;
+
+  // The null space of A d - s = 0 with the nonbasic columns at rest has the basis Z = (-B⁻¹S; I; 0): one direction per
+  // superbasic column. Z is never stored.
+
+  /// Z w, for a vector over the superbasic columns: all n + m columns.
+  [[nodiscard]] Eigen::VectorXd null_space_times(const Eigen::VectorXd& of_superbasics) const;
+  /// Zᵀ w, for a vector over the n variables: one entry per superbasic column.
+  [[nodiscard]] Eigen::VectorXd null_space_transposed_times(const Eigen::VectorXd& of_variables) const;
+  /// ZᵀHZ, dense.
+  [[nodiscard]] Eigen::MatrixXd reduced_hessian() const;
 
   /// Moves all columns by `step` times `direction` (n + m entries).
   void move(const Eigen::VectorXd& direction, double step) { values_ += step * direction; }

@@ -5,7 +5,6 @@
 #include "methods/solvers/minor_iteration.hpp"
 #include "methods/solvers/sqp/quadratic/iterate.hpp"
 #include "methods/solvers/sqp/quadratic/pricing.hpp"
-#include "methods/solvers/sqp/quadratic/reduced_hessian.hpp"
 
 namespace dmocbench::sqp {
 
@@ -22,18 +21,9 @@ void find_feasible_point(Iterate& iterate, Pricing& pricing, double tolerance, c
 
 /// Phase 2: from a feasible point (up to violations that were accepted) to the minimiser. A column whose reduced
 /// gradient exceeds `tolerance` becomes superbasic when the point is stationary on the present sets; each minor
-/// iteration takes the exact step of the reduced Hessian `reduced` = ZᵀHZ (which belongs to the superbasic columns at
-/// the start), or as much of it as the bounds allow. Returns the multipliers π of A d - s = 0: g + Hd - Aᵀπ vanishes in
-/// the free columns. Throws `Breakdown`, `Stopped`.
-[[nodiscard]] Eigen::VectorXd find_minimiser(Iterate& iterate, ReducedHessian& reduced, Pricing& pricing,
-                                             double tolerance, const MinorObserver& observer);
-
-/// The columns that are neither basic nor (if `but_superbasics`) superbasic, may move, and lower the objective by it:
-/// `rates` (n + m entries) are the rates of change of the objective.
-[[nodiscard]] std::vector<PricedColumn> candidates_of(const Iterate& iterate, const Eigen::VectorXd& rates,
-                                                      double tolerance, bool but_superbasics);
-
-/// Tells the observer; throws `Stopped`.
-void report(const Iterate& iterate, MinorIteration minor, const MinorObserver& observer);
+/// iteration takes the exact step of the reduced Hessian ZᵀHZ, or as much of it as the bounds allow. Returns the
+/// multipliers π of A d - s = 0: g + Hd - Aᵀπ vanishes in the free columns. Throws `Breakdown`, `Stopped`.
+[[nodiscard]] Eigen::VectorXd find_minimiser(Iterate& iterate, Pricing& pricing, double tolerance,
+                                             const MinorObserver& observer);
 
 }  // namespace dmocbench::sqp

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -22,7 +24,21 @@ class Pricing {
   explicit Pricing(PricingRule rule = PricingRule::largest, std::uint32_t seed = 1) : rule_(rule), generator_(seed) {}
 
   /// One of the candidates (in ascending order of their index, not empty).
-  [[nodiscard]] PricedColumn choose(const std::vector<PricedColumn>& candidates);
+  [[nodiscard]] PricedColumn choose(const std::vector<PricedColumn>& candidates) {
+    switch (rule_) {
+      case PricingRule::lowest:
+        return candidates.front();
+      case PricingRule::last:
+        return candidates.back();
+      case PricingRule::random:
+        return candidates[generator_() % candidates.size()];  // the same sequence with every standard library
+      case PricingRule::largest:
+        break;
+    }
+    return *std::max_element(candidates.begin(), candidates.end(), [](const PricedColumn& a, const PricedColumn& b) {
+      return std::abs(a.rate) < std::abs(b.rate);
+    });
+  }
 
  private:
   PricingRule rule_;

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "methods/solvers/sqp/quadratic/basis_choice.hpp"
-#include "methods/solvers/sqp/quadratic/null_space.hpp"
+#include "methods/solvers/sqp/quadratic/basis.hpp"
 
 namespace dmocbench::sqp {
 
@@ -44,9 +43,7 @@ QuadraticSolution QuadraticSolver::solve_from(const QuadraticProgram& program, W
     if (may_restart && leaves_variable_outside(iterate)) return solve_from(program, slack_start(program), false);
     solution.infeasibility = iterate.infeasibility();
     if (solution.infeasibility > 0.0) iterate.accept_violations();
-    ReducedHessian reduced;
-    if (!reduced.assign(reduced_matrix(iterate))) throw Breakdown("the reduced Hessian is not positive definite");
-    solution.multipliers = -find_minimiser(iterate, reduced, pricing_, options_.optimality_tolerance, observer_);
+    solution.multipliers = -find_minimiser(iterate, pricing_, options_.optimality_tolerance, observer_);
     solution.step = iterate.variables();
     solution.status =
         solution.infeasibility > 0.0 ? QuadraticSolution::Status::infeasible : QuadraticSolution::Status::optimal;

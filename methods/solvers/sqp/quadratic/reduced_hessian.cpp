@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace dmocbench::sqp {
 
@@ -13,13 +15,10 @@ namespace {
 constexpr double smallest_relative_pivot = 100.0 * std::numeric_limits<double>::epsilon();
 
 Eigen::MatrixXd without(const Eigen::MatrixXd& matrix, Eigen::Index place) {
-  const Eigen::Index after = matrix.rows() - place - 1;
-  Eigen::MatrixXd result(matrix.rows() - 1, matrix.cols() - 1);
-  result.topLeftCorner(place, place) = matrix.topLeftCorner(place, place);
-  result.topRightCorner(place, after) = matrix.topRightCorner(place, after);
-  result.bottomLeftCorner(after, place) = matrix.bottomLeftCorner(after, place);
-  result.bottomRightCorner(after, after) = matrix.bottomRightCorner(after, after);
-  return result;
+  std::vector<Eigen::Index> kept(static_cast<std::size_t>(matrix.rows()));
+  std::iota(kept.begin(), kept.end(), 0);
+  kept.erase(kept.begin() + place);
+  return matrix(kept, kept);
 }
 
 }  // namespace
@@ -60,11 +59,11 @@ bool ReducedHessian::remove(Eigen::Index place) { return assign(without(matrix_.
 
 bool ReducedHessian::exchange(Eigen::Index place, const Eigen::VectorXd& weights) {
   Eigen::MatrixXd changed = matrix_.topLeftCorner(size_, size_);
-  const Eigen::VectorXd slope = weights / weights[place];
+  const Eigen::VectorXd ratios = weights / weights[place];
   const Eigen::VectorXd old_column = changed.col(place);
-  changed.noalias() -= old_column * slope.transpose();
-  changed.noalias() -= slope * old_column.transpose();
-  changed.noalias() += old_column[place] * slope * slope.transpose();
+  changed.noalias() -= old_column * ratios.transpose();
+  changed.noalias() -= ratios * old_column.transpose();
+  changed.noalias() += old_column[place] * ratios * ratios.transpose();
   return assign(without(changed, place));
 }
 

@@ -1,4 +1,4 @@
-#include "methods/solvers/one_sided_rows.hpp"
+#include "methods/solvers/one_sided_constraints.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using tests::HyperVector;
 using tests::SmallProgram;
 using tests::vector;
 
-/// Rows x₁x₂ = 3, x₂x₃ in [1, 4], x₁ + x₃ <= 5, x₁ - x₃ free; x₂ is fixed.
+/// Constraints x₁x₂ = 3, x₂x₃ in [1, 4], x₁ + x₃ <= 5, x₁ - x₃ free; x₂ is fixed.
 SmallProgram mixed() {
   return SmallProgram({[](const HyperVector& x) { return x[0]; },
                        [](const HyperVector& x) {
@@ -22,31 +22,32 @@ SmallProgram mixed() {
                        vector({3.0, 1.0, -unbounded, -unbounded}), vector({3.0, 4.0, 5.0, unbounded})});
 }
 
-TEST(OneSidedRows, SayTheSameAsTheRowsAndOmitFixedVariables) {
+TEST(OneSidedConstraints, SayTheSameAsTheConstraints) {
   SmallProgram program = mixed();
-  const std::vector<Eigen::Index> numbers{0, -1, 1};
-  const OneSidedRows equalities(program, OneSidedRows::Kind::equalities, numbers, 2);
-  const OneSidedRows inequalities(program, OneSidedRows::Kind::inequalities, numbers, 2);
+  const OneSidedConstraints equalities(program, OneSidedConstraints::Kind::equalities);
+  const OneSidedConstraints inequalities(program, OneSidedConstraints::Kind::inequalities);
   ASSERT_EQ(equalities.size(), 1U);
   ASSERT_EQ(inequalities.size(), 3U);
 
-  const Eigen::VectorXd x = vector({1.0, 2.0, 7.0});
-  Eigen::VectorXd rows(4);
-  Eigen::VectorXd nonzeros(static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  program.constraints(x, rows);
-  program.jacobian(x, nonzeros);
+  Eigen::VectorXd constraints(4);
+  program.constraints(vector({1.0, 2.0, 7.0}), constraints);
   Eigen::VectorXd values(1);
-  equalities.values(rows, values.data());
+  equalities.values(constraints, values.data());
   EXPECT_EQ(values, vector({2.0 - 3.0}));
   values.resize(3);
-  inequalities.values(rows, values.data());
+  inequalities.values(constraints, values.data());
   EXPECT_EQ(values, vector({14.0 - 4.0, 1.0 - 14.0, 8.0 - 5.0}));
 
+  OneSidedConstraints::RowMajor jacobian(4, 2);  // by x₁ and x₃
+  jacobian << 2.0, 0.0,                          //
+      0.0, 2.0,                                  //
+      1.0, 1.0,                                  //
+      1.0, -1.0;
   Eigen::VectorXd dense = everywhere(2, -9.0);
-  equalities.jacobian(nonzeros, dense.data());
+  equalities.jacobian(jacobian, dense.data());
   EXPECT_EQ(dense, vector({2.0, 0.0}));
   dense = everywhere(6, -9.0);
-  inequalities.jacobian(nonzeros, dense.data());
+  inequalities.jacobian(jacobian, dense.data());
   EXPECT_EQ(dense, vector({0.0, 2.0, 0.0, -2.0, 1.0, 1.0}));
 }
 
