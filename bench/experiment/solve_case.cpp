@@ -14,14 +14,13 @@ namespace dmocbench {
 namespace {
 
 /// Solves several times from the same start; the answer is the first one's, the times are medians.
-Solution solve_repeatedly(const SolvedCase& solved, const SolverOptions& options, int repeats) {
-  const auto solver = make_solver(solved.the_case.solver, options);
-  Solution solution = solver->solve(*solved.program, solved.start);
+Solution solve_repeatedly(const SolvedCase& solved, const Solver& solver, int repeats) {
+  Solution solution = solver.solve(*solved.program, solved.start);
   std::vector<double> seconds{solution.seconds};
   std::vector<double> evaluation_seconds{solution.evaluation_seconds};
   std::vector<double> linear_seconds{solution.linear_seconds.value_or(0.0)};
   for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
-    const Solution again = solver->solve(*solved.program, solved.start);
+    const Solution again = solver.solve(*solved.program, solved.start);
     if (again.status == Status::interrupted) break;
     seconds.push_back(again.seconds);
     evaluation_seconds.push_back(again.evaluation_seconds);
@@ -100,14 +99,15 @@ SolvedCase unsolved_case(const Case& the_case, const std::string& reason) {
 }
 
 SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                      bool polishes) {
+                      bool polishes, const SolverMaker& make) {
   SolvedCase result{.the_case = the_case};
   const auto setup_start = Clock::now();
   result.program = the_case.transcribe();
   result.setup_seconds = seconds_since(setup_start);
   Transcription& program = *result.program;
   result.start = sample(program, start.motion);
-  result.solution = solve_repeatedly(result, options, repeats);
+  const auto solver = make ? make(the_case, options) : make_solver(the_case.solver, options);
+  result.solution = solve_repeatedly(result, *solver, repeats);
   Solution& solution = result.solution;
   if (the_case.derivatives != "tape") judge_exactly(the_case, options.tolerance, solution);
   if (polishes) result.polish_steps = polish(program, solution);

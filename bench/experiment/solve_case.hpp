@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,12 +39,16 @@ struct Start {
   std::optional<Motion> branch;
 };
 
+/// Makes the solver of a case.
+using SolverMaker = std::function<std::unique_ptr<Solver>(const Case& of, const SolverOptions& options)>;
+
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
 /// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
 /// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
-/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
+/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts. `make`
+/// makes the solver instead of `make_solver` by its name.
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                                    bool polishes = false);
+                                    bool polishes = false, const SolverMaker& make = {});
 
 /// A case that could not start: status "not run", the reason as its message.
 [[nodiscard]] SolvedCase unsolved_case(const Case& the_case, const std::string& reason);

@@ -15,7 +15,6 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
@@ -348,11 +347,6 @@ tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_syste
                                                                                   const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choices.factorisation == Factorisation::banded) {
-    std::string why;
-    if (auto banded = interior_point::BandedKkt::make(program, why)) return banded;
-    return tl::unexpected(why);
-  }
   auto by_intervals = interior_point::IntervalKkt::make(program);
   if (!by_intervals) return tl::unexpected(by_intervals.error());
   return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
@@ -365,7 +359,6 @@ InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOpt
   read_named_options("interior_point", this->options().passed_on,
                      {named_option("factorisation", choices_.factorisation,
                                    {{"intervals", Factorisation::intervals},
-                                    {"banded", Factorisation::banded},
                                     {"sparse", Factorisation::sparse}})});
 }
 
