@@ -27,13 +27,6 @@ do for [m = 1:3] { do for [s = 1:2] {
 grids_axis = "set logscale x 2; unset mxtics; set format x '%g'; set xrange [45:1.5e6]; set xlabel 'number of intervals N';\
     set xtics ('64' 64, '1024' 1024, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576) font ',13'"
 
-# Targets: nanoseconds with inequalities, how many times faster than Ipopt without; 0 where there is none.
-fastest(problem) = problem eq "two_link_manipulator_bounded" ? 400 : 0
-times_faster(problem) = problem eq "orbital_transfer" ? 80 : problem eq "two_link_manipulator" ? 45 : 0
-# To be evaluated: its label, where the axis ends with `x`, by a factor above its line.
-target_label(goal, unit, x, above) = goal == 0 ? "" : sprintf("set label 1 'target at 1024: %d%s' at %g, %g right font ',13'\
-    textcolor rgb grey front", goal, unit, 0.95 * x, above * goal)
-
 # --- Time per interval and iteration ---------------------------------------------------------------------------------
 drawn = ""
 do for [problem in on_grids] {
@@ -56,16 +49,13 @@ if (words(drawn) > 0) {
       set ylabel (p == 1 ? "time per interval and iteration [ns]" : "")
       unset key
       if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 2 width 2 }
-      goal = fastest(problem)
-      eval target_label(goal, " ns", 1.5e6, 1.25)
       shown = ""
       do for [c = 3:8] {
         if (here("speed_solves", times(problem, (c - 1) / 2, (c - 1) % 2 + 1), "solved")) {
           shown = shown.sprintf(" %d", c)
         }
       }
-      plot (goal > 0 ? goal : NaN) with lines linetype 8,\
-           for [c in shown] rows("speed_solves", times(problem, (int(c) - 1) / 2, (int(c) - 1) % 2 + 1), "solved")\
+      plot for [c in shown] rows("speed_solves", times(problem, (int(c) - 1) / 2, (int(c) - 1) % 2 + 1), "solved")\
                using (column("intervals")):(column("ns_per_interval_iteration"))\
                with linespoints linetype 20 + int(c),\
            for [m = 1:3] for [s = 1:2] keyentry with linespoints linetype 20 + 2 * m + s\
@@ -100,14 +90,11 @@ do for [kind in kinds] {
     set ylabel (p == 1 ? "seconds of Ipopt / seconds of interior\\_point" : "")
     unset key
     if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 1 width 2 }
-    goal = times_faster(problem)
-    eval target_label(goal, "", 24000, 1.13)
     shown = ""
     do for [m = 1:3] {
       if (here("speed_solves_ratios", ratios(problem, m), "ratio")) { shown = shown.sprintf(" %d", m) }
     }
-    plot (goal > 0 ? goal : NaN) with lines linetype 8,\
-         for [m in shown] rows("speed_solves_ratios", ratios(problem, int(m)), "ratio")\
+    plot for [m in shown] rows("speed_solves_ratios", ratios(problem, int(m)), "ratio")\
              using (column("intervals")):(column("ratio")) with linespoints linetype 21 + 2 * int(m),\
          for [m = 1:3] keyentry with linespoints linetype 21 + 2 * m title method_label(word(methods, m))
   }

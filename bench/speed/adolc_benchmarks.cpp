@@ -40,8 +40,18 @@ class Recorder {
   const adouble* record(const Schedule::Step& step) {
     if (step.operation == Operation::constant) return nullptr;
     if (step.operation == Operation::input) return &inputs_[step.input_index];
-    if (operand_count(step.operation) == 1) return record_unary(step.operation, *places_[step.left]);
+    const adouble* x = places_[step.left];
     switch (step.operation) {
+      case Operation::negate:
+        return keep(-*x);
+      case Operation::reciprocal:
+        return keep(1.0 / *x);
+      case Operation::square_root:
+        return keep(sqrt(*x));
+      case Operation::sine:
+        return keep(sin(*x));
+      case Operation::cosine:
+        return keep(cos(*x));
       case Operation::add:
         return record_binary(step, std::plus<>());
       case Operation::subtract:
@@ -62,23 +72,6 @@ class Recorder {
     const adouble* x = places_[step.left];
     const adouble* y = places_[step.right];
     return left ? keep(combine(*left, *y)) : right ? keep(combine(*x, *right)) : keep(combine(*x, *y));
-  }
-
-  const adouble* record_unary(Operation operation, const adouble& x) {
-    switch (operation) {
-      case Operation::negate:
-        return keep(-x);
-      case Operation::reciprocal:
-        return keep(1.0 / x);
-      case Operation::square_root:
-        return keep(sqrt(x));
-      case Operation::sine:
-        return keep(sin(x));
-      case Operation::cosine:
-        return keep(cos(x));
-      default:
-        throw Error("no problem of this benchmark has the operation " + std::string(name_of(operation)));
-    }
   }
 
   const Schedule& schedule_;

@@ -72,15 +72,6 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
   return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-/// Finds out before anything is timed whether the tables can be written. Throws `Error` if not.
-void prepare(const std::filesystem::path& file) {
-  if (file.empty()) return;
-  prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
-  if (std::filesystem::is_directory(file)) {
-    throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", file.string()));
-  }
-}
-
 void run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv) {
   const nlohmann::ordered_json description = describe_run({});
   for (const char* key : {"commit", "compiler", "flags", "instruction_set", "processor"}) {
@@ -118,8 +109,11 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
     return 2;
   }
   if (!initialize(*this, arguments.front(), flags)) return 2;
-  try {
-    prepare(file);
+  try {  // whether the tables can be written, before anything is timed
+    if (!file.empty()) prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
+    if (std::filesystem::is_directory(file)) {
+      throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", file.string()));
+    }
   } catch (const Error& error) {
     fmt::print(stderr, "{}: {}\n", name, error.what());
     return 2;

@@ -18,7 +18,6 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
 void register_problem(BenchmarkedFormulas& point, InstructionSet set) {
   constexpr double rounding = 1e-12;
   const HandFunctions by_hand = hand_written(point.formulas().problem, set);
-  const std::array kernels{by_hand.residual, by_hand.jacobian, by_hand.hessian};
   const double factor = BenchmarkedFormulas::objective_factor * point.program().cost_scale();
   std::vector<const double*> inputs;
   for (const Tape::Input& input : point.columns()) inputs.push_back(input.data);
@@ -27,7 +26,7 @@ void register_problem(BenchmarkedFormulas& point, InstructionSet set) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const Schedule& schedule = *point.schedules()[i];
     const auto outputs = std::make_shared<IntervalColumns>(schedule.outputs().size());
-    const auto evaluate = [kernel = kernels[i], factor, inputs, outputs] {
+    const auto evaluate = [kernel = by_hand[i], factor, inputs, outputs] {
       kernel(BenchmarkedFormulas::intervals, {.in = inputs.data(), .factor = factor, .out = outputs->columns().data()});
     };
     evaluate();

@@ -10,8 +10,8 @@ namespace dmocbench::speed {
 namespace {
 
 void residual(std::size_t intervals, const HandColumns& columns) {
-  const auto [r_left, phi_left, r_right, phi_right, u, step] = inputs<6>(columns);
-  const std::array<double*, 4> out = outputs<4>(columns);
+  const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
+  const auto out = first<4>(columns.out);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
@@ -30,8 +30,8 @@ void residual(std::size_t intervals, const HandColumns& columns) {
 }
 
 void jacobian(std::size_t intervals, const HandColumns& columns) {
-  const auto [r_left, phi_left, r_right, phi_right, u, step] = inputs<6>(columns);
-  const std::array<double*, 18> out = outputs<18>(columns);
+  const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
+  const auto out = first<18>(columns.out);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
@@ -72,9 +72,9 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
 
 void hessian(std::size_t intervals, const HandColumns& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step, time, cost_factor, lambda_left_r, lambda_left_phi,
-              lambda_right_r, lambda_right_phi] = inputs<12>(columns);
+              lambda_right_r, lambda_right_phi] = first<12>(columns.in);
   const double factor = columns.factor;
-  const std::array<double*, 13> out = outputs<13>(columns);
+  const auto out = first<13>(columns.out);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
@@ -109,7 +109,7 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
 
 namespace DMOCBENCH_KERNELS {
 
-HandFunctions orbital_transfer() { return {.residual = residual, .jacobian = jacobian, .hessian = hessian}; }
+HandFunctions orbital_transfer() { return {residual, jacobian, hessian}; }
 
 }  // namespace DMOCBENCH_KERNELS
 

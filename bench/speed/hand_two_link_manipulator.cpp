@@ -26,16 +26,13 @@ class Angles {
   static constexpr std::size_t width = 64;
   using Column = std::array<double, width>;
 
-  /// Of the intervals `first` .. `first` + `count` - 1.
-  void find(std::size_t first, std::size_t count, const HandColumns& columns) {
-    const double* left_1 = columns.in[0] + first;
-    const double* left_2 = columns.in[1] + first;
-    const double* right_1 = columns.in[2] + first;
-    const double* right_2 = columns.in[3] + first;
+  /// Of the intervals `begin` .. `begin` + `count` - 1.
+  void find(std::size_t begin, std::size_t count, const HandColumns& columns) {
+    const auto [left_1, left_2, right_1, right_2] = first<4>(columns.in);
 #pragma GCC ivdep
     for (std::size_t k = 0; k < count; ++k) {
-      theta_1_[k] = 0.5 * (left_1[k] + right_1[k]);
-      theta_2_[k] = 0.5 * (left_2[k] + right_2[k]);
+      theta_1_[k] = 0.5 * (left_1[begin + k] + right_1[begin + k]);
+      theta_2_[k] = 0.5 * (left_2[begin + k] + right_2[begin + k]);
       difference_[k] = theta_1_[k] - theta_2_[k];
     }
     using Vector = xsimd::batch<double>;
@@ -70,15 +67,15 @@ class Angles {
 };
 
 void residual(std::size_t intervals, const HandColumns& columns) {
-  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = inputs<7>(columns);
-  const std::array<double*, 4> out = outputs<4>(columns);
+  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = first<7>(columns.in);
+  const auto out = first<4>(columns.out);
   Angles angles;
-  for (std::size_t first = 0; first < intervals; first += Angles::width) {
-    const std::size_t count = std::min(Angles::width, intervals - first);
-    angles.find(first, count, columns);
+  for (std::size_t begin = 0; begin < intervals; begin += Angles::width) {
+    const std::size_t count = std::min(Angles::width, intervals - begin);
+    angles.find(begin, count, columns);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t k = first + i;
+      const std::size_t k = begin + i;
       const double h = step[k];
       const double rate = 1.0 / h;
       const double w1 = (right_1[k] - left_1[k]) * rate;
@@ -99,16 +96,16 @@ void residual(std::size_t intervals, const HandColumns& columns) {
 }
 
 void jacobian(std::size_t intervals, const HandColumns& columns) {
-  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = inputs<7>(columns);
-  const std::array<double*, 22> out = outputs<22>(columns);
+  const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = first<7>(columns.in);
+  const auto out = first<22>(columns.out);
   Angles angles;
-  for (std::size_t first = 0; first < intervals; first += Angles::width) {
-    const std::size_t count = std::min(Angles::width, intervals - first);
-    angles.find(first, count, columns);
+  for (std::size_t begin = 0; begin < intervals; begin += Angles::width) {
+    const std::size_t count = std::min(Angles::width, intervals - begin);
+    angles.find(begin, count, columns);
     angles.find_sines();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t k = first + i;
+      const std::size_t k = begin + i;
       const double h = step[k];
       const double rate = 1.0 / h;
       const double w1 = (right_1[k] - left_1[k]) * rate;
@@ -152,16 +149,16 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
 
 void hessian(std::size_t intervals, const HandColumns& columns) {
   const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step, time, cost_factor, lambda_left_1, lambda_left_2,
-              lambda_right_1, lambda_right_2] = inputs<13>(columns);
+              lambda_right_1, lambda_right_2] = first<13>(columns.in);
   const double factor = columns.factor;
-  const std::array<double*, 12> out = outputs<12>(columns);
+  const auto out = first<12>(columns.out);
   Angles angles;
-  for (std::size_t first = 0; first < intervals; first += Angles::width) {
-    const std::size_t count = std::min(Angles::width, intervals - first);
-    angles.find(first, count, columns);
+  for (std::size_t begin = 0; begin < intervals; begin += Angles::width) {
+    const std::size_t count = std::min(Angles::width, intervals - begin);
+    angles.find(begin, count, columns);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t k = first + i;
+      const std::size_t k = begin + i;
       const double h = step[k];
       const double rate = 1.0 / h;
       const double w1 = (right_1[k] - left_1[k]) * rate;
@@ -200,7 +197,7 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
 
 namespace DMOCBENCH_KERNELS {
 
-HandFunctions two_link_manipulator() { return {.residual = residual, .jacobian = jacobian, .hessian = hessian}; }
+HandFunctions two_link_manipulator() { return {residual, jacobian, hessian}; }
 
 }  // namespace DMOCBENCH_KERNELS
 

@@ -92,7 +92,7 @@ void register_benchmark(const IntervalBenchmark& what, const Evaluation& evaluat
 }
 
 void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
-                       const ValuesOfInterval& values, double tolerance) {
+                       const std::function<std::vector<double>(std::size_t interval)>& values, double tolerance) {
   TapeRun reference(schedule, preferred_instruction_set());
   reference.evaluate(point.columns());
   for (std::size_t k = 0; k < BenchmarkedFormulas::intervals; ++k) {

@@ -117,12 +117,10 @@ class TapeRun {
   IntervalColumns outputs_;
 };
 
-/// The outputs of a schedule on one interval, in its order.
-using ValuesOfInterval = std::function<std::vector<double>(std::size_t interval)>;
-
-/// Throws `Error` unless the values of every interval are the tape's to `tolerance` times the interval's largest: what
-/// is wrong is not timed.
+/// Throws `Error` unless `values`, the outputs of a schedule on an interval, are the tape's to `tolerance` times the
+/// interval's largest: what is wrong is not timed.
 void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
-                       const ValuesOfInterval& values, double tolerance = 1e-10);
+                       const std::function<std::vector<double>(std::size_t interval)>& values,
+                       double tolerance = 1e-10);
 
 }  // namespace dmocbench::speed

@@ -22,30 +22,20 @@ struct HandColumns {
 /// Treats intervals 0 .. `intervals` - 1.
 using HandKernel = void (*)(std::size_t intervals, const HandColumns& columns);
 
-/// DMOC with the midpoint rule for one problem with its default data, as an engineer would write it: loops over the
-/// intervals that g++ vectorises.
+/// Residual, Jacobian and Hessian of ℓ by DMOC with the midpoint rule for one problem with its default data, as an
+/// engineer would write them: loops over the intervals that g++ vectorises.
 ///
 /// With Q = (q_k + q_{k+1})/2, V = (q_{k+1} - q_k)/h and G = L_q + f at (Q, V, u) the constraints of an interval are
 /// left h/2 G - L_v and right h/2 G + L_v, and its share of the Lagrangian is ℓ = factor h C + α·G + δ·L_v with α = h/2
 /// (λ_left + λ_right), δ = λ_right - λ_left. Derivatives are found in Q and V, where they are few; a right end has ∂Q =
 /// 1/2, ∂V = 1/h, a left one ∂Q = 1/2, ∂V = -1/h.
-struct HandFunctions {
-  HandKernel residual;
-  HandKernel jacobian;
-  HandKernel hessian;  ///< of ℓ
-};
+using HandFunctions = std::array<HandKernel, 3>;
 
-// Copies of the first pointers to inputs or outputs, which no store can change: g++ then keeps them out of its loops.
-template <std::size_t count>
-[[gnu::always_inline]] inline std::array<const double*, count> inputs(const HandColumns& columns) {
-  std::array<const double*, count> copy{};
-  for (std::size_t i = 0; i < count; ++i) copy[i] = columns.in[i];
-  return copy;
-}
-template <std::size_t count>
-[[gnu::always_inline]] inline std::array<double*, count> outputs(const HandColumns& columns) {
-  std::array<double*, count> copy{};
-  for (std::size_t i = 0; i < count; ++i) copy[i] = columns.out[i];
+/// A copy of the first pointers to inputs or outputs, which no store can change: g++ then keeps them out of its loops.
+template <std::size_t count, class Pointer>
+[[gnu::always_inline]] inline std::array<Pointer, count> first(const Pointer* pointers) {
+  std::array<Pointer, count> copy{};
+  for (std::size_t i = 0; i < count; ++i) copy[i] = pointers[i];
   return copy;
 }
 

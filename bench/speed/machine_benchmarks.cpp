@@ -38,7 +38,8 @@ void measure_arithmetic(benchmark::State& state, const Kernels& kernels) {
 
 /// `memory` is that of all triads and grows as needed: the largest takes an eighth of what the machine has.
 void measure_triad(benchmark::State& state, TriadLoop triad, std::size_t bytes, std::vector<CacheLine>& memory) {
-  const std::size_t lines = bytes / (3 * sizeof(CacheLine));
+  constexpr std::size_t block = 8;  // arrays a few blocks of lines long, for loops without a rest
+  const std::size_t lines = bytes / (3 * block * sizeof(CacheLine)) * block;
   if (memory.size() < 3 * lines) {
     memory = {};
     memory.resize(3 * lines, CacheLine{});
