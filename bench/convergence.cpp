@@ -16,7 +16,7 @@
 #include "bench/summary/slopes.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
-#include "methods/indirect/node_control_error.hpp"
+#include "methods/indirect/control_from_costate.hpp"
 
 namespace dmocbench {
 

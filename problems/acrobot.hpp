@@ -14,11 +14,11 @@ namespace dmocbench {
 ///   V = -(m₁l_c₁ + m₂l₁)g cos q₁ - m₂gλ cos(q₁ + q₂),
 /// f = (-b₁q̇₁, u - b₂q̇₂), C = u², |u| <= 10 N m, from hanging to upright at rest in T = 4 s.
 ///
-/// The guide has λ = l₂ where mechanics asks for λ = l_c₂, the distance of the lower link's centre of mass: as if that
-/// link weighed twice its mass. Both are here, `physical` says which.
+/// The guide has λ = l₂ instead of λ = l_c₂, the distance of the lower link's centre of mass, as if that link weighed
+/// twice its mass. The parameter `physical` chooses between the two.
 ///
-/// No motion is cheaper than its energy allows: the motor's and the elbow's friction's power is
-/// uq̇₂ - b₂q̇₂² <= u²/(4b₂), hence ∫u² >= 4b₂ΔV, 27.468 with the guide's potential and 19.62 with the physical one.
+/// Energy bounds the cost from below: the power of motor and friction at the elbow is uq̇₂ - b₂q̇₂² <= u²/(4b₂), hence
+/// ∫u² >= 4b₂ΔV, 27.468 with the guide's potential and 19.62 with the physical one.
 class Acrobot final : public Problem {
  public:
   Acrobot()
@@ -65,15 +65,15 @@ class Acrobot final : public Problem {
     return bounds;
   }
 
-  /// 4b₂ΔV, which no motion's cost is below.
+  /// 4b₂ΔV, a lower bound of the cost.
   [[nodiscard]] double energy_bound() const {
     return 4.0 * parameter("friction") * 2.0 * (upper_weight() + lower_weight());
   }
 
-  /// Optima are some tens.
+  /// Optima are between 40 and 100.
   [[nodiscard]] double cost_scale() const override { return 1e-2; }
 
-  /// Rotations of the whole: ξ = (1, 0), the momentum about the shoulder, which the motor leaves alone.
+  /// Rotations of the whole: ξ = (1, 0), the momentum about the shoulder, on which the motor does not act.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
   }

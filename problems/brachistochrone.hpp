@@ -14,9 +14,8 @@ namespace dmocbench {
 /// q = (x, y), L = ½|q̇|² - gy, f = u(-ẏ, ẋ) (it does no work), minimise T from (0, 10) at rest to (10, 5), final
 /// velocity free. The cycloid x = R(φ - sin φ), y = y⁰ - R(1 - cos φ), φ = ωt, ω = sqrt(g/R), needs the constant
 /// control u = ω, so that T = φ₁ sqrt(R/g) with φ₁ and R such that it meets the end. The Hamiltonian is linear in u:
-/// all of the optimum is a singular arc, and at t = 0, where nothing moves, the control acts on nothing: Gauss has no
-/// stage there, Lobatto has and leaves its control undetermined. Data of the
-/// Dymos example (metres, seconds).
+/// the whole optimum is a singular arc. At t = 0, where the velocity is zero, the control has no effect: Gauss has no
+/// stage there, but Lobatto has one and leaves its control undetermined. Data of the Dymos example (metres, seconds).
 class Brachistochrone final : public Problem {
  public:
   Brachistochrone()
@@ -58,14 +57,14 @@ class Brachistochrone final : public Problem {
     bounds.horizon = {horizon() / factor, horizon() * factor};
     return bounds;
   }
-  /// Of the guess: the slide down a straight wire.
+  /// The time of the guess, a slide down a straight wire.
   [[nodiscard]] double horizon() const override {
     const double w = parameter("width");
     const double d = parameter("drop");
     return std::sqrt(2.0 * (w * w + d * d) / (parameter("gravity") * d));
   }
 
-  /// The slide down a straight wire, u what its reaction is at half the horizon.
+  /// The slide down a straight wire, with the u of its reaction at half the horizon.
   [[nodiscard]] MotionPoint guess(double t) const override {
     const Eigen::Vector2d way(parameter("width"), -parameter("drop"));
     const double tau = t / horizon();
@@ -76,7 +75,7 @@ class Brachistochrone final : public Problem {
             .u = Eigen::VectorXd::Constant(1, normal_gravity / speed_at_half)};
   }
 
-  /// Horizontal translations; gravity spares this momentum.
+  /// Horizontal translations; gravity does not act on this momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
   }

@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// What the orbital transfer of the paper is whatever its coordinates: data, units and duration.
+/// The orbital transfer of the paper in any coordinates: data, units and duration.
 ///
 /// Solved nondimensionally: length r⁰, time sqrt(r⁰³/(γM)), mass of the satellite 1. The radii r⁰ and r^T are altitudes
 /// plus the Earth's radius (the paper prints the altitudes 30 km and 330 km only). After d revolutions the satellite is

@@ -12,9 +12,9 @@ namespace dmocbench {
 /// q = (s, l, θ): the trolley, the length of the rope and the small angle of the swing;
 ///   s̈ = u₁ + 17.2656 θ,   l̈ = u₂,   l θ̈ + 2 l̇ θ̇ = -(u₁ + 27.0756 θ):
 /// L = ½(ṡ² + l̇² + l²θ̇²), f = (u₁ + 17.2656 θ, u₂ - lθ̇², -l(u₁ + 27.0756 θ)). C = ½(θ² + θ̇² + ρ|u|²), T = 9 s, with
-/// ρ = 0 as Teo and Goh have it (then the control is singular: the cost does not see it) or ρ = 0.01 as Augustin and
-/// Maurer add. |u₁| <= 2.83374, -0.80865 <= u₂ <= 0.71265, |ṡ| <= 2.5, |l̇| <= 1; from (0, 22, 0), l̇ = -1, to
-/// (10, 14, 0), ṡ = 2.5. Metres and seconds.
+/// ρ = 0 as in Teo and Goh (then the control is singular, because the cost does not depend on it) or ρ = 0.01 as
+/// Augustin and Maurer add. |u₁| <= 2.83374, -0.80865 <= u₂ <= 0.71265, |ṡ| <= 2.5, |l̇| <= 1; from (0, 22, 0), l̇ = -1,
+/// to (10, 14, 0), ṡ = 2.5. Metres and seconds.
 class ContainerCrane final : public Problem {
  public:
   ContainerCrane()

@@ -11,8 +11,8 @@ namespace dmocbench {
 ///
 /// q = (x, y), L = ½(ẋ² + ẏ²) + 1/r with r = sqrt(x² + y²), f = u (-y, x)/r, C = u², data and units of
 /// `CircleToCircle`: `orbital_transfer` in another chart, hence with the same optimum. L_vv is constant here, so that
-/// tangent-space and Hamiltonian collocation are one method. Both ends lie on the x-axis whatever the number of
-/// revolutions: d is in the guess, a spiral, and is to be checked on the answer.
+/// tangent-space and Hamiltonian collocation are one method. Both ends lie on the x-axis for every number of
+/// revolutions d. Only the guess, a spiral, contains d, so that the solution must be checked for it.
 class KeplerCartesian final : public CircleToCircle {
  public:
   [[nodiscard]] std::string name() const override { return "kepler_cartesian"; }

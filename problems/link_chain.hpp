@@ -10,7 +10,7 @@
 namespace dmocbench {
 
 /// Swing-up of a chain of n uniform rods, a motor in every joint: the two-link manipulator of the paper (section 4.2.2,
-/// imp_twolink) with as many links as are wanted.
+/// imp_twolink) with any number of links.
 ///
 /// q = (θ_1 .. θ_n), the orientations of the rods measured counterclockwise from the horizontal; with
 /// a_ij = n - max(i, j) + ½ for i ≠ j and a_ii = n - i + ¼,

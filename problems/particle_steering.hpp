@@ -43,7 +43,7 @@ class ParticleSteering final : public Problem {
   [[nodiscard]] Expression final_cost(const State& last) const override { return last.t; }
 
   [[nodiscard]] BoundaryState initial_state() const override { return BoundaryState::at_rest(Eigen::Vector2d::Zero()); }
-  /// x(T), which is free, is guessed as at constant acceleration.
+  /// The guess of the free x(T) is that of constant acceleration.
   [[nodiscard]] BoundaryState final_state() const override {
     const double v = parameter("speed");
     return {.q = Eigen::Vector2d(0.5 * v * horizon(), parameter("height")), .v = Eigen::Vector2d(v, 0.0)};
@@ -75,7 +75,7 @@ class ParticleSteering final : public Problem {
     return low;
   }
 
-  /// Translations along x, which nothing but the thrust changes the momentum of.
+  /// Translations along x; only the thrust changes their momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
   }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 #include "problems/acrobot.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/cart_pole.hpp"
@@ -43,24 +43,16 @@ constexpr std::array registry{
     Maker{make<HangGlider>},        Maker{make<ContainerCrane>},     Maker{make<DoubleOscillator>},
 };
 
+constexpr auto problem_name = [](const Maker create) { return create()->name(); };
+
 }  // namespace
 
-std::vector<std::string> problem_names() {
-  std::vector<std::string> names;
-  for (const Maker create : registry) names.push_back(create()->name());
-  return names;
-}
+std::vector<std::string> problem_names() { return names_of(registry, problem_name); }
 
 std::vector<std::string> paper_problem_names() { return {"orbital_transfer", "two_link_manipulator"}; }
 
 std::unique_ptr<Problem> make_problem(std::string_view name) {
-  std::string known;
-  for (const Maker create : registry) {
-    auto problem = create();
-    if (problem->name() == name) return problem;
-    known += (known.empty() ? "" : ", ") + problem->name();
-  }
-  throw Error("there is no problem \"" + std::string(name) + "\"; choose one of " + known);
+  return one_of(registry, problem_name, name, "there is no problem")();
 }
 
 }  // namespace dmocbench

@@ -12,9 +12,9 @@ namespace dmocbench {
 /// q = (ρ, θ, φ): the length of the rod on one side of the pivot and its two angles; with the inertias
 /// I_φ = ((ℓ - ρ)³ + ρ³)/3 and I_θ = I_φ sin²φ, L = ½(ℓρ̇² + I_θθ̇² + I_φφ̇²). COPS prescribes
 /// ℓρ̈ = u_ρ, I_θθ̈ = u_θ, I_φφ̈ = u_φ, which are not the Euler-Lagrange equations of any such inertia: the terms with
-/// İ and ∂I/∂q are missing. So f holds them with the opposite sign,
+/// İ and ∂I/∂q are missing. So f contains them with the opposite sign,
 ///   f = u + (-½(∂I_θ/∂ρ θ̇² + ∂I_φ/∂ρ φ̇²), İ_θθ̇, İ_φφ̇ - ½ ∂I_θ/∂φ θ̇²);
-/// with `euler_lagrange` = 1 f = u, the true arm. Φ = T, |u_i| <= 1, 0 <= ρ <= ℓ, |θ| <= π, 0 <= φ <= π; from
+/// with `euler_lagrange` = 1, f = u, which is the true arm. Φ = T, |u_i| <= 1, 0 <= ρ <= ℓ, |θ| <= π, 0 <= φ <= π; from
 /// (4.5, 0, π/4) to (4.5, 2π/3, π/4), at rest. ℓ = 5.
 class RobotArm final : public Problem {
  public:

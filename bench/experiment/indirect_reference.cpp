@@ -10,7 +10,6 @@
 #include "bench/experiment/solve_case.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
-#include "methods/indirect/shooting_defect.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/runtime/clock.hpp"
 
@@ -59,7 +58,7 @@ std::string written(const Problem& problem, const IndirectSolution& solution) {
                     {"control", agreement.control},
                     {"cost", agreement.cost}}},
                   {"nodes", columns_of(extremal.nodes)},
-                  {"slopes", columns_of(extremal.slopes)},
+                  {"slopes", columns_of(extremal.rates)},
                   {"algebraic", columns_of(extremal.algebraic)}};
   return file.dump() + "\n";
 }
@@ -85,7 +84,7 @@ IndirectSolution parsed(const Json& file, const Problem& problem) {
   extremal.horizon = file.at("horizon").get<double>();
   extremal.cost = file.at("scaled_cost").get<double>();
   extremal.nodes = matrix_of(file.at("nodes"));
-  extremal.slopes = matrix_of(file.at("slopes"));
+  extremal.rates = matrix_of(file.at("slopes"));
   extremal.algebraic = matrix_of(file.at("algebraic"));
   const Json& agreement = file.at("agreement");
   return {problem,

@@ -8,7 +8,6 @@
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/diagnostics/symplecticity.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 

@@ -32,23 +32,22 @@ class AdjointEquations {
                   }),
         values_(function_.output_count()) {}
 
-  /// Afterwards slope_q(), slope_p() and control() are those of this stage.
+  /// Sets rate_q(), rate_p() and control() to the values at this stage.
   void evaluate(const Trajectory& trajectory, Eigen::Index stage) {
-    function_.evaluate(trajectory.stage_q.row(stage).transpose(), trajectory.stage_v.row(stage).transpose(),
-                       trajectory.stage_u.row(stage).transpose(), trajectory.stage_times[stage], values_);
+    function_.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], values_);
     const Eigen::VectorXd psi_q = trajectory.stage_psi_q.row(stage).transpose();
     const Eigen::VectorXd psi_p = trajectory.stage_psi_p.row(stage).transpose();
-    const std::optional<Eigen::VectorXd> slope_p =
+    const std::optional<Eigen::VectorXd> rate_p =
         solve_if_invertible(square(2), -(values_.segment(n_, n_) + psi_q + square(1).transpose() * psi_p));
-    if (!slope_p) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-    slope_p_ = *slope_p;
-    slope_q_ = -(values_.head(n_) + square(0).transpose() * psi_p + square(3).transpose() * slope_p_);
+    if (!rate_p) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
+    rate_p_ = *rate_p;
+    rate_q_ = -(values_.head(n_) + square(0).transpose() * psi_p + square(3).transpose() * rate_p_);
     cost_by_control_ = values_.segment(2 * n_, m_);
     control_ = cost_by_control_ + values_.tail(n_ * m_).reshaped(n_, m_).transpose() * psi_p;
   }
 
-  [[nodiscard]] const Eigen::VectorXd& slope_q() const { return slope_q_; }                  ///< φ^q
-  [[nodiscard]] const Eigen::VectorXd& slope_p() const { return slope_p_; }                  ///< φ^p
+  [[nodiscard]] const Eigen::VectorXd& rate_q() const { return rate_q_; }                    ///< φ^q
+  [[nodiscard]] const Eigen::VectorXd& rate_p() const { return rate_p_; }                    ///< φ^p
   [[nodiscard]] const Eigen::VectorXd& control() const { return control_; }                  ///< H_u
   [[nodiscard]] const Eigen::VectorXd& cost_by_control() const { return cost_by_control_; }  ///< C_u
 
@@ -62,22 +61,22 @@ class AdjointEquations {
   Eigen::Index m_;
   PointFunction function_;
   Eigen::VectorXd values_;
-  Eigen::VectorXd slope_q_;
-  Eigen::VectorXd slope_p_;
+  Eigen::VectorXd rate_q_;
+  Eigen::VectorXd rate_p_;
   Eigen::VectorXd control_;
   Eigen::VectorXd cost_by_control_;
 };
 
 void raise(double& largest, double value) { largest = std::max(largest, value); }
 
-/// The residuals of one interval for one half of the scheme. `stages` and `slopes` are n × s, `left` and `right` the
+/// The residuals of one interval for one half of the scheme. `stages` and `rates` are n × s, `left` and `right` the
 /// costates at the nodes.
 void raise_half(const Eigen::VectorXd& left, const Eigen::VectorXd& right, const Eigen::MatrixXd& stages,
-                const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double& step,
+                const Eigen::MatrixXd& rates, const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double& step,
                 double& stage) {
-  raise(step, (right - left - slopes * b).lpNorm<Eigen::Infinity>());
-  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
-  raise(stage, ((stages - slopes.lazyProduct(a.transpose())).colwise() - left).lpNorm<Eigen::Infinity>());
+  raise(step, (right - left - rates * b).lpNorm<Eigen::Infinity>());
+  // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
+  raise(stage, ((stages - rates.lazyProduct(a.transpose())).colwise() - left).lpNorm<Eigen::Infinity>());
 }
 
 double size_of(const Eigen::MatrixXd& values) {
@@ -105,22 +104,22 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
   AdjointResidual residual;
   double control = 0.0;
   double cost_by_control = 0.0;
-  Eigen::MatrixXd slopes_q(n, s);
-  Eigen::MatrixXd slopes_p(n, s);
+  Eigen::MatrixXd rates_q(n, s);
+  Eigen::MatrixXd rates_p(n, s);
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
+    const double h = trajectory.step(k);
     for (Eigen::Index i = 0; i < s; ++i) {
       equations.evaluate(trajectory, k * s + i);
-      slopes_q.col(i) = h * equations.slope_q();
-      slopes_p.col(i) = h * equations.slope_p();
+      rates_q.col(i) = h * equations.rate_q();
+      rates_p.col(i) = h * equations.rate_p();
       raise(control, equations.control().lpNorm<Eigen::Infinity>());
       raise(cost_by_control, equations.cost_by_control().lpNorm<Eigen::Infinity>());
     }
     raise_half(trajectory.psi_q.row(k).transpose(), trajectory.psi_q.row(k + 1).transpose(),
-               trajectory.stage_psi_q.middleRows(k * s, s).transpose(), slopes_q, coefficients.a_q, tableau.b,
+               trajectory.stage_psi_q.middleRows(k * s, s).transpose(), rates_q, coefficients.a_q, tableau.b,
                residual.step_q, residual.stage_q);
     raise_half(trajectory.psi_p.row(k).transpose(), trajectory.psi_p.row(k + 1).transpose(),
-               trajectory.stage_psi_p.middleRows(k * s, s).transpose(), slopes_p, coefficients.a_p, tableau.b,
+               trajectory.stage_psi_p.middleRows(k * s, s).transpose(), rates_p, coefficients.a_p, tableau.b,
                residual.step_p, residual.stage_p);
   }
   const double size_q = size_of(trajectory.psi_q);

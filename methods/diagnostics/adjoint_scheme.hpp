@@ -19,8 +19,8 @@ struct AdjointCoefficients {
 
 [[nodiscard]] AdjointCoefficients adjoint_coefficients(const Tableau& tableau);
 
-/// What costates and stage costates leave in the adjoint scheme, largest entry of any interval. Residuals of ψ^q are
-/// relative to the largest |ψ^q| of the nodes, those of ψ^p to the largest |ψ^p|: pure numbers.
+/// The residual of costates and stage costates in the adjoint scheme, the largest entry of any interval. Residuals of
+/// ψ^q are relative to the largest |ψ^q| of the nodes, those of ψ^p to the largest |ψ^p|: pure numbers.
 struct AdjointResidual {
   double step_q = 0.0;   ///< ψ^q_{k+1} - ψ^q_k - h Σ b_i φ^q_i (eq:stateco5)
   double step_p = 0.0;   ///< ψ^p_{k+1} - ψ^p_k - h Σ b_i φ^p_i (eq:stateco6)
@@ -35,9 +35,9 @@ struct AdjointResidual {
 
 /// The residual of a trajectory's costates with φ^q = -∂H/∂q, φ^p = -∂H/∂p of the pre-Hamiltonian
 /// H(q, p, ψ, u) = C + ψ^q·v + ψ^p·(L_q + f), v = v(q, p), at the stages (Q_i, P_i, Ψ_i, U_i). Its derivatives are
-/// those of the traced formulas of the problem, no derivative of any program enters. Rounding for DMOC and Hamiltonian
-/// collocation, O(h^2s) for tangent-space collocation where L_vv depends on q. Throws `Error` without costates, or if
-/// L_vv is singular.
+/// those of the traced formulas of the problem; no derivative of any program enters. It is of rounding size for DMOC
+/// and Hamiltonian collocation, O(h^2s) for tangent-space collocation where L_vv depends on q. Throws `Error` without
+/// costates, or if L_vv is singular.
 [[nodiscard]] AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& trajectory,
                                                const AdjointCoefficients& coefficients);
 

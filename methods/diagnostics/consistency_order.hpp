@@ -19,8 +19,8 @@ struct ConsistencyErrors {
   double map = 0.0;             ///< ‖(q_1, p_1) - exact‖ of the one-step map from the same (q_0, p_0)
 };
 
-/// What (th:ordercalculation) is about: the discrete objects at the end points of exact motions, under one smooth
-/// control whose values at the stage times are the discrete controls.
+/// The errors in (th:ordercalculation): those of the discrete objects at the end points of exact motions, under one
+/// smooth control whose values at the stage times are the discrete controls.
 class ConsistencyOrder {
  public:
   /// `starts` are the initial conditions of the motions, at t = 0.

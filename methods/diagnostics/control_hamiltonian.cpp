@@ -24,8 +24,7 @@ Eigen::VectorXd end_rates(const Problem& problem, const Trajectory& trajectory) 
   });
   const Eigen::Index last = trajectory.intervals();
   Eigen::VectorXd value(1 + problem.configuration_size());
-  rate.evaluate(trajectory.q.row(last).transpose(), trajectory.v.row(last).transpose(), Eigen::VectorXd(),
-                trajectory.node_times[last], value);
+  rate.evaluate(trajectory.node(last), trajectory.node_times[last], value);
   return value;
 }
 
@@ -46,8 +45,9 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
   for (Eigen::Index k = 0; k < hamiltonian.size(); ++k) {
     const double t = trajectory.node_times[k];
     const Eigen::Index interval = std::min(k, trajectory.intervals() - 1);
-    rates.evaluate(trajectory.q.row(k).transpose(), trajectory.v.row(k).transpose(),
-                   control_on_interval(trajectory, interval, t), t, outputs);
+    MotionPoint point = trajectory.node(k);
+    point.u = control_on_interval(trajectory, interval, t);
+    rates.evaluate(point, t, outputs);
     hamiltonian[k] =
         outputs[0] + trajectory.psi_q.row(k).dot(trajectory.v.row(k)) + trajectory.psi_p.row(k).dot(outputs.tail(n));
   }

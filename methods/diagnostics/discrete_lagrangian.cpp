@@ -7,7 +7,7 @@
 
 namespace dmocbench {
 
-/// Inputs: q_0, q_1, the interior slopes, the stage controls, h, t.
+/// Inputs: q_0, q_1, the interior rates, the stage controls, h, t.
 struct DiscreteLagrangian::Formulas {
   Eigen::Index n;
   Eigen::Index stages;
@@ -15,33 +15,17 @@ struct DiscreteLagrangian::Formulas {
   std::vector<Expression> outputs;
 
   Formulas(const Problem& problem, const Tableau& tableau) : n(problem.configuration_size()), stages(tableau.stages()) {
-    const Eigen::Index m = problem.control_size();
     const TracedProblem traced(problem);
-    std::size_t next = 0;
-    const auto take = [&next](Eigen::Index count) {
-      ExpressionVector inputs = input_vector(next, count);
-      next += static_cast<std::size_t>(count);
-      return inputs;
-    };
-    IntervalUnknowns unknowns;
-    unknowns.left_q = take(n);
-    unknowns.right_q = take(n);
-    for (Eigen::Index j = 0; j + 1 < stages; ++j) unknowns.slopes_q.push_back(take(n));
-    for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(take(m));
-    unknowns.h = take(1)[0];
-    unknowns.t = take(1)[0];
+    InputCounter counter;
+    IntervalUnknowns unknowns = take_unknowns(counter, traced, NodeState::configuration, stages);
+    unknowns.h = counter.take();
+    unknowns.t = counter.take();
     const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);
     stage_equations = trace.stage_equations;
 
-    const ExpressionVector slopes = input_vector(static_cast<std::size_t>(2 * n), n * (stages - 1));
+    const ExpressionVector rates = input_vector(static_cast<std::size_t>(2 * n), n * (stages - 1));
     const auto virtual_work = [&](const ExpressionVector& x) {
-      ExpressionVector work(x.size());
-      for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-        const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-        const ExpressionMatrix by_configuration = weight * jacobian(trace.stages[i].q, x).transpose();
-        work += by_configuration * traced.at(trace.stages[i]).control_force;
-      }
-      return work;
+      return work_of_control(traced, trace.stages, x, tableau.b, unknowns.h);
     };
     Expression action;
     for (std::size_t i = 0; i < trace.stages.size(); ++i) {
@@ -53,8 +37,8 @@ struct DiscreteLagrangian::Formulas {
     append(outputs, trace.right_rows);
     append(outputs, virtual_work(unknowns.left_q));
     append(outputs, virtual_work(unknowns.right_q));
-    append(outputs, virtual_work(slopes));
-    append(outputs, jacobian(stage_equations, slopes));
+    append(outputs, virtual_work(rates));
+    append(outputs, jacobian(stage_equations, rates));
     append(outputs, jacobian(stage_equations, unknowns.left_q));
     append(outputs, jacobian(stage_equations, unknowns.right_q));
   }
@@ -66,21 +50,21 @@ DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& ta
 DiscreteLagrangian::DiscreteLagrangian(const Formulas& formulas)
     : n_(formulas.n),
       stages_(formulas.stages),
-      interior_slopes_(formulas.stage_equations, static_cast<std::size_t>(2 * n_), formulas.stage_equations.size()),
+      interior_rates_(formulas.stage_equations, static_cast<std::size_t>(2 * n_), formulas.stage_equations.size()),
       objects_(formulas.outputs) {}
 
 DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& q_1, const LongMatrix& controls,
                                        long double h, long double t) const {
   std::vector<long double> inputs(q_0.begin(), q_0.end());
   inputs.insert(inputs.end(), q_1.begin(), q_1.end());
-  const LongVector mean_slope = (q_1 - q_0) / h;
-  for (Eigen::Index j = 0; j + 1 < stages_; ++j) inputs.insert(inputs.end(), mean_slope.begin(), mean_slope.end());
+  const LongVector mean_rate = (q_1 - q_0) / h;
+  for (Eigen::Index j = 0; j + 1 < stages_; ++j) inputs.insert(inputs.end(), mean_rate.begin(), mean_rate.end());
   for (Eigen::Index i = 0; i < controls.rows(); ++i) {
     for (Eigen::Index j = 0; j < controls.cols(); ++j) inputs.push_back(controls(i, j));
   }
   inputs.push_back(h);
   inputs.push_back(t);
-  interior_slopes_.solve(inputs);
+  interior_rates_.solve(inputs);
 
   const std::vector<long double> values = replay<long double>(objects_, std::span<const long double>(inputs));
   const Eigen::Index interior = n_ * (stages_ - 1);
@@ -97,10 +81,10 @@ DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& 
   objects.left_force = take(n_, 1);
   objects.right_force = take(n_, 1);
   if (interior == 0) return objects;
-  const LongVector work_of_slopes = take(interior, 1);
+  const LongVector work_of_rates = take(interior, 1);
   // W[∂Q/∂Q̇]·dQ̇/dq with dQ̇/dq = -(∂R/∂Q̇)⁻¹ ∂R/∂q: one solve with the transposed matrix serves both ends.
-  const LongMatrix rows_by_slopes = take(interior, interior);
-  const LongVector adjoint = solve_square(LongMatrix(rows_by_slopes.transpose()), work_of_slopes);
+  const LongMatrix rows_by_rates = take(interior, interior);
+  const LongVector adjoint = solve_square(LongMatrix(rows_by_rates.transpose()), work_of_rates);
   const LongMatrix rows_by_left = take(interior, n_);
   const LongMatrix rows_by_right = take(interior, n_);
   objects.left_force -= rows_by_left.transpose() * adjoint;

@@ -29,21 +29,19 @@ double Energy::power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const E
 
 EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajectory) {
   Energy energy(problem);
-  const auto row = [](const Eigen::MatrixXd& table, Eigen::Index k) -> Eigen::VectorXd {
-    return table.row(k).transpose();
-  };
   const auto at_node = [&](Eigen::Index k) {
-    return energy.energy(row(trajectory.q, k), row(trajectory.v, k), trajectory.node_times[k]);
+    const MotionPoint node = trajectory.node(k);
+    return energy.energy(node.q, node.v, trajectory.node_times[k]);
   };
   EnergyBalance balance;
   const double first = at_node(0);
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
+    const double h = trajectory.step(k);
     for (Eigen::Index i = 0; i < trajectory.stages(); ++i) {
-      const Eigen::Index stage = k * trajectory.stages() + i;
-      balance.work += h * trajectory.tableau.b[i] *
-                      energy.power(row(trajectory.stage_q, stage), row(trajectory.stage_v, stage),
-                                   row(trajectory.stage_u, stage), trajectory.stage_times[stage]);
+      const Eigen::Index row = k * trajectory.stages() + i;
+      const MotionPoint stage = trajectory.stage(row);
+      balance.work +=
+          h * trajectory.tableau.b[i] * energy.power(stage.q, stage.v, stage.u, trajectory.stage_times[row]);
     }
     balance.change = at_node(k + 1) - first;
     balance.largest_gap = std::max(balance.largest_gap, std::abs(balance.change - balance.work));

@@ -23,8 +23,8 @@ class Energy {
   Eigen::VectorXd values_;
 };
 
-/// The change of energy along a discrete motion against the work of the forces. Where L does not depend on t both are
-/// equal along exact motions (dE/dt = f·q̇); no discretisation here conserves that balance exactly.
+/// The change of energy along a discrete motion, compared with the work of the forces. Where L does not depend on t,
+/// both are equal along exact motions (dE/dt = f·q̇). None of the discretisations conserves this balance exactly.
 struct EnergyBalance {
   double change = 0.0;        ///< E(T) - E(0), from node configurations and velocities
   double work = 0.0;          ///< Σ_k h_k Σ b_i f·Q̇_i by the method's own quadrature

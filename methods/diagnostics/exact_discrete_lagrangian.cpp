@@ -17,7 +17,7 @@ using PhaseVector = std::vector<long double>;
 
 constexpr long double tolerance = 1e-17L;
 
-/// The parts of the integrated vector, one behind the other.
+/// The consecutive parts of the integrated vector.
 template <class Long>
 struct Parts {
   Eigen::Map<Eigen::Matrix<Long, Eigen::Dynamic, 1>> q, v;
@@ -75,7 +75,7 @@ void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& 
   PhaseVector inputs(copy.begin(), copy.begin() + 2 * n_);
   inputs.resize(static_cast<std::size_t>(3 * n_), 0.0L);
   inputs.push_back(t);
-  // At a = 0 the residual is what L_vv q̈ has to balance; at the right q̈ its derivatives are the variational equations.
+  // At a = 0 the residual is -L_vv q̈; at the true q̈ its derivatives give the variational equations.
   PhaseVector values = replay<long double>(equation_, std::span<const long double>(inputs));
   const auto block = [&](Eigen::Index first, Eigen::Index columns) {
     return Eigen::Map<const LongMatrix>(values.data() + first, n_, columns);
@@ -86,7 +86,7 @@ void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& 
   std::copy(x_dot.v.begin(), x_dot.v.end(), inputs.begin() + 2 * n_);
   values = replay<long double>(equation_, std::span<const long double>(inputs));
   x_dot.q_variation = x.v_variation;
-  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
   const LongMatrix residual_variation =
       block(n_ + n_ * n_, n_).lazyProduct(x.q_variation) + block(n_ + 2 * n_ * n_, n_).lazyProduct(x.v_variation);
   x_dot.v_variation = -solve_square(mass, residual_variation);
@@ -137,7 +137,7 @@ ExactInterval ExactDiscreteLagrangian::between(const LongVector& q_0, const Long
     const ExactInterval interval = along(q_0, v_0, h);
     const LongVector step = solve_square(interval.right_by_velocity, LongVector(interval.q_1 - q_1));
     v_0 -= step;
-    // The next iterate is exact to rounding, because the iteration is quadratic.
+    // Convergence is quadratic, so the next iterate is exact to rounding.
     if (step.lpNorm<Eigen::Infinity>() < last_step * (1.0L + v_0.lpNorm<Eigen::Infinity>())) return along(q_0, v_0, h);
   }
   throw Error("shooting for the motion between two configurations does not converge; the step is too large");

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "methods/diagnostics/discrete_objects.hpp"
+#include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/mechanics/problem.hpp"
 
@@ -13,7 +13,7 @@ struct ExactInterval {
   LongVector q_0;                ///< q(0), n entries
   LongVector v_0;                ///< q̇(0)
   LongVector q_1;                ///< q(h)
-  DiscreteObjects objects;       ///< L_d^E, f_d^{E±} and, by the lemma behind them, p_0 = L_v(0), p_1 = L_v(h)
+  DiscreteObjects objects;       ///< L_d^E, f_d^{E±} with p_0 = L_v(0), p_1 = L_v(h)
   LongMatrix right_by_velocity;  ///< ∂q(h)/∂q̇(0) at fixed q(0), n × n
 };
 
@@ -28,8 +28,8 @@ class ExactDiscreteLagrangian {
   /// `control` is called once with the traced time.
   ExactDiscreteLagrangian(const Problem& problem, const ControlFormula& control);
 
-  /// The motion that starts with (q_0, v_0) at t = 0, and the objects between its own ends. h > 0. Throws `Error` if it
-  /// cannot be integrated or h is a conjugate time (B(h) singular).
+  /// The motion from (q_0, v_0) at t = 0, and the objects between its ends; h > 0. Throws `Error` if the motion cannot
+  /// be integrated or h is a conjugate time (B(h) is singular).
   [[nodiscard]] ExactInterval along(const LongVector& q_0, const LongVector& v_0, long double h) const;
 
   /// The motion with q(0) = q_0, q(h) = q_1: the boundary value problem, by shooting with Newton's method from

@@ -31,7 +31,7 @@ KktFill kkt_fill(const Transcription& transcription) {
   const auto free = static_cast<int>(free_variable_count(transcription));
   const auto size = free + static_cast<int>(transcription.constraint_count());
 
-  // Numbers that make it diagonally dominant: only the pattern matters, and it has a Cholesky factor then.
+  // Only the pattern matters. These numbers make the matrix diagonally dominant, so that it has a Cholesky factor.
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(size) + transcription.hessian_structure().size() +
                   transcription.jacobian_structure().size());

@@ -6,12 +6,12 @@
 
 namespace dmocbench {
 
-/// Entries of the matrix (H, Aᵀ; A, 0) that every Newton-like method for the program factorises: free variables and
-/// rows, lower triangle with its whole diagonal.
+/// Entries of the matrix (H, Aᵀ; A, 0) that every Newton-like method for the program factorises, in the free variables
+/// and the constraints: the lower triangle with its whole diagonal.
 struct KktFill {
   std::size_t nonzeros = 0;
-  /// Of its Cholesky factor by one symbolic analysis (approximate minimum degree), the same for all methods: what a
-  /// sparse direct solver without pivoting would have to store.
+  /// Entries of its Cholesky factor by a symbolic analysis (approximate minimum degree), the same for all methods: the
+  /// storage of a sparse direct solver without pivoting.
   std::size_t factor_nonzeros = 0;
 };
 

@@ -23,14 +23,10 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
                                       values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
   });
 
-  const auto row = [](const Eigen::MatrixXd& table, Eigen::Index k) -> Eigen::VectorXd {
-    return table.row(k).transpose();
-  };
   Eigen::VectorXd momentum(trajectory.q.rows());
   Eigen::VectorXd direction(n);
   for (Eigen::Index k = 0; k < momentum.size(); ++k) {
-    generator.evaluate(row(trajectory.q, k), row(trajectory.v, k), Eigen::VectorXd(), trajectory.node_times[k],
-                       direction);
+    generator.evaluate(trajectory.node(k), trajectory.node_times[k], direction);
     momentum[k] = trajectory.p.row(k).dot(direction);
   }
   MomentumConsistency result;
@@ -38,12 +34,11 @@ MomentumConsistency momentum_consistency(const Problem& problem, const Trajector
   Eigen::VectorXd force(1);
   const Eigen::Index s = trajectory.stages();
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
+    const double h = trajectory.step(k);
     double work = 0.0;
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index stage = k * s + i;
-      force_along.evaluate(row(trajectory.stage_q, stage), row(trajectory.stage_v, stage),
-                           row(trajectory.stage_u, stage), trajectory.stage_times[stage], force);
+      force_along.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], force);
       work += h * trajectory.tableau.b[i] * force[0];
       result.largest_force = std::max(result.largest_force, std::abs(force[0]));
     }

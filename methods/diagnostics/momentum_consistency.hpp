@@ -7,7 +7,7 @@
 
 namespace dmocbench {
 
-/// How well a discrete motion keeps the balance between forces and momentum (eq:noether_force_d).
+/// The balance between forces and momentum along a discrete motion (eq:noether_force_d).
 struct MomentumConsistency {
   /// Per interval: p_{k+1}·ξ(q_{k+1}) - p_k·ξ(q_k) minus the work of all forces along ξ by the method's own quadrature,
   /// h Σ b_i [L_q·ξ(Q_i) + L_v·Dξ(Q_i)Q̇_i + f·ξ(Q_i)]. N entries.
@@ -18,10 +18,10 @@ struct MomentumConsistency {
   double largest_force = 0.0;  ///< largest magnitude of the force along ξ at a stage, to compare with
 };
 
-/// The momenta are the node momenta of the trajectory, one number per node shared by the two intervals beside it: with
-/// both taken from one interval the defect would be zero at any point. (The last node has one interval only, so for
-/// DMOC the last interval's defect is such an identity; the other N - 1 are checks.) Throws `Error` if the problem has
-/// no symmetry.
+/// The momenta are those of the trajectory's nodes, one number per node, shared by the two intervals beside it: with
+/// both momenta taken from the same interval, the defect would vanish identically. (The last node belongs to one
+/// interval only, so for DMOC the defect of the last interval does; the other N - 1 are checks.) Throws `Error` if the
+/// problem has no symmetry.
 [[nodiscard]] MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory);
 
 }  // namespace dmocbench

@@ -5,7 +5,7 @@
 
 namespace dmocbench {
 
-/// Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior slopes), y = p or v where nodes carry them; the stage
+/// Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior rates), y = p or v where nodes carry it; the stage
 /// controls; h; t; p_0.
 template <class Scalar>
 struct OneStepMap<Scalar>::Formulas {
@@ -19,25 +19,12 @@ struct OneStepMap<Scalar>::Formulas {
 
   Formulas(const TracedProblem& problem, const Element& element, const Tableau& tableau)
       : n(problem.configuration_size()), node_state(element.node_state()), interior(tableau.stages() - 1) {
-    std::size_t next = 0;
-    const auto take = [&next](Eigen::Index count) {
-      ExpressionVector inputs = input_vector(next, count);
-      next += static_cast<std::size_t>(count);
-      return inputs;
-    };
-    const Eigen::Index second = node_state == NodeState::configuration ? 0 : n;
-    IntervalUnknowns local;
-    local.left_q = take(n);
-    local.left_y = take(second);
-    local.right_q = take(n);
-    local.right_y = take(second);
-    for (Eigen::Index j = 0; j < interior; ++j) local.slopes_q.push_back(take(n));
-    for (Eigen::Index j = 0; j < interior && second > 0; ++j) local.slopes_y.push_back(take(n));
-    unknowns = static_cast<Eigen::Index>(next) - n;
-    for (Eigen::Index i = 0; i <= interior; ++i) local.controls.push_back(take(problem.control_size()));
-    local.h = take(1)[0];
-    local.t = take(1)[0];
-    const ExpressionVector p_0 = take(n);
+    InputCounter counter;
+    IntervalUnknowns local = take_unknowns(counter, problem, node_state, tableau.stages());
+    unknowns = static_cast<Eigen::Index>(counter.taken()) - n - tableau.stages() * problem.control_size();
+    local.h = counter.take();
+    local.t = counter.take();
+    const ExpressionVector p_0 = counter.take(n);
 
     const IntervalTrace trace = element.trace(problem, tableau, local);
     residual.resize(n + trace.stage_equations.size());
@@ -122,7 +109,7 @@ typename OneStepMap<Scalar>::Matrix OneStepMap<Scalar>::jacobian(const Step& ste
   const Matrix unknowns_by_start = -solve_square(by_unknowns, by_start);
   Matrix result(2 * n_, 2 * n_);
   result.topRows(n_) = unknowns_by_start.middleRows(node_state_ == NodeState::configuration ? 0 : n_, n_);
-  // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+  // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
   result.bottomRows(n_) = momentum_by_unknowns.lazyProduct(unknowns_by_start);
   result.bottomLeftCorner(n_, n_) += momentum_by_left;
   return result;

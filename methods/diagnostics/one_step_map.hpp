@@ -11,20 +11,20 @@ namespace dmocbench {
 
 /// The one-step map (q_0, p_0) ↦ (q_1, p_1) of any element: for DMOC the forced discrete Hamiltonian map.
 ///
-/// Solves p_0 = left momentum and the private rows of one interval for everything but q_0 and the controls, by Newton's
-/// method from traced formulas, and reads q_1 and the right momentum. For tangent-space collocation p = L_v(q, v) at
-/// both ends. `Scalar` is double or long double.
+/// Solves p_0 = left momentum and the stage equations of one interval for all unknowns but q_0 and the controls, by
+/// Newton's method from traced formulas, and reads q_1 and the right momentum. For tangent-space collocation p = L_v(q,
+/// v) at both ends. `Scalar` is double or long double.
 template <class Scalar>
 class OneStepMap {
  public:
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// Where the map goes from a point.
+  /// The image of a point.
   struct Step {
     Vector q;                    ///< q_1, n entries
     Vector p;                    ///< p_1
-    Vector mean_velocity;        ///< (q_1 - q_0)/h: a start for the next step
+    Vector mean_velocity;        ///< (q_1 - q_0)/h, an estimate for the next step
     Vector impulse;              ///< h Σ b_i f(Q_i, Q̇_i, U_i), n entries
     std::vector<Scalar> inputs;  ///< the solved interval, for `jacobian`
   };
@@ -54,5 +54,17 @@ class OneStepMap {
 
 extern template class OneStepMap<double>;
 extern template class OneStepMap<long double>;
+
+/// The symplecticity defect of a map of (q, p) with the Jacobian D (2n × 2n): the largest entry of |DᵀΩD - Ω| with
+/// Ω = (0, I; -I, 0). Its rounding is a few ε times the square of the largest entry of D.
+template <class Matrix>
+[[nodiscard]] typename Matrix::Scalar symplecticity_defect(const Matrix& d) {
+  const Eigen::Index n = d.rows() / 2;
+  Matrix omega = Matrix::Zero(2 * n, 2 * n);
+  omega.topRightCorner(n, n).setIdentity();
+  omega.bottomLeftCorner(n, n) = -Matrix::Identity(n, n);
+  const Matrix defect = d.transpose() * omega * d - omega;
+  return defect.template lpNorm<Eigen::Infinity>();
+}
 
 }  // namespace dmocbench

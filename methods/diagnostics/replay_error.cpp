@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Core>
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -15,7 +16,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The state at an end: as prescribed, or the trajectory's own where it is free.
+/// The state at an end: as prescribed, and the trajectory's where it is free.
 BoundaryState end_state(const BoundaryState& prescribed, const EndBounds& bounds, const Trajectory& trajectory,
                         Eigen::Index node) {
   BoundaryState state = prescribed;
@@ -71,10 +72,10 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
     const double left = trajectory.node_times[k];
     const double right = trajectory.node_times[k + 1];
     if (!integrate(equations, state, left, right, right - left, tolerance)) {
-      throw Error("the replay's step size vanished in interval " + std::to_string(k));
+      throw Error(fmt::format("the replay's step size vanished in interval {}", k));
     }
     if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n + 1).allFinite()) {
-      throw Error("the replay left the set where the equations of motion make sense in interval " + std::to_string(k));
+      throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
     }
   }
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n);

@@ -5,8 +5,8 @@
 
 namespace dmocbench {
 
-/// How far from the final state the continuous system ends under a trajectory's controls. Components of that state that
-/// are not prescribed are the trajectory's own.
+/// The distance from the final state at which the continuous system ends under a trajectory's controls. Components that
+/// are not prescribed are taken from the trajectory.
 struct ReplayError {
   double configuration = 0.0;  ///< |q(T) - q^T|
   double velocity = 0.0;       ///< |v(T) - v^T|
@@ -17,8 +17,8 @@ struct ReplayError {
 
 /// Integrates the forced Euler-Lagrange equations (eq:varmech_FEL) from (q⁰, v⁰), where prescribed, with the controls
 /// of the trajectory (on every interval the polynomial through its stages), by an adaptive Runge-Kutta method of order
-/// 7(8) with the given tolerance, absolute and relative. Independent of every discretisation. Throws `Error` if the
-/// integration fails: the motion leaves the set where the equations make sense, or the steps vanish.
+/// 7(8) with the given tolerance, absolute and relative. It is independent of every discretisation. Throws `Error` if
+/// the integration fails: the motion leaves the domain of the equations, or the steps vanish.
 [[nodiscard]] ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
 
 }  // namespace dmocbench

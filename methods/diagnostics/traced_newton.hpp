@@ -15,7 +15,7 @@
 
 namespace dmocbench {
 
-/// Newton's method with exact derivatives for equations that were traced: R(w, parameters) = 0, w a block of
+/// Newton's method with exact derivatives for traced equations: R(w, parameters) = 0, w a block of
 /// consecutive inputs. `Scalar` is double or long double.
 template <class Scalar>
 class TracedNewton {
@@ -36,7 +36,7 @@ class TracedNewton {
     using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
     using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
     if (count_ == 0) return;
-    // The iteration is quadratic: behind a step of this size there is only rounding.
+    // Convergence is quadratic: a step of this size leaves an error of rounding.
     const Scalar last_step = pow(std::numeric_limits<Scalar>::epsilon(), Scalar(0.65));
     Eigen::Map<Vector> unknowns(inputs.data() + first_, count_);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {

@@ -21,14 +21,14 @@ struct TrajectoryError {
   double control = 0.0;   ///< max over the stages of |u - u_ref| at the stage times
   std::optional<double> costate;  ///< max over the nodes of |ψ - ψ_ref|, ψ = (ψ_q, ψ_p); none without multipliers
   double objective = 0.0;         ///< |J - J_ref|
-  /// None unless the reference is given at the same stage times: stage values have an order of their own, which a value
-  /// interpolated between other stages would hide.
+  /// Only if the reference is given at the same stage times: stage values have an order of their own, which
+  /// interpolation between other stages would hide.
   std::optional<StageError> stages;
 };
 
-/// Errors against a reference on a finer grid. Controls are compared at the coarse grid's stage times, the reference's
-/// taken by `control_at`; motions of different horizons at the same relative times; configurations at nodes that the
-/// reference lacks by `configuration_at`.
+/// Errors against a reference on a finer grid. Controls are compared at the stage times of the coarse grid, where
+/// `control_at` evaluates the reference; motions with different horizons at the same relative times. At nodes that the
+/// reference lacks, `configuration_at` evaluates its configuration.
 [[nodiscard]] TrajectoryError trajectory_error(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace dmocbench

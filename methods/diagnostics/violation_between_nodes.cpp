@@ -37,7 +37,7 @@ double violation_between_nodes(const Problem& problem, const Trajectory& traject
       worst = std::max({worst, outside(q, bounds.q), outside(v, bounds.v), outside(u, bounds.u)});
       if (h.size() == 0) continue;
       path.evaluate(q, v, u, t, h);
-      // Where a constraint is not even a number the motion has left its domain.
+      // Where a constraint is not a number, the motion has left its domain.
       worst = h.allFinite() ? std::max(worst, -h.minCoeff()) : std::numeric_limits<double>::infinity();
     }
   }

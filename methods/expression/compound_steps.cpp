@@ -8,7 +8,7 @@ namespace dmocbench {
 
 namespace {
 
-/// The operation as a combination; nothing if it is none.
+/// The combination that an operation is; nothing for other operations.
 std::optional<Combination> combination_of(Operation operation) {
   switch (operation) {
     case Operation::add:
@@ -22,12 +22,12 @@ std::optional<Combination> combination_of(Operation operation) {
   }
 }
 
-/// With its operands in the other order.
+/// The same combination with its operands swapped.
 Combination swapped(Combination combination) {
   return combination == Combination::subtract ? Combination::subtract_from : combination;
 }
 
-/// How often each step is read, outputs counted as readers.
+/// The number of readers of each step; outputs count as readers.
 std::vector<std::size_t> count_readers(const Schedule& schedule) {
   std::vector<std::size_t> readers(schedule.steps().size());
   for (const Schedule::Step& step : schedule.steps()) {
@@ -39,11 +39,11 @@ std::vector<std::size_t> count_readers(const Schedule& schedule) {
   return readers;
 }
 
-/// Combinations carried out one after the other, beginning with the first two operands; or a tree.
+/// Combinations carried out one after the other, starting with the first two operands; or a tree.
 struct Draft {
   std::array<Combination, most_operands - 1> combinations{};
   std::array<std::uint32_t, most_operands> operands{};
-  std::size_t operand_count = 0;  // one more than there are combinations; 0 for a step that is no combination
+  std::size_t operand_count = 0;  // the number of combinations plus one; 0 for other steps
   bool is_tree = false;
 
   void append(Combination combination, std::uint32_t operand) {
@@ -78,7 +78,7 @@ class Compounder {
   }
 
  private:
-  /// The step combined with operands that have no other reader, where the kernel knows the result.
+  /// The step combined with those operands that have no other reader, if the kernel has an instruction for it.
   Draft draft(const Schedule::Step& step, Combination combination) {
     const std::size_t left = absorbable_size(step.left);
     const std::size_t right = absorbable_size(step.right);
@@ -97,7 +97,7 @@ class Compounder {
             true};
   }
 
-  /// How many operands a step has whose only reader may absorb it; else 0.
+  /// The number of operands of a step that its only reader may absorb; 0 for other steps.
   [[nodiscard]] std::size_t absorbable_size(std::uint32_t step) const {
     const std::size_t size = drafts_[step].operand_count;
     return readers_[step] == 1 && size < most_operands ? size : 0;
@@ -126,7 +126,7 @@ class Compounder {
   std::vector<std::size_t> readers_;
   std::vector<Draft> drafts_;
   std::vector<bool> absorbed_;
-  std::unordered_map<std::uint32_t, std::uint32_t> sine_of_;  // by the step it is of
+  std::unordered_map<std::uint32_t, std::uint32_t> sine_of_;  // by the step of its argument
   std::unordered_map<std::uint32_t, std::uint32_t> cosine_of_;
 };
 

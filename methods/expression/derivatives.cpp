@@ -15,7 +15,7 @@ namespace {
 
 using detail::Node;
 
-/// The nodes below `f` that depend on one of the inputs `x`, operands before their readers.
+/// The nodes of `f` that depend on one of the inputs `x`, operands before their readers.
 std::vector<Node*> active_nodes(const Expression& f, const std::unordered_set<Node*>& x) {
   std::vector<Node*> reachable;
   std::unordered_set<Node*> seen;

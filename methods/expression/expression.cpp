@@ -48,7 +48,7 @@ Scaled split(const Expression& x) {
   return {1.0, x};
 }
 
-/// factor · rest in the one form that shares best: the sign outside, then the magnitude, then the rest.
+/// factor · rest in a canonical form, so that nodes are shared: the sign outside, then the magnitude, then the rest.
 Expression scaled(double factor, const Expression& rest) {
   if (factor == 0.0) return {};
   if (const auto value = rest.constant_value()) return {factor * *value};
@@ -58,8 +58,8 @@ Expression scaled(double factor, const Expression& rest) {
   return make(Operation::multiply, Expression(factor), rest);
 }
 
-/// The factors of a product, in no particular order. What is nested deeper than the limit stays one factor: a product
-/// of a million factors, or a power by repeated squaring, must not be spread out at every multiplication.
+/// The factors of a product, in no particular order. A factor nested deeper than the limit is not split: a product of a
+/// million factors, or a power by repeated squaring, must not be expanded at every multiplication.
 std::vector<Expression> factors_of(const Expression& product) {
   constexpr std::size_t limit = 32;
   std::vector<Expression> factors{product};
@@ -79,7 +79,7 @@ bool are_reciprocal(const Expression& a, const Expression& b) {
          (is(b, Operation::reciprocal) && operand(b).is_same(a));
 }
 
-/// Removes from both lists the factors that meet their own reciprocal; true if there were any.
+/// Removes from both lists the factors that cancel against their own reciprocal; true if there were any.
 bool cancel(std::vector<Expression>& left, std::vector<Expression>& right) {
   bool cancelled = false;
   for (std::size_t i = 0; i < left.size();) {

@@ -18,12 +18,12 @@ void release(Node* node) noexcept;
 /// A traced real number: a value type that records how it was computed instead of what it is.
 ///
 /// Arithmetic on expressions builds a graph. Equal nodes are shared (an operation on the same operands is the same
-/// node), and what can be known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric
-/// factors, signs, and a factor that meets its own reciprocal. A structural zero therefore never costs anything, and
-/// "NaN passes" holds for the inputs that the folded graph still reads.
+/// node), and what is known while tracing is folded: constants, x + 0, 1 · x, 0 · x = 0, x - x = 0, numeric factors,
+/// signs, and a factor times its own reciprocal. A structural zero therefore costs nothing, and NaN propagates from
+/// those inputs that the folded graph still reads.
 ///
 /// A graph belongs to the thread that traces it. Two threads may trace at the same time; mixing expressions of two
-/// threads throws `Error`. Memory is returned when the last expression that reads a node is gone.
+/// threads throws `Error`. A node is freed when the last expression that reads it is gone.
 ///
 /// Expressions cannot be compared: a traced formula that branches on a value would be traced on one side only.
 class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one assignment copies or moves
@@ -47,7 +47,7 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   [[nodiscard]] std::optional<double> constant_value() const noexcept;
   /// True if this is the constant 0: a structural zero.
   [[nodiscard]] bool is_zero() const noexcept { return constant_value() == 0.0; }
-  /// True if both are the very same node, hence the same formula.
+  /// True if both are the same node, hence the same formula.
   [[nodiscard]] bool is_same(const Expression& other) const noexcept { return node_ == other.node_; }
 
   Expression& operator+=(const Expression& right);
@@ -90,7 +90,7 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
 /// x to a constant exponent. Integers up to 16 in magnitude are products, ±1/2 is a square root.
 [[nodiscard]] Expression pow(const Expression& x, double exponent);
 
-// A traced formula cannot branch on a value: these do not compile.
+// A traced formula cannot branch on a value: comparisons do not compile.
 bool operator==(const Expression&, const Expression&) = delete;
 bool operator!=(const Expression&, const Expression&) = delete;
 bool operator<(const Expression&, const Expression&) = delete;

@@ -7,14 +7,14 @@
 
 namespace dmocbench {
 
-/// How two numbers x, y become one; `subtract_from` is y - x.
+/// How two numbers x and y are combined; `subtract_from` is y - x.
 enum class Combination : std::uint8_t { add, subtract, multiply, subtract_from };
 
-/// The numbers of what a tape's kernel can do in one instruction: an operation alone, sine and cosine of one number, or
-/// two or three sums, differences and products whose intermediate values stay in registers. A store into the
-/// first-level cache takes as long as two or three operations: what nobody else reads is not stored.
+/// The codes of all instructions of a tape's kernel: a single operation, sine and cosine of one number, or two or three
+/// sums, differences and products whose intermediate values stay in registers. A store into the first-level cache takes
+/// as long as two or three operations, so a value that has no other reader is not stored.
 ///
-/// The innermost combination of two operands is never `subtract_from`: they can be swapped.
+/// The innermost combination is never `subtract_from`, since its operands can be swapped.
 namespace instruction_code {
 
 inline constexpr std::size_t innermost = 3;     // add, subtract, multiply

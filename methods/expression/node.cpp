@@ -62,7 +62,7 @@ Node* NodeTable::find_or_create(const NodeKey& key) {
 }
 
 void NodeTable::erase(Node* node) noexcept {
-  // A loop, not recursion: a chain of a million operations must not end the stack.
+  // A loop, not recursion: a chain of a million operations must not overflow the stack.
   std::vector<Node*> doomed{node};
   while (!doomed.empty()) {
     Node* last = doomed.back();

@@ -12,7 +12,7 @@ namespace dmocbench::detail {
 
 class NodeTable;
 
-/// What makes two nodes the same formula.
+/// The identity of a formula: nodes with equal keys are the same formula.
 struct NodeKey {
   Operation operation = Operation::constant;
   double value = 0.0;     // of a constant, or the exponent of a power
@@ -24,7 +24,7 @@ struct NodeKey {
   [[nodiscard]] std::size_t hash() const noexcept;
 };
 
-/// One operation of a graph, shared by all formulas that contain it; counted by its readers.
+/// One operation of a graph, shared by all formulas that contain it; its readers are counted.
 class Node {
  public:
   Node(const NodeKey& key, std::uint64_t serial, NodeTable& table) noexcept
@@ -36,7 +36,7 @@ class Node {
   [[nodiscard]] Node* operand(std::size_t which) const noexcept { return key_.operands[which]; }
   [[nodiscard]] const NodeKey& key() const noexcept { return key_; }
   void gain_reader() noexcept { ++readers_; }
-  /// True if it was the last one.
+  /// Returns true if that was the last reader.
   [[nodiscard]] bool lose_reader() noexcept { return --readers_ == 0; }
   /// Order of creation: operands come before the nodes that read them.
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
@@ -51,19 +51,20 @@ class Node {
 
 /// The unique table of one thread: hash-consing makes equal nodes the same node.
 ///
-/// It outlives its thread as long as a node of it is alive, so an expression kept beyond the end of its thread can
-/// still be released.
+/// It outlives its thread as long as one of its nodes is alive, so that an expression kept beyond the end of its thread
+/// can still be released.
 class NodeTable {
  public:
   /// The table of the calling thread.
   [[nodiscard]] static NodeTable& of_this_thread();
 
-  /// The node with this key, made if it is not there. Throws `Error` if an operand belongs to another thread's table.
+  /// The node with this key, which is created if there is none. Throws `Error` if an operand belongs to another
+  /// thread's table.
   [[nodiscard]] Node* find_or_create(const NodeKey& key);
-  /// Takes a node without readers out of the table and frees it, and every operand that thereby loses its last reader.
+  /// Frees a node without readers, and every operand that thereby loses its last reader.
   void erase(Node* node) noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
-  /// The owning thread ends: the table goes now, or with its last node.
+  /// To be called when the owning thread ends: the table is destroyed now, or together with its last node.
   void orphan() noexcept;
 
  private:

@@ -6,10 +6,10 @@
 
 namespace dmocbench {
 
-/// What a node of a traced formula does with its operands.
+/// The operation of a node in a traced formula.
 ///
 /// A quotient a / b is recorded as a · (1 / b), so that every formula that divides by b shares one division; `Schedule`
-/// writes it as a quotient again where the reciprocal has a single reader.
+/// turns it back into a quotient where the reciprocal has a single reader.
 enum class Operation : std::uint8_t {
   constant,
   input,

@@ -68,8 +68,8 @@ Scalar replay_operation(const Schedule::Step& step, const std::vector<Scalar>& v
 
 }  // namespace detail
 
-/// The schedule carried out on any scalar: double, long double, another package's differentiating type, or `Expression`
-/// itself, which substitutes formulas for the inputs.
+/// Evaluates a schedule on any scalar: double, long double, the differentiating type of another package, or
+/// `Expression` itself, which substitutes formulas for the inputs.
 ///
 /// `inputs` has at least `schedule.input_count()` entries. Returns the outputs. Throws `Error` if inputs are missing.
 template <class Scalar>

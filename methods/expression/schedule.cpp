@@ -12,7 +12,7 @@ namespace {
 
 using detail::Node;
 
-/// How often each reachable node is read, outputs counted as readers.
+/// The number of readers of each reachable node; outputs count as readers.
 std::unordered_map<Node*, std::size_t> count_readers(std::span<const Expression> outputs) {
   std::unordered_map<Node*, std::size_t> readers;
   std::vector<Node*> open;
@@ -30,12 +30,13 @@ std::unordered_map<Node*, std::size_t> count_readers(std::span<const Expression>
   return readers;
 }
 
-/// Writes nodes as steps, depth first: a value is computed close to its first reader, so that few are alive at a time.
+/// Writes nodes as steps, depth first: a value is computed close to its first reader, so that few values are alive at a
+/// time.
 class Writer {
  public:
   explicit Writer(std::span<const Expression> outputs) : readers_(count_readers(outputs)) {}
 
-  /// The position of the node's step, written now if it is not there yet.
+  /// The position of the node's step, which is written first if necessary.
   std::uint32_t position(Node* output) {
     std::vector<Node*> open{output};
     while (!open.empty()) {
@@ -60,7 +61,7 @@ class Writer {
   [[nodiscard]] std::vector<Schedule::Step> take_steps() { return std::move(steps_); }
 
  private:
-  /// What a node is computed from: its own operation, or a shorter one if an operand has no other reader.
+  /// How a node is computed: by its own operation, or by a shorter one if an operand has no other reader.
   struct Form {
     Operation operation;
     std::array<Node*, 2> operands;

@@ -9,10 +9,10 @@
 
 namespace dmocbench {
 
-/// The operations needed for given outputs, in an order in which they can be carried out.
+/// The operations that given outputs need, in an order in which they can be carried out.
 ///
-/// Plain data, free of the graph: it may go to another thread and outlives the expressions it came from. `replay` runs
-/// it on any scalar, `Tape` on many intervals at once.
+/// Plain data without the graph: it may be handed to another thread and outlives the expressions that it came from.
+/// `replay` runs it on any scalar, `Tape` on many intervals at once.
 class Schedule {
  public:
   /// One value of the schedule. `left` and `right` are positions of earlier steps.
@@ -29,11 +29,11 @@ class Schedule {
   explicit Schedule(const ExpressionVector& outputs);
 
   [[nodiscard]] const std::vector<Step>& steps() const noexcept { return steps_; }
-  /// Positions of the outputs among the steps, in the order they were asked for.
+  /// Positions of the outputs among the steps, in the order in which they were asked for.
   [[nodiscard]] const std::vector<std::uint32_t>& outputs() const noexcept { return outputs_; }
   /// One more than the largest number of an input that is read; 0 if none is.
   [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }
-  /// Steps that compute: all but constants and inputs.
+  /// The number of steps that compute: all but constants and inputs.
   [[nodiscard]] std::size_t operation_count() const noexcept;
 
  private:

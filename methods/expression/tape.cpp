@@ -5,10 +5,12 @@
 #include <atomic>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
-#include "methods/expression/column_plan.hpp"
 #include "methods/expression/compound_steps.hpp"
 #include "methods/expression/instruction_code.hpp"
+#include "methods/expression/slot_plan.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {
@@ -39,31 +41,31 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
     throw Error("this processor lacks the instruction set " + std::string(name_of(set)));
   }
   const std::vector<CompoundStep> compounds = compound_steps(schedule);
-  const ColumnPlan columns(schedule, compounds);
-  slot_count_ = columns.slot_count();
-  constants_ = columns.constants();
-  for (std::uint32_t i = 0; i < columns.inputs().size(); ++i) {
-    read_inputs_.push_back({columns.first_input() + i, columns.inputs()[i]});
+  const SlotPlan plan(schedule, compounds);
+  slot_count_ = plan.slot_count();
+  constants_ = plan.constants();
+  for (std::uint32_t i = 0; i < plan.inputs().size(); ++i) {
+    read_inputs_.push_back({plan.first_input() + i, plan.inputs()[i]});
   }
   instructions_.reserve(compounds.size());
   for (const CompoundStep& compound : compounds) {
-    const std::uint32_t result = columns.of(compound.step);
+    const std::uint32_t result = plan.of(compound.step);
     TapeInstruction instruction{.code = static_cast<std::uint32_t>(compound.code),
                                 .result = result,
-                                .second_result = compound.cosine ? columns.of(*compound.cosine) : result,
+                                .second_result = compound.cosine ? plan.of(*compound.cosine) : result,
                                 .operands = {},
                                 .exponent = schedule.steps()[compound.step].value};
     std::transform(compound.operands.begin(), compound.operands.begin() + compound.operand_count,
-                   instruction.operands.begin(), [&](std::uint32_t operand) { return columns.of(operand); });
+                   instruction.operands.begin(), [&](std::uint32_t operand) { return plan.of(operand); });
     instructions_.push_back(instruction);
   }
-  // What is an output twice, or as it stands among inputs and constants, is copied.
+  // A value that is an output twice, and an input or a constant that is an output, is copied.
   for (std::uint32_t j = 0; j < output_count_; ++j) {
-    const std::uint32_t source = columns.of(schedule.outputs()[j]);
-    if (source == columns.output(j)) continue;
+    const std::uint32_t source = plan.of(schedule.outputs()[j]);
+    if (source == plan.output(j)) continue;
     instructions_.push_back({.code = static_cast<std::uint32_t>(instruction_code::of(Operation::input)),
-                             .result = columns.output(j),
-                             .second_result = columns.output(j),
+                             .result = plan.output(j),
+                             .second_result = plan.output(j),
                              .operands = {source},
                              .exponent = 0.0});
   }
@@ -72,36 +74,36 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
 Tape::Workspace::Workspace(const Tape& tape)
     : serial_(tape.serial_),
       slots_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()),
-      columns_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size() + tape.output_count_) {
+      series_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size() + tape.output_count_) {
   for (std::size_t i = 0; i < tape.slot_count_ + tape.constants_.size(); ++i) {
-    columns_[i] = slots_[i].numbers.data();
+    series_[i] = slots_[i].numbers.data();
   }
   for (std::size_t i = 0; i < tape.constants_.size(); ++i) {
-    std::fill_n(columns_[tape.slot_count_ + i], block_width, tape.constants_[i]);
+    std::fill_n(series_[tape.slot_count_ + i], block_width, tape.constants_[i]);
   }
 }
 
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
   if (inputs.size() < input_count_ || outputs.size() < output_count_) {
-    throw Error("a tape with " + std::to_string(input_count_) + " inputs and " + std::to_string(output_count_) +
-                " outputs got " + std::to_string(inputs.size()) + " and " + std::to_string(outputs.size()));
+    throw Error(fmt::format("a tape with {} inputs and {} outputs got {} and {}", input_count_, output_count_,
+                            inputs.size(), outputs.size()));
   }
   if (workspace.serial_ != serial_) {
     throw Error("this workspace was made for another tape");
   }
   if (begin >= end) return;
-  // Inputs that are the same for all intervals are spread over a column of the workspace once.
+  // An input that is the same for all intervals fills a series of the workspace once.
   for (const ReadInput& input : read_inputs_) {
     if (!inputs[input.index].same_for_all) continue;
-    double* spread = workspace.slots_[input.column].numbers.data();
+    double* spread = workspace.slots_[input.position].numbers.data();
     std::fill_n(spread, block_width, *inputs[input.index].data);
-    workspace.columns_[input.column] = spread;
+    workspace.series_[input.position] = spread;
   }
   const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
-    kernel(instructions_.data(), instructions_.size(), workspace.columns_.data(), std::min(block_width, end - first));
+    kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), std::min(block_width, end - first));
   }
 }
 
@@ -109,11 +111,11 @@ void Tape::point_to_block(std::size_t first, std::span<const Input> inputs, std:
                           Workspace& workspace) const {
   for (const ReadInput& input : read_inputs_) {
     if (inputs[input.index].same_for_all) continue;
-    // The table holds results too, hence the cast; an input's column is only ever read.
-    workspace.columns_[input.column] = const_cast<double*>(inputs[input.index].data) + first;  // NOLINT
+    // The table holds results too, hence the cast; an input's series is only ever read.
+    workspace.series_[input.position] = const_cast<double*>(inputs[input.index].data) + first;  // NOLINT
   }
-  double** output_columns = workspace.columns_.data() + workspace.columns_.size() - output_count_;
-  for (std::size_t j = 0; j < output_count_; ++j) output_columns[j] = outputs[j] + first;
+  double** output_series = workspace.series_.data() + workspace.series_.size() - output_count_;
+  for (std::size_t j = 0; j < output_count_; ++j) output_series[j] = outputs[j] + first;
 }
 
 }  // namespace dmocbench

@@ -12,29 +12,29 @@
 
 namespace dmocbench {
 
-/// A schedule made ready to be evaluated over all intervals of a grid.
+/// A schedule compiled for evaluation over all intervals of a grid.
 ///
-/// The same straight-line code is carried out for a block of intervals at a time: every instruction is a loop over
-/// `block_width` numbers that become vector instructions. Sums and products whose values have one reader are carried
-/// out with it, in registers (`compound_steps`); the others live in slots that are reused as soon as a value is dead
-/// (`ColumnPlan`), so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with
-/// a `Workspace` of its own.
+/// The code is straight-line and runs on a block of intervals at a time: every instruction is a loop over `block_width`
+/// numbers, which becomes vector instructions. A sum or product with a single reader is computed together with that
+/// reader, in registers (`compound_steps`). All other values live in slots, which are reused as soon as a value is dead
+/// (`SlotPlan`), so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with
+/// its own `Workspace`.
 class Tape {
  public:
   /// Intervals evaluated together.
   static constexpr std::size_t block_width = tape_block_width;
 
-  /// Where an input's values are: entry k for interval k, or one value for all intervals.
+  /// The values of an input: entry k for interval k, or one value for all intervals.
   struct Input {
     const double* data = nullptr;
     bool same_for_all = false;
   };
 
-  /// The memory of one evaluation: slots, constants and the table of columns. Not to be shared between threads.
+  /// The memory of one evaluation: slots, constants and the table of series. Not to be shared between threads.
   class Workspace {
    public:
     explicit Workspace(const Tape& tape);
-    // The table of columns points into this workspace's own slots; a move keeps them where they are.
+    // The table of series points into this workspace's own slots, which stay in place when it is moved.
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
     Workspace(Workspace&&) noexcept = default;
@@ -43,14 +43,14 @@ class Tape {
 
    private:
     friend class Tape;
-    // On a boundary of a cache line, which the widest registers are as long as: across one, loads and stores take
-    // twice.
-    struct alignas(64) Column {
+    // Aligned to cache lines, which are as long as the widest registers: a load or store across two lines takes twice
+    // as long.
+    struct alignas(64) Series {
       std::array<double, block_width> numbers{};
     };
     std::uint64_t serial_;  // of the tape
-    std::vector<Column> slots_;
-    std::vector<double*> columns_;
+    std::vector<Series> slots_;
+    std::vector<double*> series_;
   };
 
   Tape() = default;
@@ -58,10 +58,10 @@ class Tape {
 
   /// Evaluates intervals 0 .. count - 1, or from `begin` to `end` - 1.
   ///
-  /// `inputs[i]` is read where the schedule reads input i, at the entries of these intervals only; inputs the schedule
-  /// does not read may be null. `outputs[j]` receives their values, each at the entry of its interval. Outputs must not
-  /// overlap inputs or each other. Allocates nothing. Throws `Error` if there are too few inputs or outputs or the
-  /// workspace is another tape's.
+  /// `inputs[i]` holds the values of input i and is read at the entries of these intervals only; inputs that the
+  /// schedule does not read may be null. `outputs[j]` receives the values of output j, each at the entry of its
+  /// interval. Outputs must not overlap inputs or each other. Allocates nothing. Throws `Error` if there are too few
+  /// inputs or outputs, or if the workspace belongs to another tape.
   void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
@@ -73,20 +73,20 @@ class Tape {
   [[nodiscard]] std::size_t output_count() const noexcept { return output_count_; }
   /// Instructions per interval that compute (copies of inputs or constants to outputs are not counted).
   [[nodiscard]] std::size_t operation_count() const noexcept { return operation_count_; }
-  /// Columns of `block_width` numbers that intermediate values need.
+  /// The number of slots, of `block_width` numbers each, for intermediate values.
   [[nodiscard]] std::size_t slot_count() const noexcept { return slot_count_; }
   [[nodiscard]] InstructionSet instruction_set() const noexcept { return set_; }
 
  private:
   struct ReadInput {
-    std::uint32_t column;  // its place in the table of columns
-    std::size_t index;     // its number among the inputs
+    std::uint32_t position;  // in the table of series
+    std::size_t index;       // its number among the inputs
   };
 
   void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
                       Workspace& workspace) const;
 
-  // The table of columns: first the slots, then the constants, then the inputs that are read, then the outputs.
+  // The table of series holds first the slots, then the constants, the inputs that are read, and the outputs.
   std::vector<TapeInstruction> instructions_;
   std::vector<double> constants_;
   std::vector<ReadInput> read_inputs_;

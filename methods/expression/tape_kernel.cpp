@@ -30,10 +30,10 @@ struct PartialWidth {
   static constexpr bool is_full = false;
 };
 
-/// What an operation of one or two numbers gives.
+/// The result of an operation on one or two numbers.
 template <Operation operation>
 inline double value_of(double x, double y, double exponent) {
-  switch (operation) {  // known to the compiler
+  switch (operation) {  // a constant at compile time
     case Operation::add:
       return x + y;
     case Operation::subtract:
@@ -54,15 +54,15 @@ inline double value_of(double x, double y, double exponent) {
       return std::atan2(x, y);
     case Operation::power:
       return std::pow(x, exponent);
-    default:  // a constant or an input that is an output as it stands: copied
+    default:  // a constant or an input that is an output: copied
       return x;
   }
 }
 
 using Vector = xsimd::batch<double>;
 
-/// Functions that have a vector form, which errs by 2.4 units in the last place at most and takes a fourth to a
-/// twentieth of the time. (xsimd's logarithm has not: of numbers below 2e-308 it errs by 2.)
+/// Functions with a vector form, whose error is a few units in the last place (tests/expression). xsimd's logarithm is
+/// not among them, because it is wrong for subnormal numbers.
 constexpr bool has_vector_form(Operation operation) {
   switch (operation) {
     case Operation::exponential:
@@ -125,15 +125,15 @@ inline double value_of(double x, double y) {
 
 /// Carries out one instruction.
 template <class Width>
-using Handler = void (*)(const TapeInstruction& instruction, double* const* columns, Width width);
+using Handler = void (*)(const TapeInstruction& instruction, double* const* series, Width width);
 
 template <Operation operation, class Width>
-void run_alone(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* result = columns[instruction.result];
-  const double* x = columns[instruction.operands[0]];
+void run_alone(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* result = series[instruction.result];
+  const double* x = series[instruction.operands[0]];
   const double exponent = instruction.exponent;
   if constexpr (operand_count(operation) > 1) {
-    const double* y = columns[instruction.operands[1]];
+    const double* y = series[instruction.operands[1]];
 #pragma GCC ivdep
     for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<operation>(x[i], y[i], exponent);
   } else {
@@ -144,23 +144,23 @@ void run_alone(const TapeInstruction& instruction, double* const* columns, Width
 
 /// (a ∘ b) ∘ c
 template <Combination inner, Combination outer, class Width>
-void run_pair(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* result = columns[instruction.result];
-  const double* a = columns[instruction.operands[0]];
-  const double* b = columns[instruction.operands[1]];
-  const double* c = columns[instruction.operands[2]];
+void run_pair(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* result = series[instruction.result];
+  const double* a = series[instruction.operands[0]];
+  const double* b = series[instruction.operands[1]];
+  const double* c = series[instruction.operands[2]];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<outer>(value_of<inner>(a[i], b[i]), c[i]);
 }
 
 /// ((a ∘ b) ∘ c) ∘ d
 template <Combination inner, Combination middle, Combination outer, class Width>
-void run_chain(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* result = columns[instruction.result];
-  const double* a = columns[instruction.operands[0]];
-  const double* b = columns[instruction.operands[1]];
-  const double* c = columns[instruction.operands[2]];
-  const double* d = columns[instruction.operands[3]];
+void run_chain(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* result = series[instruction.result];
+  const double* a = series[instruction.operands[0]];
+  const double* b = series[instruction.operands[1]];
+  const double* c = series[instruction.operands[2]];
+  const double* d = series[instruction.operands[3]];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < width.value; ++i) {
     result[i] = value_of<outer>(value_of<middle>(value_of<inner>(a[i], b[i]), c[i]), d[i]);
@@ -169,20 +169,20 @@ void run_chain(const TapeInstruction& instruction, double* const* columns, Width
 
 /// (a ∘ b) ∘ (c ∘ d)
 template <Combination left, Combination right, Combination outer, class Width>
-void run_tree(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* result = columns[instruction.result];
-  const double* a = columns[instruction.operands[0]];
-  const double* b = columns[instruction.operands[1]];
-  const double* c = columns[instruction.operands[2]];
-  const double* d = columns[instruction.operands[3]];
+void run_tree(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* result = series[instruction.result];
+  const double* a = series[instruction.operands[0]];
+  const double* b = series[instruction.operands[1]];
+  const double* c = series[instruction.operands[2]];
+  const double* d = series[instruction.operands[3]];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < width.value; ++i) {
     result[i] = value_of<outer>(value_of<left>(a[i], b[i]), value_of<right>(c[i], d[i]));
   }
 }
 
-/// Hands a column over to `function(vector, i, count)`, vector by vector. The remainder comes in a padded one, of which
-/// `count` numbers count, so that every number takes the same path whatever its place.
+/// Passes a series to `function(vector, i, count)`, vector by vector. The remainder is padded to a vector of which only
+/// `count` numbers are used, so that every number is computed in the same way wherever it stands.
 template <class Width, class Function>
 inline void for_each_vector(Width width, const double* x, Function function) {
   std::size_t i = 0;
@@ -204,18 +204,18 @@ inline void store(const Vector& values, double* result, std::size_t count) {
 }
 
 template <Operation operation, class Width>
-void run_vectors(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* result = columns[instruction.result];
-  for_each_vector(width, columns[instruction.operands[0]], [&](const Vector& x, std::size_t i, std::size_t count) {
+void run_vectors(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* result = series[instruction.result];
+  for_each_vector(width, series[instruction.operands[0]], [&](const Vector& x, std::size_t i, std::size_t count) {
     store(vector_of<operation>(x), result + i, count);
   });
 }
 
 template <class Width>
-void run_sine_and_cosine(const TapeInstruction& instruction, double* const* columns, Width width) {
-  double* sines = columns[instruction.result];
-  double* cosines = columns[instruction.second_result];
-  for_each_vector(width, columns[instruction.operands[0]], [&](const Vector& x, std::size_t i, std::size_t count) {
+void run_sine_and_cosine(const TapeInstruction& instruction, double* const* series, Width width) {
+  double* sines = series[instruction.result];
+  double* cosines = series[instruction.second_result];
+  for_each_vector(width, series[instruction.operands[0]], [&](const Vector& x, std::size_t i, std::size_t count) {
     const auto [sines_of_x, cosines_of_x] = xsimd::sincos(x);
     store(sines_of_x, sines + i, count);
     store(cosines_of_x, cosines + i, count);
@@ -268,7 +268,7 @@ constexpr void add_trees(Handlers<Width>& handlers, std::index_sequence<k...> /*
    ...);
 }
 
-/// By the codes of instructions.
+/// Indexed by instruction code.
 template <class Width>
 constexpr Handlers<Width> all_handlers() {
   Handlers<Width> handlers{};
@@ -280,19 +280,19 @@ constexpr Handlers<Width> all_handlers() {
 }
 
 template <class Width>
-inline void run(const TapeInstruction* instructions, std::size_t count, double* const* columns, Width width) {
+inline void run(const TapeInstruction* instructions, std::size_t count, double* const* series, Width width) {
   static constexpr Handlers<Width> handlers = all_handlers<Width>();
-  for (std::size_t i = 0; i < count; ++i) handlers[instructions[i].code](instructions[i], columns, width);
+  for (std::size_t i = 0; i < count; ++i) handlers[instructions[i].code](instructions[i], series, width);
 }
 
 }  // namespace
 
-void DMOCBENCH_TAPE_KERNEL(const TapeInstruction* instructions, std::size_t count, double* const* columns,
+void DMOCBENCH_TAPE_KERNEL(const TapeInstruction* instructions, std::size_t count, double* const* series,
                            std::size_t width) {
   if (width == tape_block_width) {
-    run(instructions, count, columns, FullWidth{});
+    run(instructions, count, series, FullWidth{});
   } else {
-    run(instructions, count, columns, PartialWidth{width});
+    run(instructions, count, series, PartialWidth{width});
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "methods/expression/expression.hpp"
 
-/// What Eigen has to know of a traced number.
+/// What Eigen has to know about a traced number.
 template <>
 struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocbench::Expression> {
   using Real = dmocbench::Expression;
@@ -27,9 +27,9 @@ struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocben
 
 namespace dmocbench {
 
-/// A column of traced numbers.
+/// A vector of traced numbers.
 using ExpressionVector = Eigen::Matrix<Expression, Eigen::Dynamic, 1>;
-/// A table of traced numbers; an entry that is the constant 0 is a structural zero.
+/// A matrix of traced numbers; an entry that is the constant 0 is a structural zero.
 using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Matrix times vector. (Eigen's own product compares numbers, which traced numbers cannot.) Other products of matrices
@@ -38,7 +38,7 @@ using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynami
   return a.lazyProduct(x);
 }
 
-/// `count` consecutive inputs, the first with number `first`.
+/// The inputs `first`, `first` + 1, ..., `count` of them.
 [[nodiscard]] inline ExpressionVector input_vector(std::size_t first, Eigen::Index count) {
   ExpressionVector inputs(count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -46,6 +46,22 @@ using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynami
   }
   return inputs;
 }
+
+/// Hands out consecutive inputs, from number 0 on.
+class InputCounter {
+ public:
+  [[nodiscard]] ExpressionVector take(Eigen::Index count) {
+    ExpressionVector inputs = input_vector(taken_, count);
+    taken_ += static_cast<std::size_t>(count);
+    return inputs;
+  }
+  [[nodiscard]] Expression take() { return Expression::input(taken_++); }
+  /// The number of inputs handed out so far: the number of the next one.
+  [[nodiscard]] std::size_t taken() const noexcept { return taken_; }
+
+ private:
+  std::size_t taken_ = 0;
+};
 
 /// Appends the entries, column by column.
 inline void append(std::vector<Expression>& outputs, const ExpressionMatrix& entries) {

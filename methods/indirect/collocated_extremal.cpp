@@ -44,7 +44,7 @@ class NewtonOnGrid {
       for (Eigen::Index i = 0; i < tableau_.stages(); ++i) {
         const double weight = step_ * tableau_.b[i];
         transition += weight * response.middleRows(i * size_, size_);
-        transition.col(size_) += weight * extremal_.slopes.col(k * tableau_.stages() + i);
+        transition.col(size_) += weight * extremal_.rates.col(k * tableau_.stages() + i);
       }
       const Eigen::Index row = size_ * (k + 1);
       right_hand_side.segment(row, size_) = transition.col(size_);
@@ -86,7 +86,7 @@ class NewtonOnGrid {
   PontryaginFunction::Values stage_values(Eigen::Index k, Eigen::Index i) {
     const Eigen::Index s = tableau_.stages();
     const Eigen::VectorXd y =
-        extremal_.nodes.col(k) + step_ * (extremal_.slopes.middleCols(k * s, s) * tableau_.a.row(i).transpose());
+        extremal_.nodes.col(k) + step_ * (extremal_.rates.middleCols(k * s, s) * tableau_.a.row(i).transpose());
     const double t = step_ * (static_cast<double>(k) + tableau_.c[i]);
     Eigen::VectorXd z = extremal_.algebraic.col(k * s + i);
     PontryaginFunction::Values values = function_.evaluate(y, t, z);
@@ -94,8 +94,8 @@ class NewtonOnGrid {
     return values;
   }
 
-  /// How the slopes of interval k answer to a change of its left node: s 4n × (4n + 1), the last column their own
-  /// correction at a fixed node.
+  /// The change of the rates of interval k with its left node, 4n s × (4n + 1); the last column is their correction at
+  /// a fixed node.
   Eigen::MatrixXd linearised(Eigen::Index k) {
     const Eigen::Index s = tableau_.stages();
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(s * size_, s * size_);
@@ -106,7 +106,7 @@ class NewtonOnGrid {
         matrix.block(i * size_, j * size_, size_, size_) -= step_ * tableau_.a(i, j) * values.rate_jacobian;
       }
       right_hand_sides.block(i * size_, 0, size_, size_) = values.rate_jacobian;
-      right_hand_sides.block(i * size_, size_, size_, 1) = values.rate - extremal_.slopes.col(k * s + i);
+      right_hand_sides.block(i * size_, size_, size_, 1) = values.rate - extremal_.rates.col(k * s + i);
     }
     return solve_square(matrix, right_hand_sides);
   }
@@ -122,8 +122,8 @@ class NewtonOnGrid {
                                    relative(correction.bottomRows(half), extremal_.nodes.bottomRows(half)));
     for (Eigen::Index k = 0; k < extremal_.intervals(); ++k) {
       const Eigen::MatrixXd& response = responses_[static_cast<std::size_t>(k)];
-      const Eigen::VectorXd slopes = response.leftCols(size_) * correction.col(k) + response.col(size_);
-      extremal_.slopes.middleCols(k * s, s) += slopes.reshaped(size_, s);
+      const Eigen::VectorXd rates = response.leftCols(size_) * correction.col(k) + response.col(size_);
+      extremal_.rates.middleCols(k * s, s) += rates.reshaped(size_, s);
     }
     extremal_.nodes += correction;
     return change;
@@ -152,7 +152,7 @@ ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tablea
   Eigen::VectorXd integrals = Eigen::VectorXd::Zero(s);
   for (Eigen::Index i = 0; i < s; ++i) integrals += tau * tableau.b[i] * lagrange_basis(tableau.c, tau * tableau.c[i]);
   ExtremalPoint point;
-  point.y = extremal.nodes.col(k) + step * (extremal.slopes.middleCols(k * s, s) * integrals);
+  point.y = extremal.nodes.col(k) + step * (extremal.rates.middleCols(k * s, s) * integrals);
   if (tau == 1.0) point.y = extremal.nodes.col(k + 1);
   point.z = extremal.algebraic.middleCols(k * s, s) * lagrange_basis(tableau.c, tau);
   return point;
@@ -170,7 +170,7 @@ CollocatedExtremal collocate_extremal(const PontryaginFunction& function, const 
   extremal.stages = stages;
   extremal.horizon = horizon;
   extremal.nodes.resize(function.state_size(), intervals + 1);
-  extremal.slopes.resize(function.state_size(), intervals * stages);
+  extremal.rates.resize(function.state_size(), intervals * stages);
   extremal.algebraic.resize(function.algebraic_size(), intervals * stages);
   for (Eigen::Index k = 0; k <= intervals; ++k) extremal.nodes.col(k) = start(step * static_cast<double>(k)).y;
   extremal.nodes.col(0).head(first.size()) = first;
@@ -179,7 +179,7 @@ CollocatedExtremal collocate_extremal(const PontryaginFunction& function, const 
     for (Eigen::Index i = 0; i < stages; ++i) {
       const double t = step * (static_cast<double>(k) + tableau.c[i]);
       ExtremalPoint point = start(t);
-      extremal.slopes.col(k * stages + i) = function.evaluate(point.y, t, point.z).rate;
+      extremal.rates.col(k * stages + i) = function.evaluate(point.y, t, point.z).rate;
       extremal.algebraic.col(k * stages + i) = point.z;
     }
   }

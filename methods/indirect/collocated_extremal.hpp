@@ -9,18 +9,18 @@
 
 namespace dmocbench {
 
-/// A point of an extremal: y = (q, p, ψ_q, ψ_p) and z = (v, u, w) of `PontryaginFunction`, scaled like there.
+/// A point of an extremal: y = (q, p, ψ_q, ψ_p) and z = (v, u, w) of `PontryaginFunction`, scaled as there.
 struct ExtremalPoint {
   Eigen::VectorXd y;  ///< 4n entries
   Eigen::VectorXd z;  ///< 2n + m entries
 };
 
-/// An extremal by Gauss collocation on a uniform grid: plain numbers, from which the polynomials can be made again.
+/// An extremal by Gauss collocation on a uniform grid: plain numbers that determine its polynomials.
 struct CollocatedExtremal {
   int stages = 0;
   double horizon = 0.0;
   Eigen::MatrixXd nodes;      ///< y at t_0 .. t_N, 4n × (N + 1)
-  Eigen::MatrixXd slopes;     ///< ẏ at the stages, 4n × N s
+  Eigen::MatrixXd rates;      ///< ẏ at the stages, 4n × N s
   Eigen::MatrixXd algebraic;  ///< z at the stages, (2n + m) × N s
   double cost = 0.0;          ///< ∫ C dt by the method's quadrature, scaled
 
@@ -35,8 +35,8 @@ struct CollocatedExtremal {
 [[nodiscard]] ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tableau, double t);
 
 /// Pontryagin's boundary value problem by Gauss collocation with `stages` stages on `intervals` equal intervals:
-/// (q, p) fixed at both ends (`first`, `last`, 2n entries each), ψ free. Newton's method on all nodes and slopes at
-/// once from `start` (called with times in [0, horizon]); an interval's slopes are eliminated first, what is left is a
+/// (q, p) fixed at both ends (`first`, `last`, 2n entries each), ψ free. Newton's method on all nodes and rates at
+/// once from `start` (called with times in [0, horizon]); the rates of an interval are eliminated first, which leaves a
 /// multiple shooting system in the y_k. Throws `Error` if Newton's method does not converge.
 [[nodiscard]] CollocatedExtremal collocate_extremal(const PontryaginFunction& function, const Eigen::VectorXd& first,
                                                     const Eigen::VectorXd& last, double horizon, int stages,

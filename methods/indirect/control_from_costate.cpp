@@ -1,5 +1,6 @@
 #include "methods/indirect/control_from_costate.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "methods/error.hpp"
@@ -41,9 +42,9 @@ Eigen::VectorXd ControlFromCostate::control(const Eigen::VectorXd& q, const Eige
   for (int step = 0; step < most_steps; ++step) {
     point << q, v, u, t, cost_scale_ * psi_p;
     const std::vector<double> outputs = replay<double>(schedule_, inputs);
-    const Eigen::VectorXd slope = Eigen::Map<const Eigen::VectorXd>(outputs.data(), m_);
+    const Eigen::VectorXd hamiltonian_by_control = Eigen::Map<const Eigen::VectorXd>(outputs.data(), m_);
     const Eigen::MatrixXd curvature = Eigen::Map<const Eigen::MatrixXd>(outputs.data() + m_, m_, m_);
-    const std::optional<Eigen::VectorXd> correction = solve_if_positive_definite(curvature, slope);
+    const std::optional<Eigen::VectorXd> correction = solve_if_positive_definite(curvature, hamiltonian_by_control);
     if (!correction) {
       throw Error(
           "H_u = 0 does not give the control: H_uu is not positive definite; the running cost must be strictly convex "
@@ -68,6 +69,18 @@ Eigen::MatrixXd ControlFromCostate::at_nodes(const Trajectory& trajectory) const
                           .transpose();
   }
   return controls;
+}
+
+double node_control_error(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference) {
+  const ControlFromCostate principle(problem);
+  const Eigen::MatrixXd controls = principle.at_nodes(trajectory);
+  const Eigen::MatrixXd exact = principle.at_nodes(reference);
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < controls.rows(); ++k) {
+    const auto node = node_at(reference.node_times, trajectory.node_times[k]);
+    if (node) largest = std::max(largest, (controls.row(k) - exact.row(*node)).norm());
+  }
+  return largest;
 }
 
 }  // namespace dmocbench

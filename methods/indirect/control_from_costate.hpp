@@ -33,4 +33,10 @@ class ControlFromCostate {
   Schedule schedule_;  // inputs q, v, u, t, ψ_p; outputs H_u, then H_uu column by column, scaled
 };
 
+/// Largest difference, over the nodes that both have, of the controls u(x_k, ψ_k) that the maximum principle gives from
+/// each trajectory's own state and costate. It has the full order at the nodes, where stage controls have less. 0 if
+/// the trajectories share no node. Throws `Error` without costates.
+[[nodiscard]] double node_control_error(const Problem& problem, const Trajectory& trajectory,
+                                        const Trajectory& reference);
+
 }  // namespace dmocbench

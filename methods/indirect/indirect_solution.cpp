@@ -22,7 +22,7 @@ class LargestDifference {
     difference_ = std::max(difference_, (one - other).lpNorm<Eigen::Infinity>());
     largest_ = std::max({largest_, one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>()});
   }
-  /// `scale` makes the quantity of order 1, so that one can tell whether it vanishes.
+  /// `scale` makes the quantity of order 1, so that a vanishing one is recognised.
   [[nodiscard]] double relative(double scale) const {
     constexpr double vanishing = 1e-8;
     return largest_ * scale > vanishing ? difference_ / largest_ : difference_ * scale;
@@ -60,7 +60,7 @@ IndirectSolution::IndirectSolution(const Problem& problem, CollocatedExtremal ex
   }
   const Eigen::Index stages = extremal_.stages * extremal_.intervals();
   require_rows_and_columns(extremal_.nodes, function_->state_size(), extremal_.intervals() + 1);
-  require_rows_and_columns(extremal_.slopes, function_->state_size(), stages);
+  require_rows_and_columns(extremal_.rates, function_->state_size(), stages);
   require_rows_and_columns(extremal_.algebraic, function_->algebraic_size(), stages);
   tableau_ = high_order_gauss_tableau(extremal_.stages);
 }
@@ -156,7 +156,7 @@ IndirectAgreement compare(const IndirectSolution& one, const IndirectSolution& o
   const Eigen::VectorXd other_nodes = other.node_times();
   std::vector<double> times(other_nodes.begin(), other_nodes.end());
   for (Eigen::Index k = 0; k + 1 < nodes.size(); ++k) {
-    // Two points off the middle, where neither polynomial is better than elsewhere.
+    // Two points away from the middle, where neither polynomial is especially accurate.
     for (const double tau : {0.0, 0.31, 0.83}) times.push_back(nodes[k] + tau * (nodes[k + 1] - nodes[k]));
   }
   LargestDifference configuration;

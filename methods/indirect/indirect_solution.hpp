@@ -22,8 +22,8 @@ struct IndirectPoint {
   Eigen::VectorXd u;      ///< m entries, from H_u = 0
 };
 
-/// Largest differences of two solutions, each relative to the largest value of its kind along the motion (a kind that
-/// vanishes, as the costates of a free motion do, is compared as it stands, times the problem's cost scale).
+/// Largest differences of two solutions, each relative to the largest value of its kind along the motion. A kind that
+/// vanishes, such as the costates of a free motion, is compared absolutely, times the problem's cost scale.
 struct IndirectAgreement {
   double state = 0.0;    ///< q, v and p
   double costate = 0.0;  ///< ψ_q and ψ_p
@@ -39,7 +39,7 @@ struct IndirectAgreement {
 /// A solution of Pontryagin's boundary value problem, given at every time.
 class IndirectSolution {
  public:
-  /// From numbers that `extremal` returned before. The problem is traced, and need not outlive the solution. Throws
+  /// From numbers that `extremal` returned earlier. The problem is traced and need not outlive the solution. Throws
   /// `Error` if the numbers do not fit the problem.
   IndirectSolution(const Problem& problem, CollocatedExtremal extremal, const IndirectAgreement& agreement);
 
@@ -47,7 +47,7 @@ class IndirectSolution {
   /// and u from them by Newton's method.
   [[nodiscard]] IndirectPoint at(double t) const;
 
-  /// t_0 .. t_N of the solution's own grid.
+  /// t_0 .. t_N of the solution's grid.
   [[nodiscard]] Eigen::VectorXd node_times() const;
   /// J, the true cost.
   [[nodiscard]] double cost() const;
@@ -59,11 +59,11 @@ class IndirectSolution {
   /// the problem depends on time.
   [[nodiscard]] std::optional<double> hamiltonian_drift() const;
 
-  /// This solution at the nodes and stages of a trajectory, as a reference for `trajectory_error`: nothing of it is
-  /// interpolated between grids, stage controls are those at the stage times.
+  /// This solution at the nodes and stages of a trajectory, as a reference for `trajectory_error`: without
+  /// interpolation between grids, and with the stage controls at the stage times.
   [[nodiscard]] Trajectory sampled_like(const Trajectory& trajectory) const;
 
-  /// This solution on its own grid, with the stages of its own tableau.
+  /// This solution on its own grid and tableau.
   [[nodiscard]] Trajectory trajectory() const;
 
   /// All numbers of the solution, for files.

@@ -62,11 +62,11 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
   for (int step = 0; step <= most_steps; ++step) {
     point.tail(size_z) = z;
     const std::vector<double> outputs = replay<double>(schedule_, inputs);
-    const Eigen::Map<const Eigen::VectorXd> slope(outputs.data() + 2, size);
+    const Eigen::Map<const Eigen::VectorXd> derivative(outputs.data() + 2, size);
     const Eigen::Map<const Eigen::MatrixXd> curvature(outputs.data() + 2 + size, size, size);
     const Eigen::MatrixXd curvature_z = curvature.bottomRightCorner(size_z, size_z);
     if (!converged) {
-      const Eigen::VectorXd correction = solve_square(curvature_z, Eigen::VectorXd(slope.tail(size_z)));
+      const Eigen::VectorXd correction = solve_square(curvature_z, Eigen::VectorXd(derivative.tail(size_z)));
       if (!correction.allFinite()) {
         throw Error(
             "H_u = 0 has no solution u(x, psi): H_uu or L_vv is singular; the indirect method needs a regular "
@@ -78,13 +78,13 @@ PontryaginFunction::Values PontryaginFunction::evaluate(const Eigen::VectorXd& y
     }
     const Eigen::Index half = 2 * n_;
     const Eigen::MatrixXd curvature_zy = curvature.bottomLeftCorner(size_z, size_y);
-    // lazyProduct: the blocked product takes the compiler seconds and pays only where matrices are large.
+    // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
     const Eigen::MatrixXd reduced =
         curvature.topLeftCorner(size_y, size_y) -
         curvature.topRightCorner(size_y, size_z).lazyProduct(solve_square(curvature_z, curvature_zy));
     Values values;
     values.rate.resize(size_y);
-    values.rate << slope.segment(half, half), -slope.head(half);
+    values.rate << derivative.segment(half, half), -derivative.head(half);
     values.rate_jacobian.resize(size_y, size_y);
     values.rate_jacobian << reduced.bottomRows(half), -reduced.topRows(half);
     values.control_hessian = curvature.block(5 * n_, 5 * n_, m_, m_);

@@ -5,8 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
 #include "methods/transcription/interpolation.hpp"
 
 namespace dmocbench {
@@ -120,7 +123,7 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
     }
     if (agreement.worst() <= options.tolerance) break;
   }
-  if (!best) throw Error("the indirect method needs at least " + std::to_string(coarsest) + " intervals");
+  if (!best) throw Error(fmt::format("the indirect method needs at least {} intervals", coarsest));
   return *std::move(best);
 }
 
@@ -148,15 +151,43 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   const Tableau tableau = high_order_gauss_tableau(extremal.stages);
   const double step = extremal.horizon / static_cast<double>(intervals);
   for (Eigen::Index k = 0; k < intervals; ++k) {
-    const auto slopes = extremal.slopes.middleCols(k * extremal.stages, extremal.stages);
-    const Eigen::VectorXd jump = extremal.nodes.col(k) + step * (slopes * tableau.b) - extremal.nodes.col(k + 1);
+    const auto rates = extremal.rates.middleCols(k * extremal.stages, extremal.stages);
+    const Eigen::VectorXd jump = extremal.nodes.col(k) + step * (rates * tableau.b) - extremal.nodes.col(k + 1);
     largest = std::max(largest, relative(jump, extremal.nodes));
     for (Eigen::Index i = 0; i < extremal.stages; ++i) {
-      const Eigen::VectorXd y = extremal.nodes.col(k) + step * (slopes * tableau.a.row(i).transpose());
+      const Eigen::VectorXd y = extremal.nodes.col(k) + step * (rates * tableau.a.row(i).transpose());
       const double t = step * (static_cast<double>(k) + tableau.c[i]);
       Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages + i);
-      largest = std::max(largest, relative(function.evaluate(y, t, z).rate - slopes.col(i), extremal.slopes));
+      largest = std::max(largest, relative(function.evaluate(y, t, z).rate - rates.col(i), extremal.rates));
     }
+  }
+  return largest;
+}
+
+double shooting_defect(const Problem& problem, const IndirectSolution& solution, double tolerance) {
+  using Extremal = std::vector<double>;
+  const PontryaginFunction function(problem);
+  const CollocatedExtremal& extremal = solution.extremal();
+  const Eigen::VectorXd times = solution.node_times();
+  const Eigen::Index half = function.state_size() / 2;
+  constexpr double vanishing = 1e-6;  // costates of a free motion are 0
+  const double state = std::max(vanishing, extremal.nodes.topRows(half).lpNorm<Eigen::Infinity>());
+  const double costate = std::max(vanishing, extremal.nodes.bottomRows(half).lpNorm<Eigen::Infinity>());
+
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < extremal.intervals(); ++k) {
+    Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages);
+    const auto equations = [&](const Extremal& y, Extremal& rate, double t) {
+      const Eigen::Map<const Eigen::VectorXd> point(y.data(), 2 * half);
+      Eigen::Map<Eigen::VectorXd>(rate.data(), 2 * half) = function.evaluate(point, t, z).rate;
+    };
+    Extremal y(extremal.nodes.col(k).begin(), extremal.nodes.col(k).end());
+    if (!integrate(equations, y, times[k], times[k + 1], times[k + 1] - times[k], tolerance)) {
+      throw Error(fmt::format("the step size of the shooting check vanished in interval {}", k));
+    }
+    const Eigen::VectorXd mismatch = Eigen::Map<const Eigen::VectorXd>(y.data(), 2 * half) - extremal.nodes.col(k + 1);
+    largest = std::max({largest, mismatch.head(half).lpNorm<Eigen::Infinity>() / state,
+                        mismatch.tail(half).lpNorm<Eigen::Infinity>() / costate});
   }
   return largest;
 }

@@ -6,29 +6,36 @@
 
 namespace dmocbench {
 
-/// How far `solve_indirect` goes.
+/// When `solve_indirect` stops refining.
 struct IndirectOptions {
   double tolerance = 1e-12;           ///< grids are refined until two runs agree to this, relative
-  Eigen::Index most_intervals = 512;  ///< of the coarser run; then the best agreement that was reached is reported
+  Eigen::Index most_intervals = 512;  ///< of the coarser run; beyond it the best agreement so far is returned
 };
 
-/// An optimal motion that owes nothing to any direct method but its start: Pontryagin's boundary value problem of the
-/// same traced formulas, solved twice, by Gauss collocation of order 16 on N intervals and of order 20 on 3N/2, with N
+/// An optimal motion that depends on direct methods for its start only: Pontryagin's boundary value problem of the same
+/// traced formulas, solved twice, by Gauss collocation of order 16 on N intervals and of order 20 on 3N/2, with N
 /// doubled until both agree (`IndirectAgreement`). The finer run is returned.
 ///
-/// `start` is a direct solution with costates on the branch that is wanted; a few dozen intervals do. What is found is
-/// an extremal near it: Legendre's condition is checked, optimality is not. A problem of this class has no bounds
-/// and no path constraints; where they come, they are to be refused here.
+/// `start` is a direct solution with costates on the wanted branch; a few dozen intervals suffice. The result is an
+/// extremal near it: Legendre's condition is checked, optimality is not.
 ///
-/// Throws `Error` if the start has no costates or another horizon, the running cost is not strictly convex in the
-/// control, or Newton's method does not converge.
+/// Throws `Error` if the problem has bounds, path constraints, boundary conditions, a final cost, free ends or a free
+/// horizon, the start has no costates or another horizon, the running cost is not strictly convex in the control, or
+/// Newton's method does not converge.
 [[nodiscard]] IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
                                               const IndirectOptions& options = {});
 
-/// How far a solution, e.g. one read from a file, is from solving this problem: the largest residual of slopes against
-/// the equations, of steps between nodes and of both ends, relative to the largest value of its kind (state or
-/// costate). Rounding for a solution of the problem. Throws `Error` if the control cannot be found there, or sizes do
-/// not fit.
+/// The residual of a solution, e.g. one read from a file, in this problem: the largest residual of rates in the
+/// equations, of steps between nodes and of both ends, relative to the largest value of its kind (state or costate).
+/// It is of rounding size for a solution of the problem. Throws `Error` if the control cannot be found, or sizes do not
+/// fit.
 [[nodiscard]] double boundary_value_residual(const Problem& problem, const IndirectSolution& solution);
+
+/// The distance from the next node at which an adaptive Runge-Kutta method of order 7(8) ends that starts at each node
+/// (q, p, ψ)_k: the largest mismatch, relative to the largest state or costate. It confirms state and costate
+/// independently of collocation. It starts anew at every node, because over the whole horizon the equations of an
+/// optimal motion amplify rounding. `tolerance` is absolute and relative. Throws `Error` if a step size vanishes.
+[[nodiscard]] double shooting_defect(const Problem& problem, const IndirectSolution& solution,
+                                     double tolerance = 1e-14);
 
 }  // namespace dmocbench

@@ -30,14 +30,14 @@ struct Bounds {
   [[nodiscard]] bool any() const;
 };
 
-/// What is prescribed of the state at an end of the horizon.
+/// Bounds on the state at an end of the horizon.
 struct EndBounds {
   Bounds q;  ///< n entries
   Bounds v;  ///< n entries
 
-  /// (q, v) as given, (eq:LOCP3).
+  /// (q, v) = state, (eq:LOCP3).
   [[nodiscard]] static EndBounds fixed(const BoundaryState& state);
-  /// Lets q_i, or v_i, take any value.
+  /// Removes the bounds of q_i (v_i).
   EndBounds& free_configuration(Eigen::Index i);
   EndBounds& free_velocity(Eigen::Index i);
 

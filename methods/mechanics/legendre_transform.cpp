@@ -50,7 +50,7 @@ Eigen::VectorXd LegendreTransform::velocity(const Eigen::VectorXd& q, const Eige
     const Eigen::MatrixXd mass = values_.segment(n_, n_ * n_).reshaped(n_, n_);
     const std::optional<Eigen::VectorXd> correction = solve_if_invertible(mass, residual);
     if (!correction) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-    // A residual of rounding is as good as zero, however far an ill-conditioned L_vv carries it.
+    // A residual of rounding size counts as zero, however large a correction an ill-conditioned L_vv makes of it.
     const Eigen::VectorXd smallest = rounding * (p.cwiseAbs() + mass.cwiseAbs() * v.cwiseAbs());
     const bool is_rounding = (residual.array().abs() <= smallest.array()).all();
     v += *correction;

@@ -15,7 +15,7 @@ class LegendreTransform {
   /// p = L_v(q, v, t), n entries.
   [[nodiscard]] Eigen::VectorXd momentum(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
 
-  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start`; one step if L is quadratic in v.
+  /// The v with L_v(q, v, t) = p, by Newton's method from v = `start` (one step if L is quadratic in v).
   /// Throws `Error` if L_vv is singular there or the iteration does not converge.
   [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& p, double t,
                                          const Eigen::VectorXd& start);

@@ -16,7 +16,7 @@ namespace dmocbench {
 /// Formulas of a point (q, v, u, t) of the motion, evaluated on numbers, one point at a time.
 class PointFunction {
  public:
-  /// `formulas` is called once with the traced point; the entries of what it returns are the outputs.
+  /// `formulas` is called once with the traced point and returns the outputs.
   PointFunction(Eigen::Index configuration_size, Eigen::Index control_size,
                 const std::function<ExpressionVector(const ControlledState&)>& formulas);
   // The tape's inputs point into this object.
@@ -26,9 +26,13 @@ class PointFunction {
   PointFunction& operator=(PointFunction&&) = delete;
   ~PointFunction() = default;
 
-  /// The outputs at a point; `result` has `output_count()` entries. An empty `u` stands for u = 0.
+  /// The outputs at a point; `result` has `output_count()` entries. An empty `u` means u = 0.
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result);
+
+  void evaluate(const MotionPoint& point, double t, Eigen::Ref<Eigen::VectorXd> result) {
+    evaluate(point.q, point.v, point.u, t, result);
+  }
 
   [[nodiscard]] Eigen::Index output_count() const noexcept { return static_cast<Eigen::Index>(outputs_.size()); }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -70,13 +71,8 @@ std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
 }
 
 std::size_t Problem::parameter_index(std::string_view name) const {
-  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
-                                  [&](const Parameter& parameter) { return parameter.name == name; });
-  if (found != parameters_.end()) return static_cast<std::size_t>(found - parameters_.begin());
-  std::string known;
-  for (const Parameter& parameter : parameters_) known += (known.empty() ? "" : ", ") + parameter.name;
-  throw Error(this->name() + " has no parameter \"" + std::string(name) + "\"; it has " +
-              (known.empty() ? "none" : known));
+  return position_of(
+      parameters_, [](const Parameter& parameter) { return parameter.name; }, name, this->name() + " has no parameter");
 }
 
 double Problem::parameter(std::string_view name) const { return parameters_[parameter_index(name)].value; }

@@ -8,14 +8,14 @@
 
 namespace dmocbench {
 
-/// A point of the tangent space at a time, as traced numbers: what a Lagrangian is a function of.
+/// A point of the tangent space at a time, as traced numbers: the argument of a Lagrangian.
 struct State {
   ExpressionVector q;  ///< configuration, n entries
   ExpressionVector v;  ///< velocity q̇, n entries
   Expression t;        ///< time
 };
 
-/// A state and the control acting there: what forces and running costs are functions of.
+/// A state and the control that acts there: the argument of forces and running costs.
 struct ControlledState {
   ExpressionVector q;  ///< configuration, n entries
   ExpressionVector v;  ///< velocity q̇, n entries

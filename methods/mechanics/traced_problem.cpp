@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
@@ -13,11 +15,10 @@ namespace {
 
 void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& problem, const char* what) {
   if (actual == wanted) return;
-  throw Error(problem.name() + ": " + what + " has " + std::to_string(actual) + " entries, expected " +
-              std::to_string(wanted));
+  throw Error(fmt::format("{}: {} has {} entries, expected {}", problem.name(), what, actual, wanted));
 }
 
-/// Appends formulas one by one, so that they can be read back in the same order.
+/// A list of formulas that `FormulaReader` reads back in the same order.
 class FormulaList {
  public:
   void append(const Expression& formula) { formulas_.push_back(formula); }

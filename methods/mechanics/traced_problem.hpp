@@ -11,15 +11,16 @@
 
 namespace dmocbench {
 
-/// A problem's formulas, traced once, with the derivatives that equations of motion are made of.
+/// A problem's formulas, traced once, with the derivatives that the equations of motion contain.
 ///
-/// Every formula is a function of one point (q, v, u, t); `at` substitutes the formulas of an element for the point.
+/// Every formula is a function of one point (q, v, u, t); `at` substitutes other formulas, such as those of an
+/// element's stage, for that point.
 class TracedProblem {
  public:
   /// The formulas at one point.
   struct Values {
     ExpressionVector momentum;                   ///< p = L_v, n entries (Legendre transform)
-    ExpressionVector generalised_force;          ///< L_q + f, n entries: what ṗ is equal to
+    ExpressionVector generalised_force;          ///< L_q + f = ṗ, n entries
     ExpressionVector configuration_force;        ///< L_q, n entries
     ExpressionVector control_force;              ///< f, n entries
     Expression running_cost;                     ///< C
@@ -53,7 +54,7 @@ class TracedProblem {
   [[nodiscard]] Values at(const ControlledState& point) const;
   /// The formulas of the ends with the given states substituted.
   [[nodiscard]] EndValues at_ends(const State& first, const State& last) const;
-  /// The same at a state where no control acts on what is asked for (momentum, mass, symmetry): u = 0.
+  /// The same with u = 0, for formulas that do not depend on the control (momentum, mass, symmetry).
   [[nodiscard]] Values at(const State& point) const;
 
  private:

@@ -4,14 +4,14 @@
 
 #include <Eigen/Core>
 
-// Dense systems as large as a configuration or an interval. They are solved here and nowhere else, because Eigen's
-// factorisations take the compiler seconds in every source that names them.
+// Dense systems of the size of a configuration or an interval. They are solved only here, because Eigen's
+// factorisations cost seconds of compile time in every source that uses them.
 
 namespace dmocbench {
 
 /// A⁻¹ B by LU with partial pivoting: A is n × n, B and the result are n × `columns`. A singular A is no error: entries
-/// of the result are then large or not finite. There is one for `Scalar` double and long double, each for matrices B
-/// (`columns` Eigen::Dynamic) and vectors (1).
+/// of the result are then large or not finite. Compiled for `Scalar` double and long double, each for matrices B
+/// (`columns` is Eigen::Dynamic) and vectors (1).
 template <class Scalar, int columns>
 [[nodiscard]] Eigen::Matrix<Scalar, Eigen::Dynamic, columns> solve_square(
     const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& a,

@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// The number in the middle of `numbers`, of an even count the mean of the two in the middle; NaN of none.
+/// The median of `numbers`: with an even count, the mean of the two in the middle; NaN if there are none.
 [[nodiscard]] double median(std::vector<double> numbers);
 
 }  // namespace dmocbench

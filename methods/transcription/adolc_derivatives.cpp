@@ -16,14 +16,15 @@ namespace dmocbench {
 
 namespace {
 
-/// A number of a recording: a constant until an independent variable meets it, so that ADOL-C records no operation in
-/// vain. Copies share the variable, so that copying records nothing either.
+/// A number of a recording. It is a constant until it is combined with an independent variable, so that ADOL-C records
+/// no operation on constants. Copies share the variable, so that copying records nothing.
 class RecordedNumber {
  public:
   explicit RecordedNumber(double value) : value_(value) {}
   explicit RecordedNumber(std::shared_ptr<const adouble> variable) : variable_(std::move(variable)) {}
 
-  /// The result of a function of ADOL-C's. (Of constants there is none: they are folded when formulas are made.)
+  /// The result of a function of ADOL-C. (It is never applied to constants, which are folded while formulas are
+  /// traced.)
   template <class Function>
   static RecordedNumber of(const Function& function, const RecordedNumber& x) {
     return kept(x.variable_ ? function(*x.variable_) : function(adouble(x.value_)));
@@ -110,11 +111,11 @@ Number pow(const Number& x, double exponent) {
   return Number::of([exponent](const auto& a) { return pow(a, exponent); }, x);
 }
 Number atan2(const Number& x, const Number& y) {
-  // ADOL-C's takes no constants.
+  // ADOL-C's atan2 takes no constants.
   return Number(std::make_shared<const adouble>(atan2(x.variable(), y.variable())));
 }
 
-/// ADOL-C's numbers of recordings that are in use here; far from those that a user would choose.
+/// The numbers under which ADOL-C keeps our recordings, far from those that a user would choose.
 class Tags {
  public:
   static short take() {

@@ -8,13 +8,12 @@
 
 namespace dmocbench {
 
-/// Exact derivatives by ADOL-C, which is handed the values of an interval (cost, rows, ℓ) and differentiates itself.
+/// Exact derivatives by ADOL-C, which differentiates the values of an interval (cost, rows, ℓ).
 ///
 /// Each is recorded once per back end, with constants passive; an evaluation then calls ADOL-C's dense driver interval
 /// after interval (`gradient`, `jacobian`, and `hess_mat` in the directions of the local unknowns) and keeps the
-/// entries that are not zero for every motion. Step, time, factor and multipliers are further independent variables: to
-/// change them as parameters was measured to be no faster. ADOL-C allocates in its drivers, and its recordings are
-/// global: two threads must not use such back ends at once.
+/// entries that are not zero for every motion. Step, time, factor and multipliers are further independent variables.
+/// ADOL-C allocates in its drivers, and its recordings are global: two threads must not use such back ends at once.
 class AdolcDerivatives final : public DerivativeBackEnd {
  public:
   AdolcDerivatives(const LocalFunctions& functions, const DerivativePlaces& places);
@@ -24,7 +23,7 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   void hessian(Inputs inputs, VectorOut values) override;
 
  private:
-  /// Formulas recorded by ADOL-C under a number of their own.
+  /// Formulas that ADOL-C has recorded under their own number.
   class Recording {
    public:
     explicit Recording(const Schedule& schedule);
@@ -45,7 +44,7 @@ class AdolcDerivatives final : public DerivativeBackEnd {
     std::size_t output_count_;
     std::vector<double> point_;
   };
-  /// A dense matrix as ADOL-C wants it.
+  /// A dense matrix in ADOL-C's format, an array of rows.
   class Dense {
    public:
     Dense(std::size_t rows, std::size_t columns);

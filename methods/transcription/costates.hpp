@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/transcription/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
@@ -12,7 +13,7 @@ struct Costates {
   Eigen::MatrixXd psi_p;  ///< (N + 1) × n
 };
 
-/// Costates by the one formula for every method: with ℓ_k(z) = cost + multipliers · rows of element k, the cost-to-go
+/// Costates by one formula for all methods: with ℓ_k(z) = cost + multipliers · rows of element k, the cost-to-go
 /// from node k depends on x_k only through element k, so ψ_k = ∂ℓ_k/∂x_k with respect to the left node (at the last
 /// node -∂ℓ_{N-1}/∂x_N with respect to the right one).
 ///
@@ -21,5 +22,29 @@ struct Costates {
 /// (N + 1) × n.
 [[nodiscard]] Costates costates(Transcription& transcription, const Eigen::VectorXd& primal,
                                 const Eigen::VectorXd& multipliers, const Eigen::MatrixXd& v);
+
+/// Costates at the stages: the Ψ_i of the adjoint scheme (eq:stateco7, eq:stateco8), in the sign and unit of
+/// `Costates`. Row k s + i is stage i of interval k.
+struct StageCostates {
+  Eigen::MatrixXd psi_q;  ///< N s × n
+  Eigen::MatrixXd psi_p;  ///< N s × n
+};
+
+/// Stage costates read off the multipliers. No coefficient of the adjoint scheme enters, so that the scheme can be
+/// checked against them.
+///
+/// With F = L_q + f, interval k costs ℓ = h Σ b_i C + multipliers · rows, and x_{k+1} = x_k + h Σ b_j K_j is worth
+/// ψ_{k+1}·x_{k+1} from there on. Ψ^p_i and the stage rate w_i of ψ^p are read off:
+///   - Hamiltonian: α_i of the row P_i - L_v, β_i of the row Ṗ_i - F. Stationarity in Ṗ_j says
+///     -β_j/(h b_j) = ψ^p_{k+1} + Σ_i (ã_ij/b_j) α_i. Hence Ψ^p_i = -β_i/(h b_i), w_i = -α_i/(h b_i).
+///   - DMOC: rows are variations of h Σ b_i [L + f·δQ_i] in q_k, q_{k+1} and Q̇_j, so the multipliers λ_k, λ_{k+1} and
+///     μ_j/(h b_j) are a variation themselves: w_i = δQ̇_i, Ψ^p_i = δQ_i = λ_k + h Σ_j a_ij w_j.
+/// For both, Ψ^q_i = -(C_v + F_vᵀΨ^p_i + L_vv w_i): this is w = -∂H/∂p at the stage, H = C + Ψ^q·v + Ψ^p·F and v = v(q,
+/// p).
+///   - Tangent-space: α_i of Q̇_i - V_i, β_i of d/dt L_v - F: Ψ^p_i = -β_i/(h b_i), Ψ^q_i = -α_i/(h b_i) - L_vqᵀΨ^p_i.
+///
+/// `multipliers` has an entry per constraint of the program; `trajectory` holds its nodes and stages.
+[[nodiscard]] StageCostates stage_costates(const Transcription& transcription, const Eigen::VectorXd& multipliers,
+                                           const Trajectory& trajectory);
 
 }  // namespace dmocbench

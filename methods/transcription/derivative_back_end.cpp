@@ -2,16 +2,37 @@
 
 #include <array>
 
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 #ifdef DMOCBENCH_WITH_ADOLC
 #include "methods/transcription/adolc_derivatives.hpp"
 #endif
+#include "methods/transcription/assembled_tape.hpp"
 #include "methods/transcription/finite_differences.hpp"
-#include "methods/transcription/tape_derivatives.hpp"
 
 namespace dmocbench {
 
 namespace {
+
+/// Exact derivatives: the symbolic ones of `IntervalFunctions`, each a tape over all intervals. Allocates nothing.
+class TapeDerivatives final : public DerivativeBackEnd {
+ public:
+  TapeDerivatives(const LocalFunctions& functions, const DerivativePlaces& places)
+      : gradient_(functions.gradient.schedule, places.gradient_places, places.gradient_size, places.intervals,
+                  places.mode),
+        jacobian_(functions.jacobian.schedule, places.jacobian_places, places.jacobian_size, places.intervals,
+                  places.mode),
+        hessian_(functions.hessian.schedule, places.hessian_places, places.hessian_size, places.intervals,
+                 places.mode) {}
+
+  void gradient(Inputs inputs, VectorOut result) override { gradient_.evaluate(inputs, result); }
+  void jacobian(Inputs inputs, VectorOut values) override { jacobian_.evaluate(inputs, values); }
+  void hessian(Inputs inputs, VectorOut values) override { hessian_.evaluate(inputs, values); }
+
+ private:
+  AssembledTape gradient_;
+  AssembledTape jacobian_;
+  AssembledTape hessian_;
+};
 
 using BackEndPtr = std::unique_ptr<DerivativeBackEnd>;
 
@@ -45,27 +66,19 @@ constexpr auto back_ends = std::to_array<Entry>({
      make_differences<DifferenceKind::forward>},
 });
 
+constexpr auto back_end_name = [](const Entry& entry) { return entry.name; };
+
 const Entry& entry_named(std::string_view name) {
-  std::string known;
-  for (const Entry& entry : back_ends) {
-    if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  if (name == "adolc") {
-    throw Error("derivatives by \"adolc\" are not in this build; install ADOL-C, configure again, or choose one of " +
-                known);
-  }
-  throw Error("there are no derivatives by \"" + std::string(name) + "\"; choose one of " + known);
+  std::string refusal = "there are no derivatives by";
+#ifndef DMOCBENCH_WITH_ADOLC
+  if (name == "adolc") refusal = "this build has no ADOL-C (install it and configure again), hence no derivatives by";
+#endif
+  return one_of(back_ends, back_end_name, name, refusal);
 }
 
 }  // namespace
 
-std::vector<std::string> derivative_back_end_names() {
-  std::vector<std::string> names;
-  names.reserve(back_ends.size());
-  for (const Entry& entry : back_ends) names.emplace_back(entry.name);
-  return names;
-}
+std::vector<std::string> derivative_back_end_names() { return names_of(back_ends, back_end_name); }
 
 std::string derivative_back_end_description(std::string_view name) {
   return std::string(entry_named(name).description);

@@ -14,7 +14,7 @@
 
 namespace dmocbench {
 
-/// Where a part's derivatives stand in the program's arrays: entry e of interval k at places[e].at(k) (see
+/// The places of a part's derivatives in the program's arrays: entry e of interval k at places[e].at(k) (see
 /// `ColumnAssembly`), entries in the order of `LocalFunctions::gradient`, `jacobian` and `hessian`.
 struct DerivativePlaces {
   std::size_t intervals = 0;
@@ -30,8 +30,8 @@ struct DerivativePlaces {
 /// A way to differentiate the formulas of a part of a program: fills the program's arrays for all intervals of the
 /// part.
 ///
-/// All back ends fill the same entries, so a solver sees the same program: which entries vanish for every motion is
-/// known from the formulas. Not to be used from two threads at once.
+/// All back ends fill the same entries, those that the formulas do not show to vanish for every motion, so that a
+/// solver sees the same program. Not to be used from two threads at once.
 class DerivativeBackEnd {
  public:
   /// The inputs of all intervals in the order of `LocalInputs`; multipliers are read by `hessian` only.
@@ -54,15 +54,15 @@ class DerivativeBackEnd {
   DerivativeBackEnd() = default;
 };
 
-/// Names of the back ends there are, the default (`tape`) first: tape, adolc (if ADOL-C was found when this was built),
+/// Names of the available back ends, the default (`tape`) first: tape, adolc (if ADOL-C was found when this was built),
 /// finite_differences, forward_differences.
 [[nodiscard]] std::vector<std::string> derivative_back_end_names();
 
 /// One line. Throws `Error` as `make_derivative_back_end` does.
 [[nodiscard]] std::string derivative_back_end_description(std::string_view name);
 
-/// The back end of that name for the intervals of one grid; `functions` is read here only. Throws `Error` that lists
-/// the names if there is none, and says what is missing if it was left out of this build.
+/// The back end of that name for the intervals of one grid; `functions` is read only by this call. Throws `Error` that
+/// lists the names if there is none, and says what is missing if it was left out of this build.
 [[nodiscard]] std::unique_ptr<DerivativeBackEnd> make_derivative_back_end(std::string_view name,
                                                                           const LocalFunctions& functions,
                                                                           const DerivativePlaces& places);

@@ -2,21 +2,149 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
-#include "methods/transcription/describe_constraint.hpp"
+#include <fmt/format.h>
 
 namespace dmocbench {
 
 namespace {
+
+/// "q[1] (theta)".
+std::string named(char symbol, Eigen::Index i, const std::vector<std::string>& names) {
+  return fmt::format("{}[{}] ({})", symbol, i, names[static_cast<std::size_t>(i)]);
+}
+
+/// Words for the constraints and unknowns of a transcription at one point.
+class Wording {
+ public:
+  Wording(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x)
+      : problem_(&problem),
+        transcription_(&transcription),
+        layout_(&transcription.layout()),
+        times_(transcription.node_times(x)),
+        n_(problem.configuration_size()) {}
+
+  [[nodiscard]] std::string row(std::size_t row) const {
+    const LayoutShape& shape = layout_->shape();
+    if (row < layout_->node_row_column(shape.node_rows)) {
+      const std::size_t nodes = layout_->intervals() + 1;
+      return node_row(static_cast<Eigen::Index>(row / nodes), row % nodes);
+    }
+    const std::size_t head = layout_->private_row_column(0);
+    if (row < layout_->private_row_column(shape.interval_rows())) {
+      const std::size_t column = (row - head) / layout_->intervals();
+      return interval_row(static_cast<Eigen::Index>(column), (row - head) % layout_->intervals());
+    }
+    return end_row(row);
+  }
+
+  [[nodiscard]] std::string unknown(std::size_t unknown) const {
+    const LayoutShape& shape = layout_->shape();
+    const Place place = layout_->structure().unknowns[unknown];
+    if (unknown < layout_->configuration_column(n_)) {
+      const auto i = static_cast<Eigen::Index>(unknown / (layout_->intervals() + 1));
+      return "bounds().q: " + coordinate(i) + where(place);
+    }
+    for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
+      for (Eigen::Index i = 0; i < shape.control_size; ++i) {
+        const std::size_t column = layout_->control_column(stage, i);
+        if (unknown >= column && unknown - column < layout_->intervals()) {
+          return "bounds().u: " + named('u', i, problem_->control_names()) + in_interval(unknown - column);
+        }
+      }
+    }
+    return std::string("the bounds of ") +
+           (place.kind == Place::Kind::border ? "the horizon" : "a velocity, momentum or cost") + where(place);
+  }
+
+ private:
+  [[nodiscard]] std::string coordinate(Eigen::Index i) const { return named('q', i, problem_->configuration_names()); }
+
+  [[nodiscard]] std::string in_interval(std::size_t k) const {
+    const auto left = static_cast<Eigen::Index>(k);
+    return fmt::format(" in interval {} (t = {:.4g} to {:.4g})", k, times_[left], times_[left + 1]);
+  }
+  [[nodiscard]] std::string where(const Place& place) const {
+    if (place.kind == Place::Kind::border) return "";
+    if (place.kind == Place::Kind::interval) return in_interval(place.index);
+    if (place.index == 0) return in_interval(0);
+    if (place.index == layout_->intervals()) return in_interval(place.index - 1);
+    return fmt::format(" between intervals {} and {} (t = {:.4g})", place.index - 1, place.index,
+                       times_[static_cast<Eigen::Index>(place.index)]);
+  }
+
+  /// The equation of a node (DMOC): the momenta of both sides agree.
+  [[nodiscard]] std::string node_row(Eigen::Index i, std::size_t node) const {
+    if (node == 0)
+      return end_momentum("initial_state", "bounds().first", transcription_->bounds().first, i) + in_interval(0);
+    if (node == layout_->intervals()) {
+      return end_momentum("final_state", "bounds().last", transcription_->bounds().last, i) + in_interval(node - 1);
+    }
+    return equation_of(i) + where({Place::Kind::node, node});
+  }
+  [[nodiscard]] std::string end_momentum(const std::string& state, const std::string& bounds, const EndBounds& end,
+                                         Eigen::Index i) const {
+    return (end.v.is_fixed(i) ? state : bounds) + ": the momentum (p = L_v of its velocity) of " + coordinate(i);
+  }
+  [[nodiscard]] std::string equation_of(Eigen::Index i) const {
+    return "lagrangian and force: the Euler-Lagrange equation of " + coordinate(i);
+  }
+
+  [[nodiscard]] std::string interval_row(Eigen::Index column, std::size_t k) const {
+    const LayoutShape& shape = layout_->shape();
+    if (column < shape.stage_equations) return stage_equation(column) + in_interval(k);
+    const Eigen::Index path = column - shape.stage_equations;
+    if (path >= shape.path_rows) return "running_cost: the cost so far" + in_interval(k);
+    const Eigen::Index per_stage = shape.path_rows / shape.stages;
+    const std::vector<Eigen::Index> velocities = transcription_->bounds().bounded_velocities();
+    const auto bounded = static_cast<Eigen::Index>(velocities.size());
+    const Eigen::Index i = path % per_stage;
+    if (i >= bounded) return fmt::format("path_constraints[{}]", i - bounded) + in_interval(k);
+    return "bounds().v: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
+  }
+  /// A stage equation. Of elements outside the three families only the number of the equation is known.
+  [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
+    const LayoutShape& shape = layout_->shape();
+    const bool is_second = (column / n_) % 2 == 1;
+    switch (shape.node_state) {
+      case NodeState::configuration:
+        if (shape.stage_equations != (shape.stages - 1) * n_) break;
+        return equation_of(column % n_);
+      case NodeState::momentum:
+        if (shape.stage_equations != 2 * shape.stages * n_) break;
+        return is_second ? equation_of(column % n_) : "lagrangian: the momentum p = L_v of " + coordinate(column % n_);
+      case NodeState::velocity:
+        if (shape.stage_equations != 2 * shape.stages * n_) break;
+        return is_second ? equation_of(column % n_) : "the velocity as slope of " + coordinate(column % n_);
+    }
+    return fmt::format("row {} of the method", column);
+  }
+
+  [[nodiscard]] std::string end_row(std::size_t row) const {
+    const std::size_t first_condition = layout_->row_count() - static_cast<std::size_t>(layout_->shape().conditions);
+    if (row >= first_condition) {
+      return fmt::format("boundary_conditions[{}]", row - first_condition);
+    }
+    const Place place = layout_->structure().rows[row];
+    const std::size_t head = layout_->private_row_column(layout_->shape().interval_rows());
+    const auto i = static_cast<Eigen::Index>(row - head) % n_;
+    return "lagrangian: the momentum p = L_v of " + coordinate(i) + where(place);
+  }
+
+  const Problem* problem_;
+  const Transcription* transcription_;
+  const Layout* layout_;
+  Eigen::VectorXd times_;
+  Eigen::Index n_;
+};
 
 struct Worst {
   std::size_t entry = 0;
   double amount = 0.0;
 };
 
-/// The entry farthest outside its bounds; the first that is not a number where there is one.
+/// The entry farthest outside its bounds, or the first that is not a number.
 Worst farthest_outside(const Eigen::VectorXd& values, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   Worst worst;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -28,21 +156,15 @@ Worst farthest_outside(const Eigen::VectorXd& values, const Eigen::VectorXd& low
 }
 
 std::string missed(const std::string& what, double amount) {
-  std::ostringstream text;
-  text.precision(3);
-  if (std::isnan(amount)) {
-    text << what << " is not a number.";
-  } else {
-    text << "Missed most is " << what << ", by " << amount << '.';
-  }
-  return text.str();
+  if (std::isnan(amount)) return what + " is not a number.";
+  return fmt::format("Missed most is {}, by {:.3g}.", what, amount);
 }
 
 bool is_held(double value, double bound) {
   return std::isfinite(bound) && std::abs(value - bound) <= 1e-6 * std::max(1.0, std::abs(bound));
 }
 
-/// The controls that their bounds hold in most intervals.
+/// The controls that are at a bound in most stages.
 std::string held_controls(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x) {
   const Layout& layout = transcription.layout();
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
@@ -58,8 +180,8 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
       }
     }
     if (2 * held <= stages) continue;
-    text += " bounds().u holds u[" + std::to_string(i) + "] (" + problem.control_names()[static_cast<std::size_t>(i)] +
-            ") at " + std::to_string(held) + " of " + std::to_string(stages) + " stages.";
+    text +=
+        fmt::format(" bounds().u holds {} at {} of {} stages.", named('u', i, problem.control_names()), held, stages);
   }
   return text;
 }
@@ -73,7 +195,7 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   return "";
 }
 
-/// What the constraints that contradict each other are made of.
+/// The functions of the problem that contradict each other.
 std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
   const EndBounds& last = transcription.bounds().last;
@@ -87,6 +209,16 @@ std::string contradiction(const Transcription& transcription) {
 }
 
 }  // namespace
+
+std::string describe_constraint(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
+                                std::size_t row) {
+  return Wording(problem, transcription, x).row(row);
+}
+
+std::string unknown_in_words(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
+                             std::size_t unknown) {
+  return Wording(problem, transcription, x).unknown(unknown);
+}
 
 std::string describe_violation(const Problem& problem, Transcription& transcription, const Solution& solution,
                                double tolerance) {

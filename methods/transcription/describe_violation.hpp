@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "methods/mechanics/problem.hpp"
@@ -8,11 +9,20 @@
 
 namespace dmocbench {
 
-/// What keeps a solve that failed from an answer, in a sentence or two: the row or unknown that its point misses most
-/// (`describe_constraint`), by how much, in the unit of the row; which controls and whether the horizon are held by
-/// their bounds there; and, where the solver ended at a point of least violation, what cannot be met near it, such as a
-/// final state that is out of reach. Empty where the solve ended without a point, or its point misses nothing by more
-/// than `tolerance`. `problem` is the one that was transcribed.
+/// The meaning of a constraint (row), or of an unknown, of a transcribed problem: the functions of the problem that it
+/// is made of, the quantity, and the place, as in "lagrangian and force: the Euler-Lagrange equation of q[1] (theta) in
+/// interval 17 (t = 0.53 to 0.5625)". Indices count from 0; times are those of the point `x` (variable_count()
+/// entries), in the units of the problem as solved. `problem` is the one that was transcribed.
+[[nodiscard]] std::string describe_constraint(const Problem& problem, const Transcription& transcription,
+                                              const Eigen::VectorXd& x, std::size_t row);
+[[nodiscard]] std::string unknown_in_words(const Problem& problem, const Transcription& transcription,
+                                           const Eigen::VectorXd& x, std::size_t unknown);
+
+/// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most
+/// (`describe_constraint`), and by how much, in the unit of the constraint; which controls, and whether the horizon,
+/// are at their bounds there; and, where the solver ended at a point of least violation, what cannot be met near it,
+/// such as a final state that is out of reach. Empty where the solve ended without a point, or its point violates
+/// nothing by more than `tolerance`. `problem` is the one that was transcribed.
 [[nodiscard]] std::string describe_violation(const Problem& problem, Transcription& transcription,
                                              const Solution& solution, double tolerance = 1e-8);
 

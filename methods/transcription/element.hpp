@@ -13,7 +13,7 @@
 
 namespace dmocbench {
 
-/// What a node carries besides its configuration q_k.
+/// What a node carries besides its configuration q_k: its second part.
 enum class NodeState : std::uint8_t {
   configuration,  ///< nothing: x_k = q_k
   momentum,       ///< x_k = (q_k, p_k)
@@ -22,22 +22,27 @@ enum class NodeState : std::uint8_t {
 
 /// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
 struct IntervalUnknowns {
-  ExpressionVector left_q;                 ///< q_k, n entries
-  ExpressionVector left_y;                 ///< p_k or v_k, n entries; empty where nodes carry q alone
-  ExpressionVector right_q;                ///< q_{k+1}
-  ExpressionVector right_y;                ///< p_{k+1} or v_{k+1}
-  std::vector<ExpressionVector> slopes_q;  ///< Q̇_1 .. Q̇_{s-1}; the last slope is eliminated
-  std::vector<ExpressionVector> slopes_y;  ///< Ṗ_j or V̇_j, j = 1 .. s-1
-  std::vector<ExpressionVector> controls;  ///< U_1 .. U_s, m entries each
-  Expression h;                            ///< the step
-  Expression t;                            ///< t_k
+  ExpressionVector left_q;                     ///< q_k, n entries
+  ExpressionVector left_second;                ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;                    ///< q_{k+1}
+  ExpressionVector right_second;               ///< p_{k+1} or v_{k+1}
+  std::vector<ExpressionVector> rates_q;       ///< Q̇_1 .. Q̇_{s-1}; the last stage rate is eliminated
+  std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1
+  std::vector<ExpressionVector> controls;      ///< U_1 .. U_s, m entries each
+  Expression h;                                ///< the step
+  Expression t;                                ///< t_k
 };
 
-/// What an element says about its interval.
+/// The unknowns of an interval as the next inputs of `counter`, in the order of `IntervalUnknowns`; h and t are left to
+/// the caller.
+[[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, NodeState node_state,
+                                             Eigen::Index stages);
+
+/// The formulas of an element for one interval.
 struct IntervalTrace {
-  ExpressionVector left_rows;           ///< added to the rows of node k; n entries or none
-  ExpressionVector right_rows;          ///< added to the rows of node k + 1
-  ExpressionVector stage_equations;     ///< rows of this interval alone, each equal to 0
+  ExpressionVector left_rows;           ///< added to the equations of node k; n entries or none
+  ExpressionVector right_rows;          ///< added to the equations of node k + 1
+  ExpressionVector stage_equations;     ///< equations of this interval alone, each equal to 0
   Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
   std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
   ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
@@ -46,10 +51,10 @@ struct IntervalTrace {
 
 /// One interval of a direct transcription, for any Butcher tableau.
 ///
-/// An element is a rule, not data: handed the formulas of a problem and traced unknowns it returns formulas. Numbering,
-/// sparsity, derivatives, boundary rows and costates are generic (`Transcription`). What every element satisfies:
-///   - on a solution of the private rows the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
-///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn rows for DMOC, 2sn + sm and 2sn for
+/// An element is a rule, not data: given the formulas of a problem and traced unknowns, it returns formulas. Numbering,
+/// sparsity, derivatives, boundary conditions and costates are generic (`Transcription`). Every element satisfies:
+///   - on a solution of its stage equations the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
+///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn equations for DMOC, 2sn + sm and 2sn for
 ///     collocation.
 class Element {
  public:
@@ -77,17 +82,34 @@ class Element {
 /// The family of that name. Throws `Error` that lists the names if there is none.
 [[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
 
-// What the families share.
+// Formulas that the families share.
 
-/// All s slopes: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
-[[nodiscard]] std::vector<ExpressionVector> all_slopes(const ExpressionVector& left, const ExpressionVector& right,
-                                                       const std::vector<ExpressionVector>& interior,
-                                                       const Eigen::VectorXd& b, const Expression& h);
+/// All s stage rates: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
+[[nodiscard]] std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,
+                                                        const std::vector<ExpressionVector>& interior,
+                                                        const Eigen::VectorXd& b, const Expression& h);
 
 /// The stages X_i = x_k + h Σ_j a_ij K_j.
 [[nodiscard]] std::vector<ExpressionVector> stage_values(const ExpressionVector& left,
-                                                         const std::vector<ExpressionVector>& slopes,
+                                                         const std::vector<ExpressionVector>& rates,
                                                          const Eigen::MatrixXd& a, const Expression& h);
+
+/// A quantity that varies and the force that does work on its variation.
+struct ConjugatePair {
+  ExpressionVector moved;  ///< X, e.g. the configuration Q_i of a stage
+  ExpressionVector force;  ///< y, as many entries as X
+};
+
+/// h Σ_i b_i Σ_X (∂X/∂x)ᵀ y, the sum over the pairs of each stage: the gradient of an action, or a virtual work, in the
+/// unknowns x, which are inputs. As many entries as x.
+[[nodiscard]] ExpressionVector variation(const ExpressionVector& x,
+                                         const std::vector<std::vector<ConjugatePair>>& stages,
+                                         const Eigen::VectorXd& b, const Expression& h);
+
+/// The virtual work h Σ b_i f·∂Q_i/∂x of the control forces alone.
+[[nodiscard]] ExpressionVector work_of_control(const TracedProblem& problem, const std::vector<ControlledState>& stages,
+                                               const ExpressionVector& x, const Eigen::VectorXd& b,
+                                               const Expression& h);
 
 /// h Σ b_i C(stage i).
 [[nodiscard]] Expression quadrature_of_cost(const std::vector<TracedProblem::Values>& stages, const Eigen::VectorXd& b,

@@ -18,26 +18,24 @@ void require_same_grid(const Transcription& transcription, const Trajectory& tra
   }
 }
 
-/// Ṗ_i or V̇_i at all stages, as the trajectory's stage tables are ordered.
-Eigen::MatrixXd second_slopes(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
+/// Ṗ_i or V̇_i at all stages, in the order of the trajectory's stage tables.
+Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
   PointFunction force(traced.configuration_size(), traced.control_size(),
                       [&](const ControlledState& x) { return traced.at(x).generalised_force; });
-  Eigen::MatrixXd slopes(trajectory.stage_q.rows(), trajectory.stage_q.cols());
-  Eigen::VectorXd slope(slopes.cols());
-  for (Eigen::Index row = 0; row < slopes.rows(); ++row) {
-    const Eigen::VectorXd q = trajectory.stage_q.row(row).transpose();
-    const Eigen::VectorXd v = trajectory.stage_v.row(row).transpose();
-    const Eigen::VectorXd u = trajectory.stage_u.row(row).transpose();
+  Eigen::MatrixXd rates(trajectory.stage_q.rows(), trajectory.stage_q.cols());
+  Eigen::VectorXd rate(rates.cols());
+  for (Eigen::Index row = 0; row < rates.rows(); ++row) {
+    const MotionPoint stage = trajectory.stage(row);
     if (node_state == NodeState::momentum) {
-      force.evaluate(q, v, u, trajectory.stage_times[row], slope);
+      force.evaluate(stage, trajectory.stage_times[row], rate);
     } else {
-      slope = motion.acceleration(q, v, u, trajectory.stage_times[row]);
+      rate = motion.acceleration(stage.q, stage.v, stage.u, trajectory.stage_times[row]);
     }
-    slopes.row(row) = slope.transpose();
+    rates.row(row) = rate.transpose();
   }
-  return slopes;
+  return rates;
 }
 
 }  // namespace
@@ -77,12 +75,12 @@ Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription
     x[static_cast<Eigen::Index>(layout.horizon())] = trajectory.node_times[nodes - 1];
   }
   if (node_state == NodeState::configuration) return x;
-  const Eigen::MatrixXd slopes = second_slopes(problem, node_state, trajectory);
+  const Eigen::MatrixXd rates = second_rates(problem, node_state, trajectory);
   const Eigen::MatrixXd& second = node_state == NodeState::momentum ? trajectory.p : trajectory.v;
   for (Eigen::Index c = 0; c < second.cols(); ++c) {
     set_column(layout.second_column(c), second.col(c));
     for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set_column(layout.slope_y_column(i, c), stage_column(slopes, i, c));
+      set_column(layout.slope_y_column(i, c), stage_column(rates, i, c));
     }
   }
   return x;

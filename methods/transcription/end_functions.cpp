@@ -12,38 +12,32 @@ ExpressionVector constants(const Eigen::VectorXd& values) {
   return result;
 }
 
-/// An end as the rules make it: what of it is unknown, the rest as numbers.
+/// The state of an end: its unknowns, and numbers for the rest.
 struct End {
   ExpressionVector q;
   ExpressionVector p;  // Hamiltonian only
   ExpressionVector v;
 };
 
-/// Hands out the unknowns of both ends in their order.
+/// Hands out the unknowns of both ends in order.
 class EndUnknowns {
  public:
   EndUnknowns(Eigen::Index n, NodeState node_state) : n_(n), node_state_(node_state) {}
 
   End take_end(bool has_velocity, const BoundaryState& given) {
     End end;
-    end.q = take(n_);
-    if (node_state_ == NodeState::momentum) end.p = take(n_);
-    end.v = node_state_ == NodeState::velocity || has_velocity ? take(n_) : constants(given.v);
+    end.q = counter_.take(n_);
+    if (node_state_ == NodeState::momentum) end.p = counter_.take(n_);
+    end.v = node_state_ == NodeState::velocity || has_velocity ? counter_.take(n_) : constants(given.v);
     return end;
   }
-  Expression take_scalar() { return take(1)[0]; }
-  [[nodiscard]] std::size_t taken() const { return next_; }
+  Expression take_scalar() { return counter_.take(); }
+  [[nodiscard]] std::size_t taken() const { return counter_.taken(); }
 
  private:
-  ExpressionVector take(Eigen::Index count) {
-    ExpressionVector inputs = input_vector(next_, count);
-    next_ += static_cast<std::size_t>(count);
-    return inputs;
-  }
-
   Eigen::Index n_;
   NodeState node_state_;
-  std::size_t next_ = 0;
+  InputCounter counter_;
 };
 
 }  // namespace

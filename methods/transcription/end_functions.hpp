@@ -13,9 +13,9 @@ namespace dmocbench {
 
 /// How the two ends of the horizon enter a program.
 ///
-/// An end is clamped if its whole state is given, so that its momentum is a number. At any other end of DMOC and of
-/// Hamiltonian collocation the velocity is a further unknown, tied to the momentum by p = L_v(q, v): nothing else
-/// changes. Tangent-space collocation has that unknown at its nodes anyway.
+/// An end is clamped if its whole state is given, so that its momentum is a number. At any other end, DMOC and
+/// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
+/// changes. Tangent-space collocation has that unknown at every node.
 struct EndRules {
   NodeState node_state = NodeState::configuration;
   double cost_scale = 1.0;
@@ -24,25 +24,26 @@ struct EndRules {
   bool mayer = false;
   bool free_horizon = false;
 
-  /// True if the velocity of the first, or last, end is an unknown beside those of its node.
+  /// True if the velocity of the first (last) end is an unknown besides those of its node.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
   [[nodiscard]] bool last_has_velocity() const noexcept { return !last_clamped && node_state != NodeState::velocity; }
 };
 
-/// What the rules are for a problem and a family. Tangent-space ends count as clamped where their state is fixed.
+/// The rules for a problem and a family of elements. Tangent-space ends count as clamped where their state is fixed.
 [[nodiscard]] EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeState node_state, bool mayer);
 
-/// The part of a program that its ends make.
+/// The functions of both ends of the horizon, traced and differentiated once.
 ///
 /// Local unknowns, for the first end and then for the last: q, p (Hamiltonian), v where it is an unknown; then z_N in
-/// Mayer form; T where it is free. Cost: Φ, in Mayer form z_N + Φ. Local rows: per end with a velocity of its own
-/// ±L_v(q, v) to the row of the node (DMOC) or p - L_v(q, v) = 0 (Hamiltonian); then the boundary conditions r = 0.
+/// Mayer form; T where it is free. Cost: Φ, in Mayer form z_N + Φ. Local constraints (rows): per end whose velocity
+/// is an unknown, ±L_v(q, v), added to the equation of the node (DMOC), or p - L_v(q, v) = 0 (Hamiltonian); then the
+/// boundary conditions r = 0 (eq:gDLOCP6).
 struct EndFunctions : LocalFunctions {
-  Eigen::Index ties = 0;        ///< rows that tie velocities to momenta
+  Eigen::Index ties = 0;        ///< equations that tie velocities to momenta
   Eigen::Index conditions = 0;  ///< boundary conditions
 };
 
-/// None if the ends are clamped and nothing depends on them.
+/// Nothing if the ends are clamped and no formula depends on them.
 [[nodiscard]] std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced,
                                                      const EndRules& rules);
 

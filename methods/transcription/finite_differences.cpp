@@ -8,14 +8,14 @@ namespace dmocbench {
 
 namespace {
 
-// Points at which the values of a formula are kept.
+// The points at which the values of a formula are stored.
 constexpr std::size_t at_point = 0;
 constexpr std::size_t ahead = 1;
 constexpr std::size_t behind = 2;
 constexpr std::size_t first_order_points = 3;
 constexpr std::size_t mixed_points = 4;
 
-/// The number that is added, not the one that was wanted: x + step is rounded.
+/// The step that x + step really adds, which is rounded.
 double representable_step(double x, double relative_step) {
   const double moved = x + relative_step * std::max(1.0, std::abs(x));
   return moved - x;
@@ -34,12 +34,12 @@ FiniteDifferences::Formulas::Formulas(const Schedule& schedule, std::size_t inte
       workspace(tape),
       intervals(interval_count),
       values(points * tape.output_count() * intervals),
-      columns(points * tape.output_count()) {
-  for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = values.data() + c * intervals;
+      series(points * tape.output_count()) {
+  for (std::size_t c = 0; c < series.size(); ++c) series[c] = values.data() + c * intervals;
 }
 
 const double* FiniteDifferences::Formulas::value(std::size_t point, std::size_t output) const {
-  return columns[point * tape.output_count() + output];
+  return series[point * tape.output_count() + output];
 }
 
 FiniteDifferences::FiniteDifferences(const LocalFunctions& functions, const DerivativePlaces& places,
@@ -94,12 +94,12 @@ void FiniteDifferences::move(std::size_t slot, std::size_t unknown, double facto
 
 void FiniteDifferences::evaluate(Formulas& formulas, std::size_t point) {
   const std::size_t outputs = formulas.tape.output_count();
-  formulas.tape.evaluate(intervals_, inputs_, std::span(formulas.columns).subspan(point * outputs, outputs),
+  formulas.tape.evaluate(intervals_, inputs_, std::span(formulas.series).subspan(point * outputs, outputs),
                          formulas.workspace);
 }
 
-void FiniteDifferences::slopes(Formulas& formulas, const std::vector<std::vector<Slope>>& entries,
-                               std::span<double* const> results) {
+void FiniteDifferences::quotients(Formulas& formulas, const std::vector<std::vector<Quotient>>& entries,
+                                  std::span<double* const> results) {
   const bool central = kind_ == DifferenceKind::central;
   const std::size_t lower = central ? behind : at_point;
   const double factor = central ? 0.5 : 1.0;
@@ -114,7 +114,7 @@ void FiniteDifferences::slopes(Formulas& formulas, const std::vector<std::vector
     }
     restore(a);
     const double* step = steps_of(a);
-    for (const Slope& entry : entries[a]) {
+    for (const Quotient& entry : entries[a]) {
       const double* high = formulas.value(ahead, entry.output);
       const double* low = formulas.value(lower, entry.output);
       double* result = results[entry.entry];
@@ -185,13 +185,13 @@ void FiniteDifferences::forward_curvatures(std::span<double* const> results) {
 
 void FiniteDifferences::gradient(Inputs inputs, VectorOut result) {
   bind(inputs, difference_step(kind_, 1));
-  slopes(cost_, gradient_entries_, gradient_.open(result));
+  quotients(cost_, gradient_entries_, gradient_.open(result));
   gradient_.close(result);
 }
 
 void FiniteDifferences::jacobian(Inputs inputs, VectorOut values) {
   bind(inputs, difference_step(kind_, 1));
-  slopes(rows_, jacobian_entries_, jacobian_.open(values));
+  quotients(rows_, jacobian_entries_, jacobian_.open(values));
   jacobian_.close(values);
 }
 

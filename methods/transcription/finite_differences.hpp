@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// On which sides of a point values are taken.
+/// The sides of a point at which values are taken.
 enum class DifferenceKind : std::uint8_t {
   central,  ///< on both: error O(step²)
   forward,  ///< on one: error O(step), half the evaluations
@@ -26,10 +26,10 @@ enum class DifferenceKind : std::uint8_t {
 /// | forward, second | (f₊₊ - f₊ - f₊ + f)/st | ε^(1/3) = 6e-6 | ε^(1/3) = 6e-6 |
 [[nodiscard]] double difference_step(DifferenceKind kind, int derivative);
 
-/// Derivatives by differences of values, of first and of second derivatives alike; no derivative of a formula is used,
-/// only which entries vanish for every motion.
+/// First and second derivatives by differences of values. Of the formulas' derivatives, only the pattern is used: which
+/// entries vanish for every motion.
 ///
-/// The same local unknown of all intervals is moved at once: the tapes of the values then give a difference of every
+/// The same local unknown is moved in all intervals at once: the tapes of the values then give a difference for every
 /// interval in one pass. With n local unknowns a Jacobian takes 2n (central) or n + 1 (forward) passes over the rows,
 /// the Hessian of ℓ at most 2n² + 1 or n(n + 3)/2 + 1 passes over ℓ. Values divided by the step of the grid lose
 /// digits as it gets smaller, and so do these derivatives. Allocates nothing in an evaluation.
@@ -42,7 +42,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
   void hessian(Inputs inputs, VectorOut values) override;
 
  private:
-  /// Formulas evaluated at a point, at moved points and differentiated: a tape and room for its values there.
+  /// Formulas to be differentiated: a tape, and memory for its values at the point and at moved points.
   struct Formulas {
     Formulas(const Schedule& schedule, std::size_t interval_count, std::size_t points);
     [[nodiscard]] const double* value(std::size_t point, std::size_t output) const;
@@ -50,11 +50,11 @@ class FiniteDifferences final : public DerivativeBackEnd {
     Tape tape;
     Tape::Workspace workspace;
     std::size_t intervals;
-    std::vector<double> values;    // point by point, output by output
-    std::vector<double*> columns;  // where they begin
+    std::vector<double> values;   // point by point, output by output
+    std::vector<double*> series;  // where they begin
   };
   /// A derivative of first order: ∂output/∂unknown is entry `entry`.
-  struct Slope {
+  struct Quotient {
     std::size_t output;
     std::size_t entry;
   };
@@ -68,7 +68,8 @@ class FiniteDifferences final : public DerivativeBackEnd {
   void move(std::size_t slot, std::size_t unknown, double factor);
   void restore(std::size_t unknown) { inputs_[unknown] = original_[unknown]; }
   void evaluate(Formulas& formulas, std::size_t point);
-  void slopes(Formulas& formulas, const std::vector<std::vector<Slope>>& entries, std::span<double* const> results);
+  void quotients(Formulas& formulas, const std::vector<std::vector<Quotient>>& entries,
+                 std::span<double* const> results);
   void central_curvatures(std::span<double* const> results);
   void forward_curvatures(std::span<double* const> results);
 
@@ -80,8 +81,8 @@ class FiniteDifferences final : public DerivativeBackEnd {
   Formulas cost_;
   Formulas rows_;
   Formulas lagrangian_;
-  std::vector<std::vector<Slope>> gradient_entries_;  // per local unknown
-  std::vector<std::vector<Slope>> jacobian_entries_;
+  std::vector<std::vector<Quotient>> gradient_entries_;  // per local unknown
+  std::vector<std::vector<Quotient>> jacobian_entries_;
   std::vector<Curvature> hessian_entries_;
   ColumnAssembly gradient_;
   ColumnAssembly jacobian_;
@@ -89,7 +90,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
   std::vector<Tape::Input> original_;
   std::vector<Tape::Input> inputs_;  // with moved unknowns
   std::vector<double> steps_;        // unknown by unknown
-  std::vector<double> moved_;        // two columns: a second difference moves two unknowns
+  std::vector<double> moved_;        // two series: a second difference moves two unknowns
 };
 
 }  // namespace dmocbench

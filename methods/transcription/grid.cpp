@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -11,8 +13,7 @@ Grid::Grid(Eigen::VectorXd nodes, Eigen::VectorXd widths) : nodes_(std::move(nod
 
 Grid Grid::uniform(long long intervals) {
   if (intervals < 1 || intervals > most_intervals) {
-    throw Error("the number of intervals must lie between 1 and " + std::to_string(most_intervals) + ", got " +
-                std::to_string(intervals));
+    throw Error(fmt::format("the number of intervals must lie between 1 and {}, got {}", most_intervals, intervals));
   }
   const auto count = static_cast<Eigen::Index>(intervals);
   Eigen::VectorXd nodes(count + 1);
@@ -29,8 +30,7 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
   Eigen::VectorXd widths = relative_times.tail(count) - relative_times.head(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(widths[k] > 0.0)) {
-      throw Error("relative node times must ascend: entry " + std::to_string(k + 1) + " is not above entry " +
-                  std::to_string(k));
+      throw Error(fmt::format("relative node times must ascend: entry {} is not above entry {}", k + 1, k));
     }
   }
   return {std::move(relative_times), std::move(widths)};

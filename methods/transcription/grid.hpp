@@ -8,7 +8,7 @@ namespace dmocbench {
 /// τ_k).
 class Grid {
  public:
-  /// The largest number of intervals that is accepted.
+  /// The largest number of intervals accepted.
   static constexpr long long most_intervals = 1LL << 24;
 
   /// N intervals of equal length. Throws `Error` unless 1 <= intervals <= most_intervals.

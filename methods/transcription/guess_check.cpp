@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
@@ -13,7 +15,7 @@ namespace dmocbench {
 
 namespace {
 
-/// One of the problem's functions with its values at a point.
+/// A function of the problem and the number of its entries.
 struct Quantity {
   std::string name;
   Eigen::Index entries;
@@ -40,8 +42,8 @@ class GuessCheck {
                   }),
         legendre_(traced) {}
 
-  /// At a time along the guess.
-  void look_at(double t) {
+  /// Checks the guess at time t.
+  void check_at(double t) {
     const MotionPoint point = problem_->guess(t);
     require_sizes(point, t);
     Eigen::VectorXd values(formulas_.output_count());
@@ -61,30 +63,26 @@ class GuessCheck {
     }
   }
 
-  /// Of a state alone.
+  /// Takes a state into account.
   void measure(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-    check_.largest_configuration = std::max(check_.largest_configuration, q.lpNorm<Eigen::Infinity>());
-    check_.largest_mass = std::max(check_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
+    magnitudes_.largest_configuration = std::max(magnitudes_.largest_configuration, q.lpNorm<Eigen::Infinity>());
+    magnitudes_.largest_mass = std::max(magnitudes_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
   }
 
-  [[nodiscard]] const GuessSurvey& survey() const { return check_; }
+  [[nodiscard]] const GuessMagnitudes& magnitudes() const { return magnitudes_; }
 
  private:
   [[nodiscard]] std::string where(double t) const {
     const Eigen::VectorXd& nodes = grid_->relative_times();
     const auto above = std::upper_bound(nodes.begin(), nodes.end(), t / problem_->horizon());
     const auto interval = std::clamp<std::ptrdiff_t>(above - nodes.begin() - 1, 0, nodes.size() - 2);
-    return problem_->name() + ": at its guess in interval " + std::to_string(interval) + " (t = " + std::to_string(t) +
-           ") ";
+    return fmt::format("{}: at its guess in interval {} (t = {:g}) ", problem_->name(), interval, t);
   }
-  static std::string entry(Eigen::Index i, Eigen::Index entries) {
-    return entries > 1 ? "[" + std::to_string(i) + "]" : "";
-  }
+  static std::string entry(Eigen::Index i, Eigen::Index entries) { return entries > 1 ? fmt::format("[{}]", i) : ""; }
   void require_sizes(const MotionPoint& point, double t) const {
     const auto require = [&](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
       if (part.size() == size) return;
-      throw Error(where(t) + name + " has " + std::to_string(part.size()) + " entries, expected " +
-                  std::to_string(size));
+      throw Error(where(t) + fmt::format("{} has {} entries, expected {}", name, part.size(), size));
     };
     require("q", point.q, n_);
     require("v", point.v, n_);
@@ -100,19 +98,19 @@ class GuessCheck {
   std::vector<Quantity> quantities_;
   PointFunction formulas_;
   LegendreTransform legendre_;
-  GuessSurvey check_;
+  GuessMagnitudes magnitudes_;
 };
 
 }  // namespace
 
-GuessSurvey check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
+GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
   constexpr int points = 64;
-  GuessCheck guess_check(problem, traced, grid);
+  GuessCheck check(problem, traced, grid);
   const double horizon = problem.horizon();
-  guess_check.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
-  guess_check.measure(problem.final_state().q, problem.final_state().v, horizon);
-  for (int i = 0; i < points; ++i) guess_check.look_at(horizon * (i + 0.5) / points);
-  return guess_check.survey();
+  check.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
+  check.measure(problem.final_state().q, problem.final_state().v, horizon);
+  for (int i = 0; i < points; ++i) check.check_at(horizon * (i + 0.5) / points);
+  return check.magnitudes();
 }
 
 }  // namespace dmocbench

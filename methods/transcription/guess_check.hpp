@@ -6,15 +6,15 @@
 
 namespace dmocbench {
 
-/// What a problem's formulas are like along its guess and at its ends.
-struct GuessSurvey {
+/// Magnitudes along a problem's guess and at its ends.
+struct GuessMagnitudes {
   double largest_configuration = 0.0;  ///< max |q_i|
   double largest_mass = 0.0;           ///< max |(L_vv)_ij|
 };
 
-/// Looks at the guess in 64 points between the ends. Throws `Error` that names the function, the interval of the grid
-/// with its time, and the quantity: a guess of the wrong size, a formula that is not a number there, an L_vv that is
-/// singular there.
-[[nodiscard]] GuessSurvey check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid);
+/// Evaluates the problem at 64 points of its guess. Throws `Error` that names the function, the interval of the grid
+/// with its time, and the quantity, if the guess has the wrong size, a formula is not a number, or L_vv is singular
+/// there.
+[[nodiscard]] GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid);
 
 }  // namespace dmocbench

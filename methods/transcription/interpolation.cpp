@@ -14,7 +14,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Times of one instant on two grids differ by less than this share of the horizon.
+/// Two times on different grids are the same if they differ by less than this share of the horizon.
 constexpr double rounding_of_times = 1e-12;
 
 /// The interval that contains t; the nearest one outside the horizon.
@@ -53,13 +53,13 @@ std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
 
 Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {
   const Eigen::Index k = interval_of(trajectory.node_times, t);
-  const double h = trajectory.node_times[k + 1] - trajectory.node_times[k];
+  const double h = trajectory.step(k);
   const double tau = std::clamp((t - trajectory.node_times[k]) / h, 0.0, 1.0);
   if (tau == 0.0) return trajectory.q.row(k).transpose();
   if (tau == 1.0) return trajectory.q.row(k + 1).transpose();
   const Eigen::Index s = trajectory.stages();
-  const auto slopes = trajectory.stage_v.middleRows(k * s, s);
-  return trajectory.q.row(k).transpose() + h * slopes.transpose() * lagrange_integral(trajectory.tableau.c, tau);
+  const auto rates = trajectory.stage_v.middleRows(k * s, s);
+  return trajectory.q.row(k).transpose() + h * rates.transpose() * lagrange_integral(trajectory.tableau.c, tau);
 }
 
 Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {

@@ -6,21 +6,7 @@ namespace dmocbench {
 
 namespace {
 
-/// Hands out consecutive inputs.
-class InputCounter {
- public:
-  ExpressionVector take(Eigen::Index count) {
-    ExpressionVector inputs = input_vector(next_, count);
-    next_ += static_cast<std::size_t>(count);
-    return inputs;
-  }
-  [[nodiscard]] std::size_t taken() const { return next_; }
-
- private:
-  std::size_t next_ = 0;
-};
-
-/// An element's unknowns and what the whole program adds to them.
+/// The unknowns of an element, and those that the whole program adds.
 struct Unknowns : IntervalUnknowns {
   ExpressionVector costs;  // z_k, z_{k+1} in Mayer form
   LocalInputs inputs;
@@ -28,19 +14,11 @@ struct Unknowns : IntervalUnknowns {
 
 Unknowns make_unknowns(const TracedProblem& problem, NodeState node_state, Eigen::Index stages,
                        const IntervalRules& rules) {
-  const Eigen::Index n = problem.configuration_size();
-  const Eigen::Index second = node_state == NodeState::configuration ? 0 : n;
   InputCounter counter;
   Unknowns unknowns;
-  unknowns.left_q = counter.take(n);
-  unknowns.left_y = counter.take(second);
-  unknowns.right_q = counter.take(n);
-  unknowns.right_y = counter.take(second);
-  for (Eigen::Index j = 0; j + 1 < stages; ++j) unknowns.slopes_q.push_back(counter.take(n));
-  for (Eigen::Index j = 0; j + 1 < stages && second > 0; ++j) unknowns.slopes_y.push_back(counter.take(n));
-  for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
+  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, node_state, stages);
   unknowns.costs = counter.take(rules.mayer ? 2 : 0);
-  const Expression horizon = rules.free_horizon ? counter.take(1)[0] : Expression(1.0);
+  const Expression horizon = rules.free_horizon ? counter.take() : Expression(1.0);
   unknowns.inputs.unknowns = counter.taken();
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
   unknowns.t = horizon * Expression::input(unknowns.inputs.time());
@@ -91,7 +69,7 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   functions.path_rows = path.size();
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
-  const Eigen::Index node_size = unknowns.left_q.size() + unknowns.left_y.size();
+  const Eigen::Index node_size = unknowns.left_q.size() + unknowns.left_second.size();
   functions.node_adjoint =
       Schedule(gradient(local_lagrangian(cost, rows, functions.inputs), input_vector(0, 2 * node_size)));
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));

@@ -9,23 +9,23 @@
 
 namespace dmocbench {
 
-/// What of the problem, besides its formulas, shapes an interval's functions.
+/// Properties of the problem, besides its formulas, on which the functions of an interval depend.
 struct IntervalRules {
   double cost_scale = 1.0;  ///< `Problem::cost_scale`
-  bool mayer = false;       ///< the cost so far is one more unknown of the nodes, (eq:gDLOCP_mayer)
+  bool mayer = false;       ///< the cost so far is a further unknown of every node, (eq:gDLOCP_mayer)
   bool free_horizon = false;
   std::vector<Eigen::Index> bounded_velocities = {};  ///< the i whose q̇_i has bounds
 };
 
-/// Everything an interval computes, traced and differentiated once, whatever the number of intervals.
+/// All functions of an interval, traced and differentiated once for all intervals.
 ///
-/// Local unknowns: left q, left y, right q, right y (y = p or v, where nodes carry it), slopes of q, slopes of y,
-/// controls stage by stage; in Mayer form z_k and z_{k+1}, the cost up to either node; T where it is free.
-/// Local rows: left, right and private rows of the element; path rows, which are not equalities: per stage the bounded
-/// velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost.
+/// Local unknowns: those of `IntervalUnknowns` in its order; in Mayer form z_k and z_{k+1}, the cost up to either node;
+/// T where it is free.
+/// Local constraints (rows): left and right terms and stage equations of the element; path constraints, which are not
+/// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost.
 struct IntervalFunctions : LocalFunctions {
   Eigen::Index node_rows = 0;
-  Eigen::Index stage_equations = 0;  ///< the element's own
+  Eigen::Index stage_equations = 0;  ///< those of the element
   Eigen::Index path_rows = 0;
   bool mayer = false;
   bool free_horizon = false;

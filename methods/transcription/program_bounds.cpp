@@ -62,7 +62,7 @@ void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
   require_inside(problem.horizon(), bounds.lower, bounds.upper, problem.name() + ": horizon");
 }
 
-/// Writes the bounds of columns of unknowns, or of rows.
+/// Writes bounds of unknowns, or of rows, series by series.
 class BoundsWriter {
  public:
   BoundsWriter(Bounds& bounds, const Layout& layout) : bounds_(&bounds), layout_(&layout) {}
@@ -71,10 +71,11 @@ class BoundsWriter {
     bounds_->lower[static_cast<Eigen::Index>(entry)] = lower;
     bounds_->upper[static_cast<Eigen::Index>(entry)] = upper;
   }
-  void set_column(std::size_t head, std::size_t length, double lower, double upper) {
+  /// Of `length` entries, the first of them `head`.
+  void set_series(std::size_t head, std::size_t length, double lower, double upper) {
     for (std::size_t k = 0; k < length; ++k) set(head + k, lower, upper);
   }
-  /// The two ends of a node column.
+  /// At the first and the last node, in a series over the nodes.
   void set_ends(std::size_t head, const Bounds& first, const Bounds& last, Eigen::Index i) {
     set(head, first.lower[i], first.upper[i]);
     set(head + layout_->intervals(), last.lower[i], last.upper[i]);
@@ -88,7 +89,7 @@ class BoundsWriter {
 void bound_controls(BoundsWriter& variables, const Bounds& u, const Layout& layout) {
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
-      variables.set_column(layout.control_column(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
+      variables.set_series(layout.control_column(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
     }
   }
 }
@@ -100,15 +101,15 @@ void bound_path_rows(BoundsWriter& rows, const ProblemBounds& bounds, Eigen::Ind
   Eigen::Index row = layout.shape().stage_equations;
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : velocities) {
-      rows.set_column(layout.private_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);
+      rows.set_series(layout.private_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);
     }
     for (Eigen::Index i = 0; i < path_constraints; ++i) {
-      rows.set_column(layout.private_row_column(row++), layout.intervals(), 0.0, unbounded);
+      rows.set_series(layout.private_row_column(row++), layout.intervals(), 0.0, unbounded);
     }
   }
 }
 
-/// Momenta of the ends: numbers where the end is clamped, free otherwise.
+/// The momentum of an end: fixed where the end is clamped, free otherwise.
 Bounds end_momentum(bool clamped, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
                     LegendreTransform& legendre, const Problem& problem, const char* where) {
   if (!clamped) return Bounds::none(q.size());
@@ -150,12 +151,13 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last.q.lower, bounds.last.v.lower,
                                             problem.horizon(), legendre, problem, "end");
   for (Eigen::Index i = 0; i < n; ++i) {
-    const std::size_t column = layout.configuration_column(i);
-    variables.set_column(column, last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
-    variables.set_ends(column, bounds.first.q, bounds.last.q, i);
+    const std::size_t head = layout.configuration_column(i);
+    variables.set_series(head, last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
+    variables.set_ends(head, bounds.first.q, bounds.last.q, i);
     switch (layout.node_state()) {
       case NodeState::configuration: {
         const std::size_t row = layout.node_row_column(i);
+        // (eq:gDLOCP3) and (rem:inifinalvel)
         if (ends.first_clamped) rows.set(row, -first_momentum.lower[i], -first_momentum.lower[i]);
         if (ends.last_clamped) rows.set(row + last_node, last_momentum.lower[i], last_momentum.lower[i]);
         break;

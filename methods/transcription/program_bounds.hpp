@@ -16,16 +16,16 @@ namespace dmocbench {
 /// the horizon of the problem lies outside.
 [[nodiscard]] ProblemBounds problem_bounds(const Problem& problem);
 
-/// The bounds of a program, one entry per variable or row.
+/// The bounds of a program, one entry per variable or constraint (row).
 struct ProgramBounds {
   Bounds variables;
   Bounds rows;
 };
 
-/// Bounds of all unknowns and rows. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v; for DMOC the
-/// momentum stands in the bounds of the end's row: p⁰ + (∂A/∂q_0 + W) = 0 (eq:gDLOCP3), -p^T + (∂A/∂q_N + W) = 0
-/// (rem:inifinalvel). Path rows have the bounds of the velocities, or are not negative. Throws `Error` if a momentum
-/// at an end is not finite.
+/// Bounds of all unknowns and constraints. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v. For
+/// DMOC the momentum of a clamped end is the bound of that end's equation: p⁰ + (∂A/∂q_0 + W) = 0 (eq:gDLOCP3), -p^T +
+/// (∂A/∂q_N + W) = 0 (rem:inifinalvel). Path constraints have the bounds of the velocities, or are not negative
+/// (eq:gDLOCP5). Throws `Error` if the momentum at an end is not finite.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, const EndRules& ends, const Layout& layout);
 

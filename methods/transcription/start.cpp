@@ -36,7 +36,7 @@ class Sampler {
   }
 
  private:
-  /// The motion at a time of the program's.
+  /// The motion at time t of the program.
   [[nodiscard]] MotionPoint point(double t) const {
     const double stretch = motion_->horizon / horizon_;
     MotionPoint point = motion_->at(t * stretch);
@@ -73,12 +73,12 @@ class Sampler {
         const MotionPoint at_stage = point(times[k] + c[stage] * widths[k]);
         for (Eigen::Index i = 0; i < at_stage.u.size(); ++i)
           entry(layout_->control_column(stage, i), k) = at_stage.u[i];
-        if (stage < layout_->interior_stages()) sample_slopes(at_stage, stage, k, widths[k]);
+        if (stage < layout_->interior_stages()) sample_rates(at_stage, stage, k, widths[k]);
       }
     }
   }
 
-  void sample_slopes(const MotionPoint& at_stage, Eigen::Index stage, Eigen::Index k, double h) {
+  void sample_rates(const MotionPoint& at_stage, Eigen::Index stage, Eigen::Index k, double h) {
     for (Eigen::Index i = 0; i < at_stage.v.size(); ++i) {
       entry(layout_->slope_q_column(stage, i), k) = at_stage.v[i];
       if (layout_->node_state() == NodeState::configuration) continue;
@@ -87,7 +87,7 @@ class Sampler {
     }
   }
 
-  /// The cost so far that meets the rows of the Mayer form.
+  /// Sets the cost so far such that the equations of the Mayer form hold.
   void sum_costs() {
     Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription_->constraint_count()));
     transcription_->constraints(x_, rows);  // z_{k+1} - z_k - cost, with every z = 0

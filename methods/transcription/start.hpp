@@ -8,10 +8,10 @@
 
 namespace dmocbench {
 
-/// The program's vector sampled from a motion, the same way for every method: q and v at the nodes, p = L_v(q, v),
-/// slopes of q at the stage times, slopes of p or v as mean slopes of the interval, u at the stage times. A free
-/// horizon takes the motion's own; a motion of another horizon than the program's is stretched to it. Variables are
-/// moved into their bounds.
+/// The unknowns of a program sampled from a motion, by the same rules for every method: q and v at the nodes,
+/// p = L_v(q, v), rates of q at the stage times, rates of p or v as mean rates of the interval, u at the stage times. A
+/// free horizon becomes that of the motion; otherwise a motion with another horizon is stretched to the program's.
+/// Variables are moved into their bounds.
 [[nodiscard]] Eigen::VectorXd sample(Transcription& transcription, const Motion& motion);
 
 /// The problem's own guess as a motion. The problem must outlive it.

@@ -1,5 +1,6 @@
 #include "methods/transcription/tableau.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,7 +11,9 @@
 #include <Eigen/LU>
 #include <boost/math/special_functions/legendre.hpp>
 #include <boost/math/tools/roots.hpp>
+#include <fmt/format.h>
 
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -24,7 +27,7 @@ constexpr int most_stages = 4;
 constexpr int fewest_lobatto_stages = 2;
 
 /// 0, 1 and the zeros of the derivative of the Legendre polynomial of degree `stages` - 1, which lie between those of
-/// the polynomial itself; carried from [-1, 1] to [0, 1].
+/// the polynomial itself; mapped from [-1, 1] to [0, 1].
 std::vector<long double> lobatto_nodes(int stages) {
   std::vector<long double> nodes{0.0L};
   const std::vector<long double> zeros = gauss_nodes(stages - 1);
@@ -39,6 +42,21 @@ std::vector<long double> lobatto_nodes(int stages) {
   nodes.push_back(1.0L);
   return nodes;
 }
+
+struct Family {
+  std::string_view name;
+  int fewest_stages;
+  Tableau (*make)(int stages);
+};
+
+// One line per family.
+constexpr auto families = std::to_array<Family>({
+    {"gauss", 1, gauss_tableau},
+    {"lobatto", fewest_lobatto_stages, [](int stages) { return lobatto_tableau(stages, false); }},
+    {"lobatto_shared", fewest_lobatto_stages, [](int stages) { return lobatto_tableau(stages, true); }},
+});
+
+constexpr auto tableau_name = [](const Family& family) { return family.name; };
 
 }  // namespace
 
@@ -83,15 +101,14 @@ Tableau collocation_tableau(std::string family, const std::vector<long double>& 
 
 Tableau gauss_tableau(int stages) {
   if (stages < 1 || stages > most_stages) {
-    throw Error("gauss has 1 to " + std::to_string(most_stages) + " stages, got " + std::to_string(stages));
+    throw Error(fmt::format("gauss has 1 to {} stages, got {}", most_stages, stages));
   }
   return collocation_tableau("gauss", gauss_nodes(stages), 2 * stages);
 }
 
 Tableau lobatto_tableau(int stages, bool shares_controls) {
   if (stages < fewest_lobatto_stages || stages > most_stages) {
-    throw Error("lobatto has " + std::to_string(fewest_lobatto_stages) + " to " + std::to_string(most_stages) +
-                " stages, got " + std::to_string(stages));
+    throw Error(fmt::format("lobatto has {} to {} stages, got {}", fewest_lobatto_stages, most_stages, stages));
   }
   Tableau tableau =
       collocation_tableau(shares_controls ? "lobatto_shared" : "lobatto", lobatto_nodes(stages), 2 * stages - 2);
@@ -99,17 +116,17 @@ Tableau lobatto_tableau(int stages, bool shares_controls) {
   return tableau;
 }
 
-std::vector<std::string> tableau_names() { return {"gauss", "lobatto", "lobatto_shared"}; }
+std::vector<std::string> tableau_names() { return names_of(families, tableau_name); }
 
 std::vector<int> tableau_stages(std::string_view family) {
-  if (family == "gauss") return {1, 2, 3, 4};
-  if (family == "lobatto" || family == "lobatto_shared") return {2, 3, 4};
-  throw Error("there is no tableau \"" + std::string(family) + "\"; choose one of gauss, lobatto, lobatto_shared");
+  std::vector<int> stages;
+  const int fewest = one_of(families, tableau_name, family, "there is no tableau").fewest_stages;
+  for (int s = fewest; s <= most_stages; ++s) stages.push_back(s);
+  return stages;
 }
 
 Tableau make_tableau(std::string_view family, int stages) {
-  static_cast<void>(tableau_stages(family));
-  return family == "gauss" ? gauss_tableau(stages) : lobatto_tableau(stages, family == "lobatto_shared");
+  return one_of(families, tableau_name, family, "there is no tableau").make(stages);
 }
 
 }  // namespace dmocbench

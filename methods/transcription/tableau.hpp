@@ -24,8 +24,8 @@ struct Tableau {
   [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
 };
 
-/// The coefficients that make a symplectic pair with the given ones: ã_ij = b_j - b_j a_ji / b_i (eq:DMOC_RK_symp), s ×
-/// s of weights b with s entries, none of them 0. Twice gives the given ones back.
+/// The coefficients that form a symplectic pair with the given ones: ã_ij = b_j - b_j a_ji / b_i (eq:DMOC_RK_symp), s ×
+/// s for s weights b, none of them 0. Applied twice, it returns the given coefficients.
 template <class Scalar>
 [[nodiscard]] Eigen::MatrixX<Scalar> conjugate_coefficients(const Eigen::MatrixX<Scalar>& a,
                                                             const Eigen::VectorX<Scalar>& b) {
@@ -41,8 +41,8 @@ template <class Scalar>
 /// Throws `Error` if nodes coincide or a weight is not positive.
 [[nodiscard]] Tableau collocation_tableau(std::string family, const std::vector<long double>& nodes, int order);
 
-/// The stages of `gauss_tableau`, however many: the zeros of the Legendre polynomial of degree `stages`, carried from
-/// [-1, 1] to [0, 1], ascending.
+/// The stage times of a Gauss tableau with any number of stages: the zeros of the Legendre polynomial of degree
+/// `stages`, mapped from [-1, 1] to [0, 1], ascending.
 [[nodiscard]] std::vector<long double> gauss_nodes(int stages);
 
 /// Gauss-Legendre, order 2s. s = 1 is the midpoint rule.
@@ -55,10 +55,10 @@ template <class Scalar>
 /// Names of the tableau families.
 [[nodiscard]] std::vector<std::string> tableau_names();
 
-/// The numbers of stages that a family is offered with. Throws `Error` if there is no such family.
+/// The numbers of stages with which a family is offered. Throws `Error` if there is no such family.
 [[nodiscard]] std::vector<int> tableau_stages(std::string_view family);
 
-/// Throws `Error` that lists what there is if the family or the number of stages is unknown.
+/// Throws `Error` that lists the choices if the family or the number of stages is unknown.
 [[nodiscard]] Tableau make_tableau(std::string_view family, int stages);
 
 }  // namespace dmocbench

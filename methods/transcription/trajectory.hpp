@@ -2,11 +2,12 @@
 
 #include <Eigen/Core>
 
+#include "methods/mechanics/state.hpp"
 #include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
 
-/// A discrete motion, the same for every method: what diagnostics, tables and figures are made of.
+/// A discrete motion in the same form for every method; diagnostics, tables and figures are made from it.
 ///
 /// Units are those of the problem as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
 /// stage i of interval k.
@@ -27,12 +28,21 @@ struct Trajectory {
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;
-  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, and where path rows (bounds on
-  /// velocities, path constraints) have multipliers of their own there.
+  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, and where bounds on velocities
+  /// or path constraints have multipliers of their own there.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;
 
   double cost = 0.0;  ///< the true cost, not the scaled one
+
+  /// h_k = t_{k+1} - t_k.
+  [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }
+  /// (q_k, v_k), without a control.
+  [[nodiscard]] MotionPoint node(Eigen::Index k) const { return {q.row(k).transpose(), v.row(k).transpose(), {}}; }
+  /// (Q_i, Q̇_i, U_i) in a row of the stage tables.
+  [[nodiscard]] MotionPoint stage(Eigen::Index row) const {
+    return {stage_q.row(row).transpose(), stage_v.row(row).transpose(), stage_u.row(row).transpose()};
+  }
 
   [[nodiscard]] Eigen::Index intervals() const noexcept { return node_times.size() - 1; }
   [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }

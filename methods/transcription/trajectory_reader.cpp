@@ -1,10 +1,11 @@
 #include "methods/transcription/trajectory_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/columns.hpp"
 #include "methods/transcription/costates.hpp"
-#include "methods/transcription/stage_costates.hpp"
 
 namespace dmocbench {
 
@@ -51,15 +52,13 @@ Eigen::MatrixXd stage_momenta(const TracedProblem& problem, const Trajectory& tr
   LegendreTransform legendre(problem);
   Eigen::MatrixXd p(trajectory.stage_q.rows(), trajectory.stage_q.cols());
   for (Eigen::Index i = 0; i < p.rows(); ++i) {
-    p.row(i) = legendre
-                   .momentum(trajectory.stage_q.row(i).transpose(), trajectory.stage_v.row(i).transpose(),
-                             trajectory.stage_times[i])
-                   .transpose();
+    const MotionPoint stage = trajectory.stage(i);
+    p.row(i) = legendre.momentum(stage.q, stage.v, trajectory.stage_times[i]).transpose();
   }
   return p;
 }
 
-/// v_k with L_v(q_k, v_k) = p_k; each solve starts at a velocity nearby.
+/// v_k with L_v(q_k, v_k) = p_k; each solve starts from the velocity of a nearby stage.
 Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& trajectory) {
   LegendreTransform legendre(problem);
   Eigen::MatrixXd v(trajectory.q.rows(), trajectory.q.cols());
@@ -79,8 +78,7 @@ Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& traje
 Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
                            const Eigen::VectorXd& multipliers) {
   if (static_cast<std::size_t>(primal.size()) != transcription.variable_count()) {
-    throw Error("a trajectory needs " + std::to_string(transcription.variable_count()) + " variables, got " +
-                std::to_string(primal.size()));
+    throw Error(fmt::format("a trajectory needs {} variables, got {}", transcription.variable_count(), primal.size()));
   }
   const Layout& layout = transcription.layout();
   const Eigen::Index n = transcription.traced_problem().configuration_size();

@@ -7,12 +7,12 @@
 
 namespace dmocbench {
 
-/// The discrete motion that a program's vector stands for, alike for every method.
+/// The discrete motion that a vector of the program's unknowns stands for, by the same rules for every method.
 ///
 /// p_k is one number per node: the left momentum of the interval to its right, at the last node the right momentum of
 /// the last interval (for DMOC the forced discrete Legendre transforms (eq:varmech_dlegf)); v_k solves p_k = L_v(q_k,
-/// v_k). Costates are there if `multipliers` has an entry per row. Throws `Error` if L_vv is singular on the motion or
-/// a size is wrong.
+/// v_k). Costates are computed if `multipliers` has an entry per constraint. Throws `Error` if L_vv is singular on the
+/// motion or a size is wrong.
 [[nodiscard]] Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
                                          const Eigen::VectorXd& multipliers);
 

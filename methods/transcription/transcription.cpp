@@ -54,7 +54,7 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
 }
 
 /// From max|q| and max|L_vv| over the ends and the guess.
-double rounding_floor_of(const GuessSurvey& survey, double smallest_step) {
+double rounding_floor_of(const GuessMagnitudes& survey, double smallest_step) {
   constexpr double safety = 20.0;
   return safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass /
          smallest_step;
@@ -93,7 +93,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
           jacobian_entries(functions_, layout_.row_places(), layout_.unknown_places(), grid.intervals()))),
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
-  // The ends extend the patterns, which have to be whole before the arrays of the intervals are made for them.
+  // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
   if (end_functions_) {
     PartPlaces places = end_places(*end_functions_);
     ends_ = std::make_unique<ProgramPart>(*end_functions_, std::move(places), step_inputs_, time_inputs_, derivatives);
@@ -102,7 +102,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
-  // Free variables less equations on so many intervals.
+  // The number of free variables minus that of equations on a given number of intervals.
   const auto fixed = static_cast<long long>(variable_count()) - static_cast<long long>(free_variable_count(*this));
   const long long fixed_in_interval = fixed_variables_of_an_interval();
   const auto surplus = [&](std::size_t intervals) {

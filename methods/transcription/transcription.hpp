@@ -22,7 +22,7 @@
 
 namespace dmocbench {
 
-/// How the cost is stated.
+/// The form of the cost.
 enum class CostForm : std::uint8_t {
   bolza,  ///< Σ h Σ b_i C + Φ, as the problem states it (eq:gDLOCP1)
   mayer,  ///< z_N + Φ with z_{k+1} - z_k = h Σ b_i C, z_0 = 0 (eq:gDLOCP_mayer): the same solutions
@@ -34,15 +34,15 @@ enum class CostForm : std::uint8_t {
 /// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval and of the
 /// ends of the horizon.
 ///
-/// Everything but the element's rule is here and is the same for all methods: numbering, sparsity, derivatives, bounds,
-/// path constraints, boundary conditions, horizon. The cost is multiplied by `Problem::cost_scale`. What the ends
-/// become is told by `EndRules`, what the bounds become by `program_bounds`.
+/// Everything except the element's formulas is the same for all methods: numbering, sparsity, derivatives, bounds, path
+/// constraints, boundary conditions, horizon. The cost is multiplied by `Problem::cost_scale`. `EndRules` describes how
+/// the ends enter, `program_bounds` how the bounds do.
 class Transcription final : public NonlinearProgram {
  public:
   /// Traces the problem on one interval and sets everything up for the grid. Throws `Error` if the grid has too few
   /// intervals (fewer free variables than equations; the sentence names the smallest number), or the problem is not
   /// well posed. `derivatives` names the back end of gradient, Jacobian and Hessian (`derivative_back_end_names`; the
-  /// default is exact); values, momenta and costates come from the formulas whatever it is.
+  /// default is exact); values, momenta and costates always come from the formulas.
   Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
                 std::string_view derivatives = "tape", CostForm form = CostForm::bolza);
 
@@ -59,8 +59,8 @@ class Transcription final : public NonlinearProgram {
   void constraints(const VectorIn& x, VectorOut result) override;
   void jacobian(const VectorIn& x, VectorOut values) override;
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override;
-  /// 20 ε max|q| max|L_vv| / min h: rows are differences of momenta, and these are differences of q divided by h. The
-  /// maxima are taken over the ends of the motion and the problem's guess.
+  /// 20 ε max|q| max|L_vv| / min h: constraints are differences of momenta, and these are differences of q divided by
+  /// h. The maxima are taken over the ends of the motion and the problem's guess.
   [[nodiscard]] double rounding_floor() const override { return rounding_floor_; }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return &layout_.structure(); }
 
@@ -69,10 +69,10 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
   [[nodiscard]] const TracedProblem& traced_problem() const noexcept { return traced_; }
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return functions_; }
-  /// None where the ends add nothing to the program.
+  /// Nothing where the ends add nothing to the program.
   [[nodiscard]] const std::optional<EndFunctions>& end_functions() const noexcept { return end_functions_; }
   [[nodiscard]] double cost_scale() const noexcept { return cost_scale_; }
-  /// What the problem bounds, as it was checked.
+  /// The problem's bounds, checked (`problem_bounds`).
   [[nodiscard]] const ProblemBounds& bounds() const noexcept { return problem_bounds_; }
 
   /// T of the problem, or of its guess where it is free.
@@ -84,7 +84,7 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] Eigen::VectorXd node_times(const VectorIn& x) const { return horizon(x) * grid_.relative_times(); }
   [[nodiscard]] Eigen::VectorXd steps(const VectorIn& x) const { return horizon(x) * grid_.relative_widths(); }
 
-  /// What the interval formulas read as step and as time of the left node: relative to the horizon where that is an
+  /// The step and the time of the left node that the interval formulas read: relative to the horizon where that is an
   /// unknown.
   [[nodiscard]] const Eigen::VectorXd& step_inputs() const noexcept { return step_inputs_; }
   [[nodiscard]] const Eigen::VectorXd& time_inputs() const noexcept { return time_inputs_; }

@@ -1,5 +1,3 @@
-#include "methods/diagnostics/symplecticity.hpp"
-
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/one_step_map.hpp"

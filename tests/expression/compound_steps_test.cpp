@@ -8,14 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/instruction_code.hpp"
-#include "tests/expression/columns.hpp"
 #include "tests/expression/random_program.hpp"
+#include "tests/expression/series_table.hpp"
 
 namespace dmocbench {
 namespace {
 
-using tests::Columns;
 using tests::RandomPoints;
+using tests::SeriesTable;
 
 using Operator = std::function<Expression(const Expression&, const Expression&)>;
 
@@ -24,19 +24,19 @@ const std::array<Operator, 3>& operators() {
   return all;
 }
 
-Columns random_columns(std::size_t columns, std::size_t count) {
+SeriesTable random_series(std::size_t columns, std::size_t count) {
   RandomPoints random;
-  Columns result(columns, std::vector<double>(count));
+  SeriesTable result(columns, std::vector<double>(count));
   for (std::vector<double>& column : result) {
     for (double& entry : column) entry = random.number(-2.0, 2.0);
   }
   return result;
 }
 
-void expect_same_bits_as_replay(const Schedule& schedule, const Columns& inputs) {
+void expect_same_bits_as_replay(const Schedule& schedule, const SeriesTable& inputs) {
   const std::size_t count = inputs.front().size();
   for (const InstructionSet set : available_instruction_sets()) {
-    const Columns found = tests::evaluate(Tape(schedule, set), inputs, count);
+    const SeriesTable found = tests::evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       std::vector<double> point;
       for (const std::vector<double>& column : inputs) point.push_back(column[k]);
@@ -71,7 +71,7 @@ std::size_t negations(const Schedule& schedule) {
 }
 
 TEST(CompoundSteps, EveryShapeIsOneInstructionAndChangesNoBit) {
-  const Columns inputs = random_columns(4, Tape::block_width + 13);
+  const SeriesTable inputs = random_series(4, Tape::block_width + 13);
   for (const Operator& f : operators()) {
     for (const Operator& g : operators()) {
       for (const Operator& h : operators()) {
@@ -101,7 +101,7 @@ TEST(CompoundSteps, OfTwoReadyOperandsTheOneThatFitsIsAbsorbed) {
   const Expression four = x[0] * x[1] + x[2] * x[3];  // an instruction can read no more
   const Schedule schedule(ExpressionVector{{four - x[4] * x[5]}});
   EXPECT_EQ(compound_steps(schedule).size(), 2U);
-  expect_same_bits_as_replay(schedule, random_columns(6, 9));
+  expect_same_bits_as_replay(schedule, random_series(6, 9));
 }
 
 TEST(CompoundSteps, ASineAndACosineOfOneNumberAreFoundTogether) {
@@ -112,11 +112,11 @@ TEST(CompoundSteps, ASineAndACosineOfOneNumberAreFoundTogether) {
   ASSERT_EQ(compound_steps(swapped).size(), 1U);
   EXPECT_EQ(compound_steps(Schedule(ExpressionVector{{sin(x), cos(2.0 * x)}})).size(), 3U);
   constexpr std::size_t count = Tape::block_width + 13;
-  Columns inputs = random_columns(1, count);
+  SeriesTable inputs = random_series(1, count);
   for (double& entry : inputs[0]) entry *= 50.0;
   for (const InstructionSet set : available_instruction_sets()) {
-    const Columns found = tests::evaluate(Tape(both, set), inputs, count);
-    const Columns exchanged = tests::evaluate(Tape(swapped, set), inputs, count);
+    const SeriesTable found = tests::evaluate(Tape(both, set), inputs, count);
+    const SeriesTable exchanged = tests::evaluate(Tape(swapped, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_NEAR(found[0][k], std::sin(inputs[0][k]), 1e-15);
       EXPECT_NEAR(found[1][k], std::cos(inputs[0][k]), 1e-15);

@@ -9,23 +9,23 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/runtime/instruction_set.hpp"
-#include "tests/expression/columns.hpp"
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
+#include "tests/expression/series_table.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
 namespace {
 
-using tests::Columns;
 using tests::RandomPoints;
+using tests::SeriesTable;
 
 constexpr double promise_of_instruction_sets = 1e-13;  // of the sum of magnitudes
 
-void expect_all_agree(const Schedule& schedule, const Columns& inputs, std::size_t count) {
-  const Columns baseline = tests::evaluate(Tape(schedule, InstructionSet::baseline), inputs, count);
+void expect_all_agree(const Schedule& schedule, const SeriesTable& inputs, std::size_t count) {
+  const SeriesTable baseline = tests::evaluate(Tape(schedule, InstructionSet::baseline), inputs, count);
   for (const InstructionSet set : available_instruction_sets()) {
-    const Columns found = tests::evaluate(Tape(schedule, set), inputs, count);
+    const SeriesTable found = tests::evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       const auto terms = tests::replay_interval(schedule, inputs, k);
       for (std::size_t j = 0; j < found.size(); ++j) {
@@ -43,7 +43,7 @@ struct CompareSets {
     const ExpressionVector x = input_vector(0, 2);
     constexpr std::size_t count = 203;
     RandomPoints random;
-    Columns inputs(2, std::vector<double>(count));
+    SeriesTable inputs(2, std::vector<double>(count));
     for (auto& column : inputs) {
       for (double& entry : column) entry = random.number(domain.low, domain.high);
     }
@@ -63,7 +63,7 @@ TEST(InstructionSets, AgreeOnRandomFormulasAndTheirSecondDerivatives) {
     const ExpressionVector x = input_vector(0, 3);
     const Expression f = program.run(std::span<const Expression>(x.data(), 3))[0];
     constexpr std::size_t count = 67;
-    Columns inputs(3, std::vector<double>(count));
+    SeriesTable inputs(3, std::vector<double>(count));
     for (std::size_t i = 0; i < 3; ++i) {
       for (double& entry : inputs[i]) entry = program.point()[i] + random.number(-1e-3, 1e-3);
     }

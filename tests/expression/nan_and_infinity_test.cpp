@@ -9,15 +9,15 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/expression/columns.hpp"
 #include "tests/expression/operations.hpp"
+#include "tests/expression/series_table.hpp"
 #include "tests/support/random_points.hpp"
 
 namespace dmocbench {
 namespace {
 
-using tests::Columns;
 using tests::RandomPoints;
+using tests::SeriesTable;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -42,8 +42,8 @@ const std::vector<double>& special_numbers() {
 }
 
 /// All pairs of special numbers.
-Columns special_columns() {
-  Columns inputs(2);
+SeriesTable special_series() {
+  SeriesTable inputs(2);
   for (const double x : special_numbers()) {
     for (const double y : special_numbers()) {
       inputs[0].push_back(x);
@@ -59,14 +59,14 @@ struct CompareSpecialNumbers {
     SCOPED_TRACE(name);
     const ExpressionVector x = input_vector(0, 2);
     const Schedule schedule(ExpressionVector{{formula(x[0], x[1])}});
-    const Columns inputs = special_columns();
+    const SeriesTable inputs = special_series();
     const std::size_t total = inputs[0].size();
     for (const InstructionSet set : available_instruction_sets()) {
       SCOPED_TRACE(name_of(set));
       const Tape tape(schedule, set);
       // Whole blocks and every length of a partial block's remainder.
       for (std::size_t cut = 0; cut < 9; ++cut) {
-        const Columns found = tests::evaluate(tape, inputs, total - cut);
+        const SeriesTable found = tests::evaluate(tape, inputs, total - cut);
         for (std::size_t k = 0; k < total - cut; ++k) {
           SCOPED_TRACE(testing::Message() << "x = " << inputs[0][k] << ", y = " << inputs[1][k]);
           expect_as_std(found[0][k], formula(inputs[0][k], inputs[1][k]));
@@ -113,7 +113,7 @@ TEST(NanAndInfinity, NamedCasesComeOutAsTheyShould) {
     for (const auto& entry : cases) {
       const Tape tape(Schedule(ExpressionVector{{entry.formula}}), set);
       for (const std::size_t count : {1U, 5U, 64U, 67U}) {
-        const Columns found = tests::evaluate(tape, {std::vector<double>(count, entry.at)}, count);
+        const SeriesTable found = tests::evaluate(tape, {std::vector<double>(count, entry.at)}, count);
         for (const double value : found[0]) expect_as_std(value, entry.expected);
       }
     }
@@ -129,16 +129,16 @@ struct ExpectNanStaysInItsInterval {
     const Schedule schedule(ExpressionVector{{formula(x[0], x[1])}});
     RandomPoints random;
     constexpr std::size_t count = 77;
-    Columns inputs(2, std::vector<double>(count));
+    SeriesTable inputs(2, std::vector<double>(count));
     for (auto& column : inputs) {
       for (double& entry : column) entry = random.number(domain.low, domain.high);
     }
     for (const InstructionSet set : available_instruction_sets()) {
       const Tape tape(schedule, set);
       for (std::size_t place = 0; place < count; ++place) {
-        Columns disturbed = inputs;
+        SeriesTable disturbed = inputs;
         disturbed[0][place] = disturbed[1][place] = nan;
-        const Columns found = tests::evaluate(tape, disturbed, count);
+        const SeriesTable found = tests::evaluate(tape, disturbed, count);
         for (std::size_t k = 0; k < count; ++k) {
           expect_as_std(found[0][k], formula(disturbed[0][k], disturbed[1][k]));
         }
@@ -153,7 +153,7 @@ TEST(NanAndInfinity, StayInTheirInterval) { tests::visit_operations(ExpectNanSta
 TEST(NanAndInfinity, LargeArgumentsOfSineAndCosineKeepTheirAccuracy) {
   const Expression x = Expression::input(0);
   const Schedule schedule(ExpressionVector{{sin(x), cos(x)}});
-  Columns inputs(1);
+  SeriesTable inputs(1);
   RandomPoints random;
   for (const double size : {1.0, 30.0, 1e3, 1e5, 1e7, 1e10, 1e15, 1e22, 1e100, 1e300}) {
     inputs[0].push_back(size);
@@ -162,7 +162,7 @@ TEST(NanAndInfinity, LargeArgumentsOfSineAndCosineKeepTheirAccuracy) {
   }
   const std::size_t count = inputs[0].size();
   for (const InstructionSet set : available_instruction_sets()) {
-    const Columns found = tests::evaluate(Tape(schedule, set), inputs, count);
+    const SeriesTable found = tests::evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_NEAR(found[0][k], std::sin(inputs[0][k]), 1e-13) << inputs[0][k] << ' ' << name_of(set);
       EXPECT_NEAR(found[1][k], std::cos(inputs[0][k]), 1e-13) << inputs[0][k] << ' ' << name_of(set);
@@ -172,11 +172,11 @@ TEST(NanAndInfinity, LargeArgumentsOfSineAndCosineKeepTheirAccuracy) {
 
 TEST(NanAndInfinity, SmallArgumentsOfSineKeepTheirRelativeAccuracy) {
   const Schedule schedule(ExpressionVector{{sin(Expression::input(0))}});
-  Columns inputs(1);
+  SeriesTable inputs(1);
   for (int exponent = -300; exponent <= 0; ++exponent) inputs[0].push_back(std::pow(10.0, exponent));
   const std::size_t count = inputs[0].size();
   for (const InstructionSet set : available_instruction_sets()) {
-    const Columns found = tests::evaluate(Tape(schedule, set), inputs, count);
+    const SeriesTable found = tests::evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_NEAR(found[0][k] / std::sin(inputs[0][k]), 1.0, 1e-15) << inputs[0][k];
     }

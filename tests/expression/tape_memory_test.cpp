@@ -15,8 +15,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "tests/expression/columns.hpp"
 #include "tests/expression/operations.hpp"
+#include "tests/expression/series_table.hpp"
 #include "tests/support/random_points.hpp"
 
 namespace {
@@ -116,10 +116,10 @@ TEST(TapeMemory, NumbersAroundOutputsKeepTheirValuesAndSoDoInputs) {
     Tape::Workspace workspace(tape);
     for (const std::size_t count : tests::interval_counts()) {
       tests::RandomPoints random;
-      tests::Columns inputs(2, std::vector<double>(count));
+      tests::SeriesTable inputs(2, std::vector<double>(count));
       for (auto& column : inputs) std::generate(column.begin(), column.end(), [&] { return random.number(); });
-      const tests::Columns before = inputs;
-      tests::Columns guarded(tape.output_count(), std::vector<double>(count + 2 * guard, canary));
+      const tests::SeriesTable before = inputs;
+      tests::SeriesTable guarded(tape.output_count(), std::vector<double>(count + 2 * guard, canary));
       std::vector<double*> outputs;
       for (auto& column : guarded) outputs.push_back(column.data() + guard);
       const std::vector<Tape::Input> places{{inputs[0].data()}, {inputs[1].data()}};
@@ -161,7 +161,7 @@ TEST(TapeMemory, EvaluationAllocatesNothing) {
   for (const InstructionSet set : available_instruction_sets()) {
     const Tape tape(schedule, set);
     Tape::Workspace workspace(tape);
-    tests::Columns columns(tape.output_count(), std::vector<double>(count));
+    tests::SeriesTable columns(tape.output_count(), std::vector<double>(count));
     std::vector<double*> outputs;
     for (auto& column : columns) outputs.push_back(column.data());
     const std::size_t before = allocations;
@@ -178,13 +178,13 @@ TEST(TapeMemory, ThreadsShareATapeEachWithItsOwnWorkspace) {
   const Tape tape(all_operations());
   constexpr std::size_t count = 150;
   tests::RandomPoints random;
-  tests::Columns inputs(2, std::vector<double>(count));
+  tests::SeriesTable inputs(2, std::vector<double>(count));
   for (auto& column : inputs) std::generate(column.begin(), column.end(), [&] { return random.number(0.2, 0.8); });
-  const tests::Columns alone = tests::evaluate(tape, inputs, count);
-  std::vector<tests::Columns> found(4);
+  const tests::SeriesTable alone = tests::evaluate(tape, inputs, count);
+  std::vector<tests::SeriesTable> found(4);
   std::vector<std::thread> threads;
   threads.reserve(found.size());
-  for (tests::Columns& result : found) {
+  for (tests::SeriesTable& result : found) {
     threads.emplace_back([&] {
       for (int repetition = 0; repetition < 20; ++repetition) {
         result = tests::evaluate(tape, inputs, count);
@@ -192,7 +192,7 @@ TEST(TapeMemory, ThreadsShareATapeEachWithItsOwnWorkspace) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  for (const tests::Columns& result : found) EXPECT_EQ(result, alone);
+  for (const tests::SeriesTable& result : found) EXPECT_EQ(result, alone);
 }
 
 }  // namespace

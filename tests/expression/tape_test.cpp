@@ -10,37 +10,37 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "tests/expression/columns.hpp"
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
+#include "tests/expression/series_table.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
 namespace {
 
-using tests::Columns;
 using tests::Domain;
 using tests::evaluate;
 using tests::interval_counts;
 using tests::RandomPoints;
 using tests::RandomProgram;
 using tests::replay_interval;
+using tests::SeriesTable;
 using tests::Terms;
 
 constexpr double promise_of_tape = 1e-13;  // of the sum of magnitudes
 
-Columns random_columns(RandomPoints& random, std::size_t columns, std::size_t count, const Domain& domain) {
-  Columns result(columns, std::vector<double>(count));
+SeriesTable random_series(RandomPoints& random, std::size_t columns, std::size_t count, const Domain& domain) {
+  SeriesTable result(columns, std::vector<double>(count));
   for (std::vector<double>& column : result) {
     for (double& entry : column) entry = random.number(domain.low, domain.high);
   }
   return result;
 }
 
-void expect_equals_replay(const Schedule& schedule, const Columns& inputs, std::size_t count) {
+void expect_equals_replay(const Schedule& schedule, const SeriesTable& inputs, std::size_t count) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(name_of(set));
-    const Columns found = evaluate(Tape(schedule, set), inputs, count);
+    const SeriesTable found = evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       const std::vector<Terms> expected = replay_interval(schedule, inputs, k);
       for (std::size_t j = 0; j < found.size(); ++j) {
@@ -59,7 +59,7 @@ struct CompareWithReplay {
     const Schedule schedule(ExpressionVector{{formula(x[0], x[1]), formula(x[1], x[0])}});
     RandomPoints random;
     for (const std::size_t count : interval_counts()) {
-      expect_equals_replay(schedule, random_columns(random, 2, count, domain), count);
+      expect_equals_replay(schedule, random_series(random, 2, count, domain), count);
     }
   }
 };
@@ -81,7 +81,7 @@ TEST(Tape, EqualsReplayForRandomFormulasAndTheirSecondDerivatives) {
     outputs << f[0], f[1], second.reshaped();
     const std::size_t count = 60 + static_cast<std::size_t>(number) % 10;
     // Close to the point that the program was grown around: inside all domains.
-    Columns columns = random_columns(random, inputs, count, {-1e-3, 1e-3});
+    SeriesTable columns = random_series(random, inputs, count, {-1e-3, 1e-3});
     for (std::size_t i = 0; i < inputs; ++i) {
       for (double& entry : columns[i]) entry += program.point()[i];
     }
@@ -95,13 +95,13 @@ TEST(Tape, ResultOfAnIntervalDependsNeitherOnItsPlaceNorOnItsNeighbours) {
   RandomPoints random;
   for (const InstructionSet set : available_instruction_sets()) {
     const Tape tape(schedule, set);
-    const Columns alone = evaluate(tape, {{0.75}}, 1);
+    const SeriesTable alone = evaluate(tape, {{0.75}}, 1);
     for (const std::size_t count : interval_counts()) {
       if (count == 0) continue;
       for (const std::size_t place : {std::size_t{0}, count / 2, count - 1}) {
-        Columns inputs = random_columns(random, 1, count, {-0.78, 0.78});
+        SeriesTable inputs = random_series(random, 1, count, {-0.78, 0.78});
         inputs[0][place] = 0.75;
-        const Columns found = evaluate(tape, inputs, count);
+        const SeriesTable found = evaluate(tape, inputs, count);
         EXPECT_EQ(found[0][place], alone[0][0]) << name_of(set) << ", " << count;
         EXPECT_EQ(found[1][place], alone[1][0]) << name_of(set) << ", " << count;
       }
@@ -113,9 +113,9 @@ TEST(Tape, LastBlockMayBePartial) {
   const Expression x = Expression::input(0);
   const Tape tape(Schedule(ExpressionVector{{x * x + 1.0}}));
   for (std::size_t count = 0; count <= 2 * Tape::block_width + 1; ++count) {
-    Columns inputs(1, std::vector<double>(count));
+    SeriesTable inputs(1, std::vector<double>(count));
     for (std::size_t k = 0; k < count; ++k) inputs[0][k] = static_cast<double>(k);
-    const Columns found = evaluate(tape, inputs, count);
+    const SeriesTable found = evaluate(tape, inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_EQ(found[0][k], static_cast<double>(k * k + 1)) << count;
     }
@@ -152,8 +152,8 @@ TEST(Tape, OutputsMayBeConstantsInputsAndRepetitions) {
   const Tape tape{Schedule(outputs)};
   for (const std::size_t count : interval_counts()) {
     RandomPoints random;
-    const Columns inputs = random_columns(random, 2, count, {-1.0, 1.0});
-    const Columns found = evaluate(tape, inputs, count);
+    const SeriesTable inputs = random_series(random, 2, count, {-1.0, 1.0});
+    const SeriesTable found = evaluate(tape, inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       const double s = inputs[0][k] + inputs[1][k];
       const std::vector<double> expected{2.5, inputs[1][k], s, inputs[1][k], s, 2.5, 0.0, s * s};
@@ -165,7 +165,7 @@ TEST(Tape, OutputsMayBeConstantsInputsAndRepetitions) {
 
 TEST(Tape, ZeroAndMinusZeroAreDifferentConstants) {
   const Tape tape(Schedule(ExpressionVector{{Expression(0.0), Expression(-0.0)}}));
-  const Columns found = evaluate(tape, {}, 1);
+  const SeriesTable found = evaluate(tape, {}, 1);
   EXPECT_FALSE(std::signbit(found[0][0]));
   EXPECT_TRUE(std::signbit(found[1][0]));
 }
@@ -244,7 +244,7 @@ TEST(Tape, ACopyTakesTheSameWorkspaceAndAMovedWorkspaceStillServes) {
   const std::vector<Tape::Input> inputs{{&number, true}};
   copy.evaluate(1, inputs, std::vector<double*>{&result}, second);
   EXPECT_NEAR(result, 2.0 * std::sin(1.0) + 1.0, 1e-15 * 4.0);
-  // A copy's table of columns would point into the slots of the original.
+  // A copy's table of series would point into the slots of the original.
   static_assert(!std::is_copy_constructible_v<Tape::Workspace>);
   static_assert(!std::is_copy_assignable_v<Tape::Workspace>);
 }

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/replay_error.hpp"
-#include "methods/indirect/shooting_defect.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"
@@ -239,7 +238,7 @@ TEST(IndirectSolution, IsTheSameFromItsNumbers) {
   EXPECT_EQ(compare(solution, again, 1.0).worst(), 0.0);
   EXPECT_EQ(again.certified_digits(), solution.certified_digits());
   CollocatedExtremal cut = solution.extremal();
-  cut.slopes.conservativeResize(cut.slopes.rows(), cut.slopes.cols() - 1);
+  cut.rates.conservativeResize(cut.rates.rows(), cut.rates.cols() - 1);
   tests::expect_error_naming({"do not fit"}, [&] { IndirectSolution(problem, cut, {}); });
 }
 

@@ -6,7 +6,7 @@
 
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/indirect/node_control_error.hpp"
+#include "methods/indirect/control_from_costate.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/solvers/polish.hpp"
 #include "problems/registry.hpp"

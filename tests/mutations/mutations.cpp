@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "methods/expression/derivatives.hpp"
 #include "tests/mutations/wrapped_functions.hpp"
 
 namespace dmocbench::mutations {
@@ -21,18 +20,6 @@ bool chosen(std::string_view mutation) {
 }
 
 constexpr double one_percent_more = 1.01;
-
-/// h Σ b_i f·∂Q_i/∂x, the virtual work of the control forces alone.
-ExpressionVector work_of_control(const TracedProblem& problem, const Tableau& tableau, const IntervalTrace& trace,
-                                 const ExpressionVector& x, const Expression& h) {
-  ExpressionVector work(x.size());
-  for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-    const Expression weight = h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-    const ExpressionMatrix by_stage = weight * jacobian(trace.stages[i].q, x).transpose();
-    work += by_stage * problem.at(trace.stages[i]).control_force;
-  }
-  return work;
-}
 
 /// A family of elements that makes the chosen mistake.
 class MutantElement final : public Element {
@@ -54,7 +41,7 @@ class MutantElement final : public Element {
     IntervalTrace trace = element_->trace(problem, coefficients, local);
     const bool is_variational = node_state() == NodeState::configuration;
     if (is_variational && chosen("dropped_half_force")) {
-      trace.right_rows -= work_of_control(problem, tableau, trace, unknowns.right_q, unknowns.h);
+      trace.right_rows -= work_of_control(problem, trace.stages, unknowns.right_q, tableau.b, unknowns.h);
       trace.right_momentum = trace.right_rows;
     }
     if (is_variational && chosen("momenta_of_wrong_side")) std::swap(trace.left_momentum, trace.right_momentum);

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/transcription/describe_constraint.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 

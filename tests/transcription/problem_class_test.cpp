@@ -236,6 +236,20 @@ TEST(ProblemClassRefusals, NameTheFunctionAndTheQuantity) {
             std::string::npos);
 }
 
+TEST(ProblemClassRefusals, PrintSmallNumbersAsTheyAre) {
+  const tests::DoubleIntegrator base;
+  const auto sentence = [&](const std::function<void(Statement&)>& change) {
+    const Restated problem(base, change);
+    return tests::sentence_of_error([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
+  };
+  const auto says = [](const std::string& text, const std::string& part) { return text.find(part) != text.npos; };
+  EXPECT_PRED2(says, sentence([](Statement& s) { s.u = all_between(1, 1e-7, -1e-7); }),
+               "the lower bound 1e-07 above the upper bound -1e-07");
+  EXPECT_PRED2(says, sentence([](Statement& s) { s.horizon = {1e-7, 2e-8}; }), "got 1e-07 and 2e-08");
+  EXPECT_PRED2(says, sentence([](Statement& s) { s.last = tests::free_end(1), s.last.q.upper[0] = 1e-7; }),
+               "outside its bounds -inf and 1e-07");
+}
+
 TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
   const tests::DoubleIntegrator base;
   const auto sentence = [&](const std::function<void(Statement&)>& change) {
@@ -245,7 +259,7 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
   // The guess is q = t: sqrt(q - 0.6) is not a number before t = 0.6.
   EXPECT_NE(sentence([](Statement& s) {
               s.running_cost = [](const ControlledState& x) { return sqrt(x.q[0] - 0.6) + x.u[0] * x.u[0]; };
-            }).find("at its guess in interval 0 (t = 0.007812) running_cost is not a number"),
+            }).find("at its guess in interval 0 (t = 0.0078125) running_cost is not a number"),
             std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
               s.path = [](const ControlledState& x) {

@@ -10,9 +10,9 @@
 
 namespace dmocbench::tests {
 
-/// Entry k belongs to interval k. Every column is a block of memory of its own, not one number
+/// Entry k belongs to interval k. Every series is a block of memory of its own, not one number
 /// longer than it has to be, so that a sanitizer notices a step beyond its end.
-using Columns = std::vector<std::vector<double>>;
+using SeriesTable = std::vector<std::vector<double>>;
 
 /// Numbers of intervals around the widths of vectors and blocks.
 inline const std::vector<std::size_t>& interval_counts() {
@@ -21,21 +21,21 @@ inline const std::vector<std::size_t>& interval_counts() {
 }
 
 /// The outputs of a tape whose inputs all vary.
-inline Columns evaluate(const Tape& tape, const Columns& inputs, std::size_t count) {
-  Columns outputs(tape.output_count(), std::vector<double>(count));
+inline SeriesTable evaluate(const Tape& tape, const SeriesTable& inputs, std::size_t count) {
+  SeriesTable outputs(tape.output_count(), std::vector<double>(count));
   std::vector<Tape::Input> places;
-  for (const std::vector<double>& column : inputs) places.push_back({column.data(), false});
+  for (const std::vector<double>& series : inputs) places.push_back({series.data(), false});
   std::vector<double*> results;
-  for (std::vector<double>& column : outputs) results.push_back(column.data());
+  for (std::vector<double>& series : outputs) results.push_back(series.data());
   Tape::Workspace workspace(tape);
   tape.evaluate(count, places, results, workspace);
   return outputs;
 }
 
 /// The outputs in one interval, step by step and with the sum of the magnitudes of their terms.
-inline std::vector<Terms> replay_interval(const Schedule& schedule, const Columns& inputs, std::size_t interval) {
+inline std::vector<Terms> replay_interval(const Schedule& schedule, const SeriesTable& inputs, std::size_t interval) {
   std::vector<Terms> numbers;
-  for (const std::vector<double>& column : inputs) numbers.emplace_back(column[interval]);
+  for (const std::vector<double>& series : inputs) numbers.emplace_back(series[interval]);
   return replay<Terms>(schedule, std::span<const Terms>(numbers));
 }
 

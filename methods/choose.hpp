@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+/// The names of all entries of a table, in its order; `name_of(entry)` is the name of one.
+template <class Table, class NameOf>
+[[nodiscard]] std::vector<std::string> names_of(const Table& table, const NameOf& name_of) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.emplace_back(name_of(entry));
+  return names;
+}
+
+/// The position in `table` of the entry with that name. Throws `Error` if there is none: "`refusal` "name"; choose one
+/// of a, b", where `refusal` is such as "there is no method".
+template <class Table, class NameOf>
+[[nodiscard]] std::size_t position_of(const Table& table, const NameOf& name_of, std::string_view name,
+                                      const std::string& refusal) {
+  const std::vector<std::string> names = names_of(table, name_of);
+  std::string known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return i;
+    known += (i == 0 ? "; choose one of " : ", ") + names[i];
+  }
+  throw Error(refusal + " \"" + std::string(name) + "\"" + (known.empty() ? "; there are none" : known));
+}
+
+/// The entry of `table` with that name; throws as `position_of`.
+template <class Table, class NameOf>
+[[nodiscard]] const auto& one_of(const Table& table, const NameOf& name_of, std::string_view name,
+                                 const std::string& refusal) {
+  return table[position_of(table, name_of, name, refusal)];
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,35 @@
+#include <array>
+
+#include "methods/choose.hpp"
+#include "methods/transcription/collocation_elements.hpp"
+#include "methods/transcription/dmoc_element.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+template <class Type>
+std::unique_ptr<Element> make() {
+  return std::make_unique<Type>();
+}
+
+using Maker = std::unique_ptr<Element> (*)();
+
+// One line per family.
+constexpr std::array registry{
+    Maker{make<DmocElement>},
+    Maker{make<HamiltonianElement>},
+    Maker{make<TangentElement>},
+};
+
+constexpr auto family_name = [](const Maker create) { return create()->name(); };
+
+}  // namespace
+
+std::vector<std::string> element_names() { return names_of(registry, family_name); }
+
+std::unique_ptr<Element> make_element(std::string_view name) {
+  return one_of(registry, family_name, name, "there is no method")();
+}
+
+}  // namespace dmocbench
