@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
@@ -10,15 +10,13 @@ namespace dmocbench {
 ///
 /// Quantities are "seconds" of a solve, "seconds_per_iteration", the same without evaluations of the program
 /// ("linear_algebra_per_iteration"), "seconds_per_linear_system" (without finding its structure; interior_point alone
-/// tells it), "iterations", and "operations" of one factorisation, with and without ("elimination_operations") those
-/// that bring the matrix into another form before. The recombined elimination stands beside DMOC by intervals, every
-/// other way beside itself.
+/// tells it), "iterations", and "operations" of one factorisation ("elimination_operations" is the same number).
 ///
 /// At equal accuracy the cost on N intervals stands beside what DMOC costs where its error of the objective is the same
 /// (straight lines in logarithms between its grids; empty outside of them).
 ///
 /// Rows count if they were solved on the wanted branch and their objective is that of every other solver of the same
 /// program, to 1e-6.
-[[nodiscard]] Table advantage_ratios(const Table& advantage);
+[[nodiscard]] Table advantage_ratios(const Selection& advantage);
 
 }  // namespace dmocbench
