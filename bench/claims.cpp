@@ -3,8 +3,9 @@
 #include <exception>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "bench/claims/predicates.hpp"
+#include "bench/claims/claim.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 
@@ -12,13 +13,13 @@ namespace dmocbench {
 
 namespace {
 
-Table claim_table(const std::vector<Claim>& claims) {
+Table claim_table(const std::vector<JudgedClaim>& claims) {
   Table table({"claim", "where", "paper", "measured", "verdict"});
-  for (const Claim& claim : claims) {
+  for (const JudgedClaim& claim : claims) {
     Row row;
     row.set("claim", claim.id);
     row.set("where", claim.where);
-    row.set("paper", claim.paper);
+    row.set("paper", claim.states);
     row.set("measured", claim.measured);
     row.set("verdict", std::string(name_of(claim.verdict)));
     table.append(std::move(row));
@@ -26,29 +27,29 @@ Table claim_table(const std::vector<Claim>& claims) {
   return table;
 }
 
-std::string markdown(const std::vector<Claim>& claims) {
-  std::string text =
-      "# The paper's claims, measured\n\n| claim | where | paper | measured | verdict |\n|---|---|---|---|---|\n";
-  for (const Claim& claim : claims) {
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", claim.id, claim.where, claim.paper, claim.measured,
-                        name_of(claim.verdict));
+std::string markdown(const Table& claims) {
+  std::string text = fmt::format("# The paper's claims, measured\n\n| {} |\n|", fmt::join(claims.columns(), " | "));
+  for (std::size_t i = 0; i < claims.columns().size(); ++i) text += "---|";
+  for (const Row& claim : claims.rows()) {
+    text += "\n|";
+    for (const std::string& column : claims.columns()) text += " " + claim.text(column) + " |";
   }
-  return text;
+  return text + "\n";
 }
 
-void print(const std::vector<Claim>& claims) {
-  for (const Claim& claim : claims) {
+void print(const std::vector<JudgedClaim>& claims) {
+  for (const JudgedClaim& claim : claims) {
     fmt::print("{:<11} {:<50} {}\n", name_of(claim.verdict), claim.id, claim.where);
-    fmt::print("{:12}paper:    {}\n", "", claim.paper);
+    fmt::print("{:12}paper:    {}\n", "", claim.states);
     fmt::print("{:12}measured: {}\n", "", claim.measured);
   }
+  std::vector<std::string> counts;
   for (const ClaimVerdict verdict :
        {ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::floor, ClaimVerdict::not_yet}) {
-    const auto count =
-        std::count_if(claims.begin(), claims.end(), [&](const Claim& c) { return c.verdict == verdict; });
-    fmt::print("{}{} {}", verdict == ClaimVerdict::reproduced ? "" : ", ", count, name_of(verdict));
+    counts.push_back(
+        fmt::format("{} {}", std::ranges::count(claims, verdict, &JudgedClaim::verdict), name_of(verdict)));
   }
-  fmt::print("\n");
+  fmt::print("{}\n", fmt::join(counts, ", "));
 }
 
 }  // namespace
@@ -63,8 +64,9 @@ int main(int argc, char** argv) try {
   line.option("--out", out, "the results folder").shows_default();
   return dmocbench::run_program(line, argc, argv, [&] {
     const auto claims = dmocbench::judge_claims(dmocbench::ResultTables::read(out));
-    dmocbench::write_file(out / "claims.csv", dmocbench::claim_table(claims).csv());
-    dmocbench::write_file(out / "claims.md", dmocbench::markdown(claims));
+    const dmocbench::Table table = dmocbench::claim_table(claims);
+    dmocbench::write_file(out / "claims.csv", table.csv());
+    dmocbench::write_file(out / "claims.md", dmocbench::markdown(table));
     dmocbench::print(claims);
     return 0;
   });

@@ -13,7 +13,7 @@
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/equal_accuracy.hpp"
-#include "bench/summary/slopes.hpp"
+#include "bench/summary/fitted_orders.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
@@ -127,7 +127,7 @@ class Convergence final : public Experiment {
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    const SlopeTable slopes = fit_slopes(table, fit_range_, reference_);
+    const FittedOrders slopes = fit_orders(table, fit_range_, reference_);
     write_file(prefix.string() + "_slopes.csv", slopes.table.csv());
     write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
     if (indirect_) {

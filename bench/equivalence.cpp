@@ -3,7 +3,7 @@
 // costates of each are put into the adjoint scheme (th:orderapp).
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/summary/slopes.hpp"
+#include "bench/summary/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
 #include "methods/error.hpp"
 #include "methods/program/kkt_residual.hpp"

@@ -1,20 +1,23 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
-/// What the measurement says of a statement of the paper.
+/// What the measurement says of a statement.
 enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
-  floor,       ///< all that was measured is rounding: nothing can be said
+  floor,       ///< only rounding was measured: nothing can be said
   not_yet,     ///< there is no experiment for it, or its table is not there
 };
 
@@ -30,21 +33,118 @@ class ResultTables {
 
   void add(const std::string& name, Table table) { tables_[name] = std::move(table); }
   /// The rows of a table; none if it is not there.
-  [[nodiscard]] std::vector<const Row*> rows(std::string_view table) const;
+  [[nodiscard]] Selection rows(std::string_view table) const;
   /// Those of one problem.
-  [[nodiscard]] std::vector<const Row*> rows(std::string_view table, std::string_view problem) const;
+  [[nodiscard]] Selection rows(std::string_view table, std::string_view problem) const {
+    return rows(table).where("problem", problem);
+  }
 
  private:
   std::map<std::string, Table, std::less<>> tables_;
 };
 
-/// A row of the table of claims.
-struct Claim {
-  std::string id;        ///< "orbital_transfer/state_slope"
-  std::string where;     ///< label or section in the paper
-  std::string paper;     ///< what the paper states
-  std::string measured;  ///< what was found, in words and numbers
+/// The paper's problems, and one of ours with a constant mass matrix.
+inline constexpr const char* orbit = "orbital_transfer";
+inline constexpr const char* two_link = "two_link_manipulator";
+inline constexpr const char* oscillator = "forced_oscillator";
+
+/// Who makes a statement.
+enum class Whose : std::uint8_t {
+  paper,
+  ours,  ///< a sharper form of the paper's statement, or one that the paper does not make
+};
+
+/// A text of a claim: one for every problem, or one for each of the paper's.
+class Wording {
+ public:
+  Wording(const char* all) : Wording(all, all) {}
+  Wording(const char* on_orbit, const char* on_two_link) : on_orbit_(on_orbit), on_two_link_(on_two_link) {}
+  [[nodiscard]] std::string on(std::string_view problem) const {
+    return problem == two_link ? on_two_link_ : on_orbit_;
+  }
+
+ private:
+  const char* on_orbit_;
+  const char* on_two_link_;
+};
+
+/// What the tables say about a claim.
+struct Finding {
+  std::string measured;  ///< in words and numbers
   ClaimVerdict verdict = ClaimVerdict::not_yet;
 };
+
+/// Judges a claim about a problem; nothing if its table is not there.
+using Predicate = std::function<std::optional<Finding>(const ResultTables& tables, const std::string& problem)>;
+
+/// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
+struct Claim {
+  std::string id;  ///< "state_slope"; the written table puts the problem in front
+  std::vector<std::string> problems{orbit, two_link};
+  Wording where;  ///< label or section in the paper
+  Whose whose = Whose::paper;
+  Wording states;
+  Predicate judge;
+  /// Explains what was measured, and is written behind it.
+  const char* reason = "";
+  /// Left out where its table is not there: the experiment is not part of every run.
+  bool is_optional = false;
+};
+
+/// A row of the written table.
+struct JudgedClaim {
+  std::string id;        ///< "orbital_transfer/state_slope"
+  std::string where;     ///< label or section in the paper
+  std::string states;    ///< what the paper states
+  std::string measured;  ///< what was found
+  ClaimVerdict verdict = ClaimVerdict::not_yet;
+};
+
+/// Every claim with its verdict, and the paper's misprints. Rows that are not solved or on another branch make a claim
+/// about all grids "differs", never better.
+[[nodiscard]] std::vector<JudgedClaim> judge_claims(const ResultTables& tables);
+
+// The claims by topic, each topic's predicates and the numbers that decide in one file.
+
+using Claims = std::vector<Claim>;
+/// Momentum-force consistency, and which methods have equal solutions.
+[[nodiscard]] Claims solution_claims();
+/// Where tangent-space collocation has the solutions of DMOC.
+[[nodiscard]] Claims coincidence_claims();
+/// Section 4.2: convergence, cost and numbers of variables over the grids.
+[[nodiscard]] Claims grid_claims();
+/// Orders of state, costate and control for every tableau.
+[[nodiscard]] Claims order_claims();
+[[nodiscard]] Claims stage_control_claims();
+/// Iterations, time, operations and derivatives.
+[[nodiscard]] Claims cost_claims();
+/// The order of consistency, and what the discrete flow preserves.
+[[nodiscard]] Claims consistency_order_claims();
+[[nodiscard]] Claims flow_claims();
+/// Local minima, and the whole library.
+[[nodiscard]] Claims minima_claims();
+[[nodiscard]] Claims library_claims();
+
+// What predicates share.
+
+/// A fitted slope may miss its order by this much.
+inline constexpr double near_order = 0.3;
+
+[[nodiscard]] inline ClaimVerdict verdict_on(bool holds) {
+  return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
+}
+
+/// A finding in the words of fmt::format.
+template <class... Values>
+[[nodiscard]] Finding found(ClaimVerdict verdict, fmt::format_string<Values...> words, Values&&... values) {
+  return {fmt::format(words, std::forward<Values>(values)...), verdict};
+}
+template <class... Values>
+[[nodiscard]] Finding found(bool holds, fmt::format_string<Values...> words, Values&&... values) {
+  return found(verdict_on(holds), words, std::forward<Values>(values)...);
+}
+
+/// The rows of one method by the midpoint rule.
+[[nodiscard]] Selection midpoint(const Selection& rows, const std::string& method);
 
 }  // namespace dmocbench

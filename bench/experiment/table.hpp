@@ -35,6 +35,10 @@ class Row {
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] std::string text(std::string_view column) const;
+  /// The field as a number; `missing` if it is empty or no number.
+  [[nodiscard]] double number(std::string_view column, double missing) const {
+    return number(column).value_or(missing);
+  }
   /// The field as a number; none if it is empty or no number.
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
   /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).

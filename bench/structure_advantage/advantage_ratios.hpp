@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
@@ -17,6 +17,6 @@ namespace dmocbench {
 ///
 /// Rows count if they were solved on the wanted branch and their objective is that of every other solver of the same
 /// program, to 1e-6.
-[[nodiscard]] Table advantage_ratios(const Table& advantage);
+[[nodiscard]] Table advantage_ratios(const Selection& advantage);
 
 }  // namespace dmocbench

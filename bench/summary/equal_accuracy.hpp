@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
@@ -10,6 +10,6 @@ namespace dmocbench {
 /// For errors 10^-k/2 that every method of a problem and tableau reaches within its grids, the number of intervals, of
 /// free variables and the seconds of a solve are read off the method's curve (straight lines in logarithms between
 /// grids). Ratios are to dmoc, where it is there.
-[[nodiscard]] Table equal_accuracy(const Table& convergence);
+[[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
 }  // namespace dmocbench

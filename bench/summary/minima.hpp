@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
@@ -12,12 +12,12 @@ namespace dmocbench {
 /// to it: discretisations differ by less, minima by more. `minimum` counts from the lowest cost upwards; one is
 /// confirmed if some method's motion there has a replay error below `confirmed_replay`, and the best is the lowest that
 /// is. Rows that were not solved are in no minimum.
-[[nodiscard]] Table distinct_minima(const Table& rows, double separation, double confirmed_replay);
+[[nodiscard]] Table distinct_minima(const Selection& rows, double separation, double confirmed_replay);
 
 /// How often each method found the best minimum:
-/// problem,method,tableau,stages,solver,derivatives,intervals,starts,solved,best,share, share_lower,share_upper. The
+/// problem,method,tableau,stages,solver,derivatives,intervals,starts,solved,best,share,share_lower,share_upper. The
 /// interval is Wilson's, 95 %.
-[[nodiscard]] Table best_minimum_shares(const Table& rows, double separation, double confirmed_replay);
+[[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation, double confirmed_replay);
 
 /// Wilson's interval at 95 % for a share of `hits` in `trials`.
 struct ShareInterval {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
@@ -17,12 +17,12 @@ namespace dmocbench {
 /// row whose `success` is not "yes" counts as infinite and stays in the denominator, so curves end below 1 where
 /// something failed. Points: every ratio at which a curve steps, and both ends. An instance that nobody solves counts
 /// as well.
-[[nodiscard]] Table performance_profiles(const Table& rows);
+[[nodiscard]] Table performance_profiles(const Selection& rows);
 
 /// What a competitor takes over all instances: method,tableau,stages,solver,derivatives,instances,successes, then per
 /// measure its shifted geometric mean exp(mean log(x + shift)) - shift over the `common` instances, those that all
 /// competitors solved (the shift is the median of the measure over those; empty where a solver does not tell the
 /// measure), and `wins_` per measure: on how many instances it is the best or as good.
-[[nodiscard]] Table profile_summary(const Table& rows);
+[[nodiscard]] Table profile_summary(const Selection& rows);
 
 }  // namespace dmocbench

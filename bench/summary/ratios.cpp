@@ -1,12 +1,8 @@
 #include "bench/summary/ratios.hpp"
 
 #include <array>
-#include <optional>
-#include <string>
-
-#include "bench/experiment/solve_case.hpp"
-#include "bench/summary/cost_at_error.hpp"
-#include "bench/summary/curves.hpp"
+#include <cmath>
+#include <utility>
 
 namespace dmocbench {
 
@@ -34,61 +30,65 @@ constexpr std::array currencies{
     Currency{"slsqp_seconds", "nlopt", "", "seconds"},
 };
 
-/// The part of a curve that a currency is about.
-std::vector<const Row*> rows_of(const Curve& curve, const Currency& currency) {
-  std::vector<const Row*> rows;
-  for (const Row* row : curve.rows) {
-    if (is_usable(*row) && row->text("crash") == currency.crash) rows.push_back(row);
-  }
-  return rows;
+}  // namespace
+
+Cost cost_in(const std::string& column) {
+  return [column](const Row& row) { return row.number(column); };
 }
 
-std::optional<double> on_same_grid(const std::vector<const Row*>& rows, const Row& other, const char* column) {
-  for (const Row* row : rows) {
-    if (row->text("intervals") == other.text("intervals")) return row->number(column);
+std::vector<ErrorCostPoint> error_cost_points(const Selection& rows, const std::string& error_column,
+                                              const Cost& cost) {
+  std::vector<ErrorCostPoint> points;
+  for (const Row& row : rows.usable()) {
+    const double error = row.number(error_column, 0.0);
+    const double cost_of_row = cost(row).value_or(0.0);
+    if (error > 0.0 && cost_of_row > 0.0) points.push_back({std::log10(error), cost_of_row});
+  }
+  return points;
+}
+
+std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error, double same_log_error) {
+  const double wanted = std::log10(error);
+  for (const ErrorCostPoint& point : points) {
+    if (std::abs(point.log_error - wanted) < same_log_error) return point.cost;
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const ErrorCostPoint& a = points[i];
+    const ErrorCostPoint& b = points[i + 1];
+    if (wanted > a.log_error || wanted < b.log_error || a.log_error == b.log_error) continue;
+    const double weight = (wanted - a.log_error) / (b.log_error - a.log_error);
+    return std::pow(10.0, std::log10(a.cost) + weight * (std::log10(b.cost) - std::log10(a.cost)));
   }
   return std::nullopt;
 }
 
-std::optional<double> at_same_error(const std::vector<const Row*>& rows, const Row& other, const char* column) {
-  const auto error = other.number("replay_error");
-  if (!error) return std::nullopt;
-  return cost_at_error(error_cost_points(rows, "replay_error", column), *error);
+void set_cost_ratios(Row& result, const Row& row, const Selection& others, const Cost& cost,
+                     const std::string& error_column, double same_log_error) {
+  const Row& on_same_grid = others.matching(row, {"intervals"}).front();
+  result.set("ratio_at_equal_intervals", ratio(cost(row), cost(on_same_grid)));
+  const double error = row.number(error_column, 0.0);
+  if (!(error > 0.0)) return;
+  const auto at_same_error = cost_at_error(error_cost_points(others, error_column, cost), error, same_log_error);
+  result.set("ratio_at_equal_accuracy", ratio(cost(row), at_same_error));
 }
 
-std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
-  if (!a || !b || *b <= 0.0) return std::nullopt;
-  return *a / *b;
-}
-
-void append(const Curve& dmoc, const Curve& collocation, const Currency& currency, Table& table) {
-  const std::vector<const Row*> of_dmoc = rows_of(dmoc, currency);
-  for (const Row* row : rows_of(collocation, currency)) {
-    Row result;
-    for (const char* key : {"problem", "method", "tableau", "stages", "intervals"}) result.set(key, row->text(key));
-    result.set("currency", std::string(currency.name));
-    const auto cost = row->number(currency.column);
-    result.set("ratio_at_equal_intervals", ratio(cost, on_same_grid(of_dmoc, *row, currency.column)));
-    result.set("ratio_at_equal_accuracy", ratio(cost, at_same_error(of_dmoc, *row, currency.column)));
-    table.append(std::move(result));
-  }
-}
-
-}  // namespace
-
-Table currency_ratios(const Table& iterations) {
+Table currency_ratios(const Selection& iterations) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_intervals",
                "ratio_at_equal_accuracy"});
-  const std::vector<Curve> curves = curves_of(iterations);
-  for (const Curve& dmoc : curves) {
-    if (dmoc.method != "dmoc") continue;
-    for (const Curve& collocation : curves) {
-      const bool comparable = collocation.method != "dmoc" && collocation.problem == dmoc.problem &&
-                              collocation.tableau == dmoc.tableau && collocation.stages == dmoc.stages &&
-                              collocation.solver == dmoc.solver;
-      if (!comparable) continue;
+  for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
+    const Selection dmoc = compared.where("method", "dmoc");
+    if (dmoc.empty()) continue;
+    for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
+      if (collocation.front().text("method") == "dmoc") continue;
       for (const Currency& currency : currencies) {
-        if (dmoc.solver == currency.solver) append(dmoc, collocation, currency, table);
+        if (collocation.front().text("solver") != currency.solver) continue;
+        for (const Row& row : collocation.usable().where("crash", currency.crash)) {
+          Row result = fields_of(row, {"problem", "method", "tableau", "stages", "intervals"});
+          result.set("currency", currency.name);
+          set_cost_ratios(result, row, dmoc.usable().where("crash", currency.crash), cost_in(currency.column),
+                          "replay_error");
+          table.append(std::move(result));
+        }
       }
     }
   }

@@ -1,15 +1,44 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
+
+/// Error and cost of one grid.
+struct ErrorCostPoint {
+  double log_error = 0.0;  ///< decimal logarithm
+  double cost = 0.0;
+};
+
+/// The cost of a row; none where it does not tell.
+using Cost = std::function<std::optional<double>(const Row&)>;
+/// The cost that stands in a column.
+[[nodiscard]] Cost cost_in(const std::string& column);
+
+/// The points of usable rows that have an error and a cost above zero, in the order of the rows.
+[[nodiscard]] std::vector<ErrorCostPoint> error_cost_points(const Selection& rows, const std::string& error_column,
+                                                            const Cost& cost);
+
+/// The cost at which a curve reaches an error: that of the first point whose error has the same logarithm to within
+/// `same_log_error`, else by straight lines in logarithms between the points; none outside of them.
+[[nodiscard]] std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error,
+                                                  double same_log_error = 0.0);
+
+/// Sets ratio_at_equal_intervals and ratio_at_equal_accuracy of `result`: the cost of `row` to that of `others` on the
+/// same number of intervals, and where their error is the same.
+void set_cost_ratios(Row& result, const Row& row, const Selection& others, const Cost& cost,
+                     const std::string& error_column, double same_log_error = 0.0);
 
 /// What collocation costs beside DMOC in every currency of an iterations table:
 /// problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy.
 ///
-/// A currency is a column of the rows of one solver and one kind of start. At equal accuracy the cost of collocation on
-/// N intervals stands beside what DMOC costs where its replay error is the same (straight lines in logarithms between
-/// its grids; empty outside of them). Rows that were not solved, or lie on another branch, are left out.
-[[nodiscard]] Table currency_ratios(const Table& iterations);
+/// A currency is a column of the rows of one solver and one kind of start. Accuracy is the replay error. Rows that were
+/// not solved, or lie on another branch, are left out.
+[[nodiscard]] Table currency_ratios(const Selection& iterations);
 
 }  // namespace dmocbench

@@ -1,155 +1,22 @@
 // Claims are judged by predicates on tables; doctored tables have to be caught.
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim.hpp"
-#include "bench/claims/predicates.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "tests/bench/tables_for_claims.hpp"
 
 namespace dmocbench {
 namespace {
 
-constexpr const char* orbit = "orbital_transfer";
-constexpr const char* methods[] = {"dmoc", "hamiltonian", "tangent"};
-
-Row solved_row(const std::string& method, long long intervals) {
-  Row row;
-  row.set("problem", orbit);
-  row.set("method", method);
-  row.set("tableau", "gauss");
-  row.set("stages", 1LL);
-  row.set("intervals", intervals);
-  row.set("status", "solved");
-  row.set("branch", "same");
-  return row;
-}
-
-/// Tables as a run that reproduces the paper writes them; `change` doctors every row of the named table.
-ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
-  ResultTables result;
-  const auto finish = [&](const std::string& name, std::vector<Row> rows) {
-    Table table(core_columns());
-    for (Row& row : rows) {
-      if (name == doctored) change(row);
-      table.append(std::move(row));
-    }
-    result.add(name, std::move(table));
-  };
-  std::vector<Row> slopes;
-  std::vector<Row> consistency;
-  std::vector<Row> convergence;
-  std::vector<Row> objective;
-  std::vector<Row> equivalence;
-  std::vector<Row> iterations;
-  for (const std::string method : methods) {
-    for (const char* quantity : {"state", "control"}) {
-      Row row = solved_row(method, 0);
-      row.set("quantity", quantity);
-      row.set("slope", 2.01);
-      row.set("points", 4LL);
-      slopes.push_back(row);
-    }
-    for (const long long intervals : {16LL, 1024LL}) {
-      const double h = 1.0 / static_cast<double>(intervals);
-      Row row = solved_row(method, intervals);
-      row.set("largest_force", 1.0);
-      row.set("momentum_defect_max", method == "tangent" ? 1e-4 * h * h * h : 1e-15);
-      consistency.push_back(row);
-      row.set("free_variables", method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4);
-      row.set("step", 2.9316 * h);
-      convergence.push_back(row);
-      row.set("objective", 4e-5 * (1.0 + (method == "tangent" ? 0.9 : 1.0) * h * h));
-      objective.push_back(row);
-      if (method == "dmoc") continue;
-      const double difference = method == "tangent" ? h * h : 1e-13;
-      for (const char* column :
-           {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
-            "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
-        row.set(column, difference);
-      }
-      equivalence.push_back(row);
-    }
-  }
-  finish("convergence_slopes", slopes);
-  finish("consistency", consistency);
-  finish("convergence", convergence);
-  finish("objective", objective);
-  std::vector<Row> difference_slopes;
-  std::vector<Row> indirect_slopes;
-  for (const char* tableau : {"gauss", "lobatto"}) {
-    for (const long long stages : {2LL, 3LL}) {
-      const double order =
-          tableau == std::string("gauss") ? 2.0 * static_cast<double>(stages) : 2.0 * static_cast<double>(stages) - 2.0;
-      Row row = solved_row("tangent", 0);
-      row.set("tableau", tableau);
-      row.set("stages", stages);
-      row.set("verdict", "slope");
-      row.set("slope", order);
-      difference_slopes.push_back(row);
-      for (const char* method : {"dmoc", "hamiltonian"}) {
-        row.set("method", method);
-        for (const char* quantity : {"state", "momentum", "costate", "control_from_costate", "control"}) {
-          row.set("quantity", quantity);
-          row.set("slope", quantity == std::string("control") ? static_cast<double>(stages) + 1.0 : order + 0.05);
-          indirect_slopes.push_back(row);
-        }
-        Row solve = solved_row(method, 64);
-        solve.set("tableau", tableau);
-        solve.set("stages", stages);
-        for (const char* column :
-             {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
-              "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
-          if (method == std::string("hamiltonian")) solve.set(column, 1e-13);
-        }
-        solve.set("adjoint_residual", 1e-12);
-        solve.set("adjoint_residual_by_plain_coefficients", tableau == std::string("gauss") ? 1e-12 : 1e-2);
-        equivalence.push_back(solve);
-      }
-    }
-  }
-  finish("equivalence", equivalence);
-  finish("equivalence_slopes", difference_slopes);
-  finish("convergence_indirect_slopes", indirect_slopes);
-  for (const std::string method : methods) {
-    for (const long long intervals : {32LL, 64LL, 128LL}) {
-      const long long free = method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4;
-      for (const char* crash : {"none", "basis"}) {
-        Row row = solved_row(method, intervals);
-        row.set("solver", "sqp");
-        row.set("crash", crash);
-        row.set("free_variables", free);
-        row.set("minor_iterations", (std::string(crash) == "none" ? free : intervals - 4) + 3);
-        row.set("predicted_minors", *row.number("minor_iterations"));
-        iterations.push_back(row);
-      }
-    }
-  }
-  finish("iterations", iterations);
-  std::vector<Row> derivatives;
-  for (const std::string method : methods) {
-    for (const char* back_end : {"tape", "adolc", "finite_differences", "forward_differences"}) {
-      for (const long long intervals : {16LL, 1024LL}) {
-        Row row = solved_row(method, intervals);
-        row.set("solver", "ipopt");
-        row.set("derivatives", back_end);
-        row.set("hessian", "exact");
-        const bool exact = back_end == std::string("tape") || back_end == std::string("adolc");
-        if (!exact && intervals == 1024) row.set("status", "acceptable");
-        row.set("seconds", exact ? 0.01 : 0.03);
-        derivatives.push_back(row);
-      }
-    }
-  }
-  finish("derivatives", derivatives);
-  return result;
-}
+using tests::differences;
+using tests::solved_row;
+using tests::tables;
 
 ClaimVerdict verdict_on(const std::string& claim, const ResultTables& results) {
-  for (const Claim& judged : judge_claims(results)) {
+  for (const JudgedClaim& judged : judge_claims(results)) {
     if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;
   }
   ADD_FAILURE() << "no claim " << claim;
@@ -189,7 +56,7 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
     equivalence.append(solve);
     results.add("equivalence", equivalence);
     std::map<std::string, ClaimVerdict> verdicts;
-    for (const Claim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
+    for (const JudgedClaim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
     return verdicts;
   };
   auto good = judged(2.95, 1e-13);
@@ -201,7 +68,8 @@ TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
 }
 
 TEST(Claims, WithoutTablesNothingIsReproducedOrRefuted) {
-  for (const Claim& claim : judge_claims(ResultTables())) EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << claim.id;
+  for (const JudgedClaim& claim : judge_claims(ResultTables()))
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << claim.id;
 }
 
 TEST(Claims, OrdersOneAndThreeDiffer) {
@@ -234,9 +102,7 @@ TEST(Claims, ATangentSpaceMethodThatKeepsTheBalanceDiffers) {
 }
 
 TEST(Claims, UnequalSolutionsDiffer) {
-  for (const char* column :
-       {"configuration_difference", "momentum_difference", "control_difference", "costate_difference",
-        "objective_difference", "violation_in_rows_of_dmoc", "violation_of_dmoc_here"}) {
+  for (const std::string& column : differences) {
     const ResultTables doctored = tables("equivalence", [&](Row& row) {
       if (is(row, "hamiltonian")) row.set(column, 1e-7);
     });
@@ -373,12 +239,12 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
 
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
   std::set<std::string> seen;
-  for (const Claim& claim : judge_claims(tables())) {
+  for (const JudgedClaim& claim : judge_claims(tables())) {
     EXPECT_TRUE(seen.insert(claim.id).second) << claim.id;
     EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/") ||
                 claim.id.starts_with("forced_oscillator/"))
         << claim.id;
-    EXPECT_FALSE(claim.paper.empty());
+    EXPECT_FALSE(claim.states.empty());
     EXPECT_FALSE(claim.where.empty());
   }
 }

@@ -57,9 +57,9 @@ TEST(ProfileSummary, CountsSuccessesAndWinsAndAveragesWhatAllSolved) {
   EXPECT_EQ(dmoc.number("successes"), 3.0);
   EXPECT_EQ(dmoc.number("common"), 2.0);
   EXPECT_EQ(dmoc.number("wins_seconds"), 2.0);
-  // Instances a and c: 1, 4 and 2, 1, whose median (the upper one) is the shift 2.
-  EXPECT_NEAR(*dmoc.number("seconds"), std::sqrt(3.0 * 6.0) - 2.0, 1e-12);
-  EXPECT_NEAR(*table.rows()[1].number("seconds"), std::sqrt(4.0 * 3.0) - 2.0, 1e-12);
+  // Instances a and c: 1, 4 and 2, 1, whose median is the shift 1.5.
+  EXPECT_NEAR(*dmoc.number("seconds"), std::sqrt(2.5 * 5.5) - 1.5, 1e-12);
+  EXPECT_NEAR(*table.rows()[1].number("seconds"), std::sqrt(3.5 * 2.5) - 1.5, 1e-12);
 }
 
 TEST(ProfileSummary, OfASolverThatDoesNotTellItsIterationsStillCountsItsSuccesses) {

@@ -1,4 +1,4 @@
-#include "bench/summary/slopes.hpp"
+#include "bench/summary/fitted_orders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using tests::power_law;
 using tests::sixteen_to_1024;
 
 /// The slope of one quantity; the test fails if there is not exactly one.
-Row slope_of(const SlopeTable& slopes, const std::string& quantity, const std::string& method = "dmoc") {
+Row slope_of(const FittedOrders& slopes, const std::string& quantity, const std::string& method = "dmoc") {
   std::vector<Row> found;
   for (const Row& row : slopes.table.rows()) {
     if (row.text("quantity") == quantity && row.text("method") == method) found.push_back(row);
@@ -31,46 +31,46 @@ Table with_field(const Table& table, long long intervals, const std::string& col
   return result;
 }
 
-TEST(Slopes, APowerLawGivesItsExponentWithoutAnError) {
+TEST(FittedOrders, APowerLawGivesItsExponentWithoutAnError) {
   for (const double order : {1.0, 2.0, 3.5}) {
     const Table table = convergence_of({{.error = power_law(7.0, order)}}, sixteen_to_1024);
-    const Row row = slope_of(fit_slopes(table, std::nullopt, 0), "state");
+    const Row row = slope_of(fit_orders(table, std::nullopt, 0), "state");
     EXPECT_NEAR(row.number("slope").value_or(0.0), order, 1e-12);
     EXPECT_NEAR(row.number("standard_error").value_or(1.0), 0.0, 1e-12);
   }
 }
 
-TEST(Slopes, AreFittedFrom32ToAQuarterOfTheReference) {
+TEST(FittedOrders, AreFittedFrom32ToAQuarterOfTheReference) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  const Row row = slope_of(fit_slopes(table, std::nullopt, 0), "control");
+  const Row row = slope_of(fit_orders(table, std::nullopt, 0), "control");
   EXPECT_EQ(row.text("coarsest"), "32");
   EXPECT_EQ(row.text("finest"), "256");
   EXPECT_EQ(row.text("points"), "4");
-  const Row against_512 = slope_of(fit_slopes(table, std::nullopt, 512), "control");
+  const Row against_512 = slope_of(fit_orders(table, std::nullopt, 512), "control");
   EXPECT_EQ(against_512.text("finest"), "128");
 }
 
-TEST(Slopes, StartAt64WithSeveralStages) {
+TEST(FittedOrders, StartAt64WithSeveralStages) {
   const Table table = convergence_of({{.stages = "2", .error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_EQ(slope_of(fit_slopes(table, std::nullopt, 0), "state").text("coarsest"), "64");
+  EXPECT_EQ(slope_of(fit_orders(table, std::nullopt, 0), "state").text("coarsest"), "64");
 }
 
-TEST(Slopes, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
+TEST(FittedOrders, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_TRUE(fit_slopes(table, FitRange{32, 256}, 1024).notes.empty());
-  const SlopeTable bent = fit_slopes(table, FitRange{32, 256}, 512);
+  EXPECT_TRUE(fit_orders(table, FitRange{32, 256}, 1024).notes.empty());
+  const FittedOrders bent = fit_orders(table, FitRange{32, 256}, 512);
   ASSERT_EQ(bent.notes.size(), 1U);
   EXPECT_NE(bent.notes[0].find("N = 256"), std::string::npos) << bent.notes[0];
   EXPECT_EQ(slope_of(bent, "state").text("finest"), "256");
 }
 
-TEST(Slopes, GoToTheFinestGridAgainstAnExactReference) {
+TEST(FittedOrders, GoToTheFinestGridAgainstAnExactReference) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  const Row row = slope_of(fit_slopes(table, std::nullopt, exact_reference), "state");
+  const Row row = slope_of(fit_orders(table, std::nullopt, exact_reference), "state");
   EXPECT_EQ(row.text("coarsest"), "32");
   EXPECT_EQ(row.text("finest"), "1024");
   EXPECT_EQ(row.text("points"), "6");
-  EXPECT_TRUE(fit_slopes(table, FitRange{32, 1024}, exact_reference).notes.empty());
+  EXPECT_TRUE(fit_orders(table, FitRange{32, 1024}, exact_reference).notes.empty());
 }
 
 /// Grids off the powers of two: enough of them above a floor.
@@ -79,9 +79,9 @@ const std::vector<long long> dense_grids{16, 32, 40, 48, 56, 64, 96, 128, 192, 2
 /// Order 6 down to 1e-12, where errors stay.
 double with_floor(double n) { return 1e3 * std::pow(n, -6.0) + 1e-12; }
 
-TEST(Slopes, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference) {
-  const SlopeTable slopes =
-      fit_slopes(convergence_of({{.error = with_floor}}, dense_grids), std::nullopt, exact_reference);
+TEST(FittedOrders, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference) {
+  const FittedOrders slopes =
+      fit_orders(convergence_of({{.error = with_floor}}, dense_grids), std::nullopt, exact_reference);
   const Row row = slope_of(slopes, "state");
   EXPECT_EQ(row.text("verdict"), "slope");
   EXPECT_EQ(row.text("coarsest"), "32");
@@ -90,22 +90,22 @@ TEST(Slopes, EndAHundredTimesAboveTheMeasuredFloorAgainstAnExactReference) {
   EXPECT_NEAR(row.number("floor").value_or(0.0), 1e-12, 5e-14);
   EXPECT_NEAR(row.number("slope").value_or(0.0), 6.0, 0.01);
   const Table same = convergence_of({{.error = with_floor}}, dense_grids);
-  EXPECT_EQ(slope_of(fit_slopes(same, FitRange{32, 256}, exact_reference), "state").text("finest"), "192");
+  EXPECT_EQ(slope_of(fit_orders(same, FitRange{32, 256}, exact_reference), "state").text("finest"), "192");
 }
 
-TEST(Slopes, ThroughFewerThanFourGridsAboveTheFloorAreNone) {
+TEST(FittedOrders, ThroughFewerThanFourGridsAboveTheFloorAreNone) {
   const std::vector<long long> powers_of_two{16, 32, 64, 128, 256, 512, 1024};
   const Row row = slope_of(
-      fit_slopes(convergence_of({{.error = with_floor}}, powers_of_two), std::nullopt, exact_reference), "state");
+      fit_orders(convergence_of({{.error = with_floor}}, powers_of_two), std::nullopt, exact_reference), "state");
   EXPECT_EQ(row.text("verdict"), "floor");
   EXPECT_EQ(row.text("slope"), "");
   EXPECT_EQ(row.text("points"), "3");
 }
 
-TEST(Slopes, AFloorMeasuredOnOneCurveHoldsForAllOfItsMethod) {
+TEST(FittedOrders, AFloorMeasuredOnOneCurveHoldsForAllOfItsMethod) {
   const auto slow = [](double n) { return 1e-6 * std::pow(n, -2.0); };  // 1e-10 only below N = 100
   const Table table = convergence_of({{.error = slow}, {.stages = "3", .error = with_floor}}, dense_grids);
-  const SlopeTable slopes = fit_slopes(table, std::nullopt, exact_reference);
+  const FittedOrders slopes = fit_orders(table, std::nullopt, exact_reference);
   for (const Row& row : slopes.table.rows()) {
     if (row.text("quantity") == "state" && row.text("stages") == "1") {
       EXPECT_EQ(row.text("finest"), "96");
@@ -113,7 +113,7 @@ TEST(Slopes, AFloorMeasuredOnOneCurveHoldsForAllOfItsMethod) {
   }
 }
 
-TEST(Slopes, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
+TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "step", "status",
                "branch", "configuration_difference"});
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
@@ -142,35 +142,35 @@ TEST(Slopes, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
   EXPECT_EQ(row.text("finest"), "256");  // 1.5e-5; the floor is 1e-7
 }
 
-TEST(Slopes, UnsolvedRowsAndOtherBranchesAreLeftOut) {
+TEST(FittedOrders, UnsolvedRowsAndOtherBranchesAreLeftOut) {
   const Table good = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const Table wrong = with_field(good, 64, "state_error", Cell(1.0));
-  EXPECT_GT(std::abs(*slope_of(fit_slopes(wrong, std::nullopt, 0), "state").number("slope") - 2.0), 0.5);
+  EXPECT_GT(std::abs(*slope_of(fit_orders(wrong, std::nullopt, 0), "state").number("slope") - 2.0), 0.5);
   for (const auto& [column, value] : {std::pair{"status", "iteration limit"}, std::pair{"branch", "other"}}) {
     const Table marked = with_field(wrong, 64, column, Cell(std::string(value)));
-    const Row row = slope_of(fit_slopes(marked, std::nullopt, 0), "state");
+    const Row row = slope_of(fit_orders(marked, std::nullopt, 0), "state");
     EXPECT_NEAR(row.number("slope").value_or(0.0), 2.0, 1e-12) << column;
     EXPECT_EQ(row.text("points"), "3");
   }
 }
 
-TEST(Slopes, ErrorsAtTheLevelOfRoundingAreLeftOut) {
+TEST(FittedOrders, ErrorsAtTheLevelOfRoundingAreLeftOut) {
   const auto floor = [](double n) { return std::max(1e3 * std::pow(n, -6.0), 1e-13); };
   const Table table = convergence_of({{.error = floor}}, sixteen_to_1024);
-  const Row row = slope_of(fit_slopes(table, FitRange{16, 256}, 1024), "state");
+  const Row row = slope_of(fit_orders(table, FitRange{16, 256}, 1024), "state");
   EXPECT_NEAR(row.number("slope").value_or(0.0), 6.0, 1e-9);
 }
 
-TEST(Slopes, TwoPointsHaveNoStandardErrorAndOnePointNoSlope) {
+TEST(FittedOrders, TwoPointsHaveNoStandardErrorAndOnePointNoSlope) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
-  EXPECT_EQ(slope_of(fit_slopes(table, FitRange{32, 64}, 1024), "state").text("standard_error"), "");
-  EXPECT_TRUE(fit_slopes(table, FitRange{32, 32}, 1024).table.rows().empty());
+  EXPECT_EQ(slope_of(fit_orders(table, FitRange{32, 64}, 1024), "state").text("standard_error"), "");
+  EXPECT_TRUE(fit_orders(table, FitRange{32, 32}, 1024).table.rows().empty());
 }
 
-TEST(Slopes, EveryCurveHasItsOwn) {
+TEST(FittedOrders, EveryCurveHasItsOwn) {
   const Table table = convergence_of(
       {{.error = power_law(1.0, 2.0)}, {.name = "tangent", .error = power_law(3.0, 1.0)}}, sixteen_to_1024);
-  const SlopeTable slopes = fit_slopes(table, std::nullopt, 0);
+  const FittedOrders slopes = fit_orders(table, std::nullopt, 0);
   EXPECT_NEAR(slope_of(slopes, "state", "dmoc").number("slope").value_or(0.0), 2.0, 1e-12);
   EXPECT_NEAR(slope_of(slopes, "state", "tangent").number("slope").value_or(0.0), 1.0, 1e-12);
 }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiment/table.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench {
 
-/// Numbers of intervals between which a slope is fitted.
+/// Numbers of intervals between which an order is fitted.
 struct FitRange {
   long long coarsest = 0;
   long long finest = 0;
@@ -17,8 +17,8 @@ struct FitRange {
 /// Stands for a number of intervals where errors are measured against an exact solution.
 constexpr long long exact_reference = -1;
 
-/// Fitted slopes, and what a reader should know about them.
-struct SlopeTable {
+/// Fitted orders of convergence, and what a reader should know about them.
+struct FittedOrders {
   /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points,floor,verdict; finest and
   /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope",
   /// "floor" where too few grids lie above the floor (such a row has no slope), or "few grids" where there are too few
@@ -30,21 +30,20 @@ struct SlopeTable {
 /// Slopes of log(error) over log(step) for every curve and every error of a convergence table.
 ///
 /// Against a finer grid: without a range, grids from N = 32 (64 with more than one stage) to a quarter of the reference
-/// are taken: against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which bends
-/// the slope of finer grids; a range that goes beyond gets a note. Errors at the level of rounding are left out.
+/// are used. Against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which makes the
+/// slope of finer grids too large; a range that goes beyond gets a note. Errors at the level of rounding are left out.
 /// `reference` is the reference's number of intervals, 0 for the finest grid of a curve.
 ///
-/// Against an `exact_reference` nothing is bent: grids are taken from the start of the asymptotic range on (measured:
-/// the orbit N = 16, else 32 with one stage, 64 with several, 96 for order 8) while the error is above 100 times the
-/// floor, and there must be four of them. The floor is measured: the median of the errors on a curve's finest grids,
-/// where they fall with less than half the order before; the smallest floor of a problem's and method's curves holds
-/// for all of them. With a range, every error in it is taken.
-[[nodiscard]] SlopeTable fit_slopes(const Table& convergence, const std::optional<FitRange>& range,
-                                    long long reference);
+/// Against an `exact_reference` grids are used from the start of the asymptotic range (`asymptotic_from`) as long as
+/// the error is above 100 times the floor, and there must be four of them. The floor is measured: it is the median of
+/// the errors on a curve's finest grids where they fall with less than half the order seen before; the smallest floor
+/// among the curves of a problem and method holds for all of them. With a range, every error in it is used.
+[[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
+                                      long long reference);
 
 /// Slopes over the step of a column of differences from DMOC (a table of `equivalence`) for every curve of
 /// tangent-space collocation, in the columns and by the rules of an exact reference. The floor is the largest such
-/// difference of Hamiltonian collocation on the same problem: by (th:equi) that is rounding.
-[[nodiscard]] Table fit_differences(const Table& equivalence, const std::string& quantity);
+/// difference of Hamiltonian collocation on the same problem, which by (th:equi) is rounding.
+[[nodiscard]] Table fit_differences(const Selection& equivalence, const std::string& column);
 
 }  // namespace dmocbench

@@ -1,0 +1,143 @@
+// Section 4.2 over the grids: "for all three methods the convergence rate ... is O(h^2)", "DMOC only uses 3/5 (2/3) of
+// the number of variables", the optimal cost over N, and the reference grids.
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+#include "bench/experiment/solve_case.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr double lowest_slope_of_order_two = 1.9;
+constexpr double highest_slope_of_order_two = 2.1;
+constexpr double fewest_points = 3;
+
+/// Boundary values make the ratio of a finite grid differ from the limit by a few over N.
+constexpr double nodes_at_the_ends = 4.0;
+
+constexpr double equally_well = 2.0;
+constexpr double identical_costs = 1e-9;
+
+Predicate is_of_order_two(const char* table, const char* quantity) {
+  return [=](const ResultTables& tables, const std::string& problem) -> std::optional<Finding> {
+    Selection orders;
+    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+      orders.append(midpoint(tables.rows(table, problem), method).where("quantity", quantity));
+    }
+    if (orders.empty()) return std::nullopt;
+    const auto is_two = [](const Row& row) {
+      const double slope = row.number("slope", 0.0);
+      return slope > lowest_slope_of_order_two && slope < highest_slope_of_order_two &&
+             row.number("points", 0.0) >= fewest_points;
+    };
+    const auto words = [](const Row& row) {
+      return fmt::format("{} {:.3f}", row.text("method"), row.number("slope", 0.0));
+    };
+    return found(std::ranges::all_of(orders, is_two) && orders.size() == 3, "slopes {}", orders.in_words(", ", words));
+  };
+}
+
+std::optional<Finding> objective_evolution(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("objective", problem);
+  const Selection dmoc = midpoint(rows, "dmoc");
+  if (dmoc.size() < 2) return std::nullopt;
+  const auto objective = [](const Row& row) { return row.number("objective", 0.0); };
+  const double limit = objective(dmoc.back());
+  double difference = 0.0;
+  double error_ratio = 0.0;
+  for (const Row& row : dmoc) {
+    const Selection hamiltonian = midpoint(rows, "hamiltonian").usable().matching(row, {"intervals"});
+    const Selection tangent = midpoint(rows, "tangent").usable().matching(row, {"intervals"});
+    if (hamiltonian.empty() || tangent.empty() || !is_usable(row)) {
+      return found(false, "not all methods are solved on the same branch at N = {}", row.text("intervals"));
+    }
+    difference = std::max(difference, std::abs(objective(hamiltonian.front()) / objective(row) - 1.0));
+    const double error = std::max(std::abs(objective(row) - limit), 1e-6 * std::abs(limit));
+    error_ratio = std::max(error_ratio, std::abs(objective(tangent.front()) - limit) / error);
+  }
+  return found(
+      difference < identical_costs && error_ratio < equally_well,
+      "J of dmoc and hamiltonian differ by {:.0e} relative; error of tangent at most {:.2f} times that of dmoc",
+      difference, error_ratio);
+}
+
+std::optional<Finding> variable_ratio(const ResultTables& tables, const std::string& problem) {
+  const double stated = problem == orbit ? 3.0 / 5.0 : 2.0 / 3.0;
+  const Selection rows = tables.rows("convergence", problem);
+  const Row& dmoc = midpoint(rows, "dmoc").back();
+  Selection collocation;
+  for (const char* method : {"hamiltonian", "tangent"}) {
+    const Selection finest = midpoint(rows, method).usable().matching(dmoc, {"intervals"});
+    if (finest.empty()) return std::nullopt;
+    collocation.append(finest.front());
+  }
+  const auto ratio_to_dmoc = [&](const Row& row) {
+    return dmoc.number("free_variables", 0.0) / row.number("free_variables", 0.0);
+  };
+  const auto is_as_stated = [&](const Row& row) {
+    return std::abs(ratio_to_dmoc(row) - stated) < nodes_at_the_ends / dmoc.number("intervals", 0.0);
+  };
+  const auto in_words = [&](const Row& row) {
+    return fmt::format("{:.4f} of {}", ratio_to_dmoc(row), row.text("method"));
+  };
+  return found(std::ranges::all_of(collocation, is_as_stated), "free variables at N = {}: {}", dmoc.text("intervals"),
+               collocation.in_words(", ", in_words));
+}
+
+std::optional<Finding> reference_step(const ResultTables& tables, const std::string& problem) {
+  constexpr double last_digit = 1e-4;
+  const bool is_orbit = problem == orbit;
+  const Selection grid =
+      midpoint(tables.rows("convergence", problem), "dmoc").usable().where("intervals", is_orbit ? "1024" : "512");
+  if (grid.empty()) return std::nullopt;
+  const double step = grid.front().number("step", 0.0);
+  return found(std::abs(step - (is_orbit ? 2.9e-3 : 1.9e-3)) < last_digit, "h = {:.4e} {}", step,
+               is_orbit ? "h" : "s (1.9 if cut, 2.0 if rounded)");
+}
+
+constexpr const char* too_large = " (an error against N_ref is c(h^2 - h_ref^2): slopes come out too large)";
+
+}  // namespace
+
+Claims grid_claims() {
+  const Wording figure{"fig:kepler_error", "fig:twolink_error"};
+  const char* const second_order = "O(h^2) for all three methods";
+  const char* const against_512 = "O(h^2) for all three methods, against N = 512";
+  return {
+      {.id = "state_slope",
+       .where = figure,
+       .states = second_order,
+       .judge = is_of_order_two("convergence_slopes", "state")},
+      {.id = "control_slope",
+       .where = figure,
+       .states = second_order,
+       .judge = is_of_order_two("convergence_slopes", "control")},
+      {.id = "state_slope_against_512",
+       .problems = {two_link},
+       .where = figure,
+       .states = against_512,
+       .judge = is_of_order_two("convergence_512_slopes", "state"),
+       .reason = too_large},
+      {.id = "control_slope_against_512",
+       .problems = {two_link},
+       .where = figure,
+       .states = against_512,
+       .judge = is_of_order_two("convergence_512_slopes", "control"),
+       .reason = too_large},
+      {.id = "objective_evolution",
+       .where = {"(not shown in the paper)", "fig:twolink_obj a)"},
+       .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
+       .judge = objective_evolution},
+      {.id = "variable_ratio",
+       .where = {"section 4.2.1, rem:savings", "section 4.2.2, rem:savings"},
+       .states = {"DMOC uses 3/5 of the variables of collocation", "DMOC uses 2/3 of the variables"},
+       .judge = variable_ratio},
+      {.id = "reference_step",
+       .where = {"section 4.2.1", "section 4.2.2"},
+       .states = {"h = 2.9e-3 at N = 1024", "h = 1.9e-3 at N = 512"},
+       .judge = reference_step},
+  };
+}
+
+}  // namespace dmocbench

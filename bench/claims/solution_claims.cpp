@@ -1,0 +1,138 @@
+// Momentum-force consistency "to numerical accuracy", and which methods have equal solutions.
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Rounding of a momentum difference, relative to the work of the forces over one interval or absolute.
+constexpr double rounding_of_balance = 1e-11;
+/// Tangent-space collocation has to miss the balance by this factor on the coarsest grid to "fail to capture" it.
+constexpr double clearly_larger = 1e3;
+
+constexpr double equal_solutions_tolerance = 1e-9;
+constexpr double equal_costates_tolerance = 1e-8;
+constexpr double foreign_rows_tolerance = 1e-10;
+
+constexpr double missing = std::numeric_limits<double>::infinity();
+
+std::optional<Finding> momentum_consistency(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("consistency", problem);
+  const Selection dmoc = midpoint(rows, "dmoc");
+  const Selection hamiltonian = midpoint(rows, "hamiltonian");
+  const Selection tangent = midpoint(rows, "tangent");
+  if (dmoc.empty() || hamiltonian.empty() || tangent.empty()) return std::nullopt;
+  const auto defect = [](const Row& row) { return row.number("momentum_defect_max", missing); };
+  const auto relative_defect = [&](const Row& row) {
+    return defect(row) / std::max(1.0, row.number("largest_force", 1.0));
+  };
+  const double structured = std::max(dmoc.max(relative_defect), hamiltonian.max(relative_defect));
+  const double rounding = std::max(defect(dmoc.front()), rounding_of_balance * 1e-3);
+  return found(dmoc.are_usable() && hamiltonian.are_usable() && tangent.are_usable() &&
+                   structured < rounding_of_balance && defect(tangent.front()) > clearly_larger * rounding,
+               "largest defect of an interval over all N: dmoc {:.1e}, hamiltonian {:.1e}; tangent {:.1e} at N = {} to "
+               "{:.1e} at N = {}",
+               dmoc.max(defect), hamiltonian.max(defect), defect(tangent.front()), tangent.front().text("intervals"),
+               defect(tangent.back()), tangent.back().text("intervals"));
+}
+
+bool is_answer_of_dmoc(const Row& row) {
+  const auto leaves_rounding = [&](const char* violation, const char* rounding) {
+    return row.number(violation, missing) < std::max(foreign_rows_tolerance, row.number(rounding, 0.0));
+  };
+  return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
+         leaves_rounding("violation_of_dmoc_here", "rounding_here");
+}
+
+/// The largest differences from DMOC, relative to each quantity's largest value.
+struct Differences {
+  std::string words;  ///< by quantity
+  double primal = 0.0;
+  double costates = 0.0;
+
+  explicit Differences(const Selection& rows) : costates(rows.max("costate_difference")) {
+    for (const auto& [column, symbol] :
+         {std::pair{"configuration_difference", "q"}, std::pair{"momentum_difference", "p"},
+          std::pair{"control_difference", "u"}, std::pair{"objective_difference", "J"}}) {
+      const double difference = rows.max(column);
+      words += fmt::format("{}{} {:.0e}", words.empty() ? "" : ", ", symbol, difference);
+      primal = std::max(primal, difference);
+    }
+  }
+  [[nodiscard]] bool are_rounding() const {
+    return primal < equal_solutions_tolerance && costates < equal_costates_tolerance;
+  }
+};
+
+std::optional<Finding> equal_solutions(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("equivalence", problem).where("method", "hamiltonian");
+  if (rows.empty()) return std::nullopt;
+  const bool rows_agree = std::ranges::all_of(rows, is_answer_of_dmoc);
+  const Differences largest(rows);
+  return found(largest.are_rounding() && rows_agree && rows.are_usable(),
+               "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}; answers in the other's "
+               "rows leave {}",
+               rows.size(), rows.group_by({"tableau", "stages"}).size(), largest.words, largest.costates,
+               rows_agree ? "rounding" : "more than rounding");
+}
+
+std::optional<Finding> tangent_differs(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = midpoint(tables.rows("equivalence", problem), "tangent");
+  if (rows.size() < 2) return std::nullopt;
+  const double coarse = rows.front().number("configuration_difference", missing);
+  const double fine = rows.back().number("configuration_difference", missing);
+  const Selection orders =
+      tables.rows("equivalence_slopes", problem).where("tableau", "gauss").where("verdict", "slope");
+  const auto is_twice_the_stages = [](const Row& row) {
+    return std::abs(row.number("slope", 0.0) - 2.0 * row.number("stages", 0.0)) < near_order;
+  };
+  const auto words = [](const Row& row) {
+    return fmt::format("s = {}: {:.2f}", row.text("stages"), row.number("slope", 0.0));
+  };
+  return found(
+      !orders.empty() && std::ranges::all_of(orders, is_twice_the_stages) && fine > equal_solutions_tolerance / 10.0 &&
+          coarse > clearly_larger * equal_solutions_tolerance && fine < coarse && rows.are_usable(),
+      "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}{}{}", coarse, rows.front().text("intervals"), fine,
+      rows.back().text("intervals"), orders.empty() ? "" : "; slopes ", orders.in_words(", ", words));
+}
+
+std::optional<Finding> tangent_coincides(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("equivalence", problem).where("method", "tangent").where("tableau", "gauss");
+  if (rows.empty()) return std::nullopt;
+  const Differences largest(rows);
+  return found(largest.are_rounding() && rows.are_usable(),
+               "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}", rows.size(),
+               largest.primal, largest.costates);
+}
+
+}  // namespace
+
+Claims solution_claims() {
+  return {{.id = "momentum_consistency",
+           .where = {"fig:kepler_J", "fig:twolink_obj b)"},
+           .states = "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
+                     "not for tangent-space collocation",
+           .judge = momentum_consistency},
+          {.id = "equal_solutions",
+           .where = "th:equi, equ_L_RK, ex:RK",
+           .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
+           .judge = equal_solutions},
+          {.id = "tangent_differs",
+           .where = "section 4.2",
+           .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
+           .judge = tangent_differs}};
+}
+
+Claims coincidence_claims() {
+  return {{.id = "tangent_coincides",
+           .problems = {oscillator},
+           .where = "section 4.2, ex:RK",
+           .states = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
+           .judge = tangent_coincides}};
+}
+
+}  // namespace dmocbench

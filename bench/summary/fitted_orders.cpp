@@ -1,0 +1,193 @@
+#include "bench/summary/fitted_orders.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "methods/diagnostics/convergence_order.hpp"
+#include "methods/numerics/median.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr long long reference_factor = 4;
+/// Smaller errors come from the solver's tolerance (1e-10) and rounding, not from the grid; relative to the cost for
+/// errors of the cost. Used against a finer grid, where no floor can be measured.
+constexpr double rounding_level = 1e-11;
+/// Against an exact solution: how far above the floor an error shows the order, and how many such grids make a slope.
+constexpr double above_floor = 100.0;
+constexpr std::size_t fewest_grids = 4;
+
+constexpr std::array fitted_quantities{"state",
+                                       "control",
+                                       "momentum",
+                                       "costate",
+                                       "objective",
+                                       "replay",
+                                       "control_from_costate",
+                                       "stage_configuration",
+                                       "stage_momentum",
+                                       "stage_costate_q",
+                                       "stage_costate_p"};
+
+const ColumnNames table_columns{"problem",        "method", "tableau",  "stages", "quantity", "slope",
+                                "standard_error", "finest", "coarsest", "points", "floor",    "verdict"};
+/// Rows that agree in these differ in their grid only.
+const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
+
+double intervals_of(const Row& row) { return row.number("intervals", 0.0); }
+
+/// The number of intervals from which errors fall as their order says. It was found by trial: for the two-link
+/// manipulator it grows with the order.
+double asymptotic_from(const Row& head) {
+  if (head.text("problem") == "orbital_transfer") return 16.0;
+  if (head.text("stages") == "1") return 32.0;
+  return head.text("tableau") == "gauss" && head.text("stages") == "4" ? 96.0 : 64.0;
+}
+
+Selection with_asymptotic_error(const Selection& curve, const std::string& column) {
+  const double start = asymptotic_from(curve.front());
+  return curve.usable().with_number(column).where([&](const Row& row) { return intervals_of(row) >= start; });
+}
+
+std::vector<GridError> errors_of(const Selection& rows, const std::string& column) {
+  std::vector<GridError> errors;
+  for (const Row& row : rows) errors.push_back({row.number("step", 0.0), row.number(column, 0.0)});
+  return errors;
+}
+
+/// The orders with which the error falls from grid to grid.
+std::vector<double> orders_between(const std::vector<GridError>& errors) {
+  std::vector<double> orders;
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    orders.push_back(std::log(errors[i - 1].error / errors[i].error) / std::log(errors[i - 1].step / errors[i].step));
+  }
+  return orders;
+}
+
+/// The median of the errors on the finest grids, where they fall from grid to grid with less than half the upper
+/// quartile of all such orders; none if they fall to the end.
+std::optional<double> measured_floor(const std::vector<GridError>& errors) {
+  if (errors.size() < fewest_grids) return std::nullopt;
+  const std::vector<double> orders = orders_between(errors);
+  std::vector<double> sorted = orders;
+  const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 3 / 4);
+  std::ranges::nth_element(sorted, quartile);
+  std::vector<double> flat;
+  for (std::size_t i = orders.size(); i > 0 && !(orders[i - 1] >= *quartile / 2.0); --i) {
+    flat.push_back(errors[i].error);
+  }
+  return flat.empty() ? std::nullopt : std::optional(median(flat));
+}
+
+/// The smallest measured floor of some curves.
+std::optional<double> smallest_floor(const std::vector<Selection>& curves, const std::string& column) {
+  std::optional<double> smallest;
+  for (const Selection& curve : curves) {
+    const auto floor = measured_floor(errors_of(with_asymptotic_error(curve, column), column));
+    if (floor) smallest = std::min(*floor, smallest.value_or(*floor));
+  }
+  return smallest;
+}
+
+/// The grids that are fitted, coarsest first.
+struct Fit {
+  Selection grids;
+  std::optional<double> floor = std::nullopt;
+  std::string verdict = "slope";
+};
+
+Fit above_the_floor(const Selection& curve, const std::string& column, const std::optional<double>& floor) {
+  const Selection asymptotic = with_asymptotic_error(curve, column);
+  const double limit = above_floor * floor.value_or(0.0);
+  bool is_above = true;  // errors behind the first grid at the floor are noise
+  Fit fit{.grids = asymptotic.where([&](const Row& row) {
+            is_above = is_above && row.number(column, 0.0) > limit;
+            return is_above;
+          }),
+          .floor = floor};
+  if (fit.grids.size() < fewest_grids) fit.verdict = fit.grids.size() < asymptotic.size() ? "floor" : "few grids";
+  return fit;
+}
+
+Fit in_range(const Selection& curve, const std::string& column, const FitRange& range) {
+  return {.grids = curve.usable().with_number(column).where([&](const Row& row) {
+    const double scale = column == "objective_error" ? std::abs(row.number("objective", 0.0)) : 1.0;
+    return intervals_of(row) >= static_cast<double>(range.coarsest) &&
+           intervals_of(row) <= static_cast<double>(range.finest) && row.number(column, 0.0) >= rounding_level * scale;
+  })};
+}
+
+/// Appends the row of a fit, unless there is nothing to say.
+void append_fit(Table& table, const std::string& quantity, const std::string& column, const Fit& fit, const Row& head) {
+  const bool is_floor = fit.verdict == "floor";
+  const auto order = is_floor ? std::nullopt : fit_order(errors_of(fit.grids, column));
+  if (!order && !is_floor) return;
+  Row row = fields_of(head, {"problem", "method", "tableau", "stages"});
+  row.set("quantity", quantity);
+  if (order) {
+    row.set("slope", order->slope);
+    if (order->points > 2) row.set("standard_error", order->standard_error);
+    row.set("finest", fit.grids.back().text("intervals"));
+    row.set("coarsest", fit.grids.front().text("intervals"));
+  }
+  row.set("points", static_cast<long long>(fit.grids.size()));
+  row.set("floor", fit.floor);
+  row.set("verdict", fit.verdict);
+  table.append(std::move(row));
+}
+
+/// The range against a finer grid, with a note where it goes too far.
+FitRange range_against_grid(const Selection& curve, const std::optional<FitRange>& range, long long reference,
+                            std::vector<std::string>& notes) {
+  const Row& head = curve.front();
+  const double reference_intervals = reference > 0 ? static_cast<double>(reference) : curve.max(intervals_of);
+  if (!range) {
+    constexpr long long one_stage = 32;
+    constexpr long long several_stages = 64;
+    return {head.text("stages") == "1" ? one_stage : several_stages,
+            static_cast<long long>(reference_intervals) / reference_factor};
+  }
+  if (static_cast<double>(range->finest) * reference_factor > reference_intervals) {
+    notes.push_back(
+        fmt::format("{} {} {} {}: slopes are fitted up to N = {}, less than {} times coarser than the reference N = "
+                    "{}: they are too large",
+                    head.text("problem"), head.text("method"), head.text("tableau"), head.text("stages"), range->finest,
+                    reference_factor, reference_intervals));
+  }
+  return *range;
+}
+
+}  // namespace
+
+FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
+  FittedOrders result{.table = Table(table_columns), .notes = {}};
+  const bool is_exact = reference == exact_reference;
+  for (const Selection& curve : convergence.group_by(curve_columns)) {
+    const Row& head = curve.front();
+    const auto of_the_method = convergence.matching(head, {"problem", "method"}).group_by(curve_columns);
+    const FitRange fitted =
+        is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, result.notes);
+    for (const std::string quantity : fitted_quantities) {
+      const std::string column = quantity + "_error";
+      const Fit fit = is_exact && !range ? above_the_floor(curve, column, smallest_floor(of_the_method, column))
+                                         : in_range(curve, column, fitted);
+      append_fit(result.table, quantity, column, fit, head);
+    }
+  }
+  return result;
+}
+
+Table fit_differences(const Selection& equivalence, const std::string& column) {
+  Table table(table_columns);
+  for (const Selection& curve : equivalence.where("method", "tangent").group_by(curve_columns)) {
+    const Selection hamiltonian = equivalence.matching(curve.front(), {"problem"}).where("method", "hamiltonian");
+    const Selection rounded = hamiltonian.usable().with_number(column);
+    if (rounded.empty()) continue;
+    append_fit(table, column, column, above_the_floor(curve, column, rounded.max(column)), curve.front());
+  }
+  return table;
+}
+
+}  // namespace dmocbench

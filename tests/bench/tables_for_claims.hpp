@@ -1,0 +1,193 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/claims/claim.hpp"
+#include "bench/experiment/solve_case.hpp"
+
+namespace dmocbench::tests {
+
+inline const std::vector<std::string> methods{"dmoc", "hamiltonian", "tangent"};
+
+inline Row solved_row(const std::string& method, long long intervals) {
+  Row row;
+  row.set("problem", orbit);
+  row.set("method", method);
+  row.set("tableau", "gauss");
+  row.set("stages", 1LL);
+  row.set("intervals", intervals);
+  row.set("status", "solved");
+  row.set("branch", "same");
+  return row;
+}
+
+inline const std::vector<std::string> differences{
+    "configuration_difference", "momentum_difference",       "control_difference",    "costate_difference",
+    "objective_difference",     "violation_in_rows_of_dmoc", "violation_of_dmoc_here"};
+
+using Rows = std::vector<Row>;
+
+inline Rows slope_rows() {
+  Rows rows;
+  for (const std::string& method : methods) {
+    for (const char* quantity : {"state", "control"}) {
+      Row row = solved_row(method, 0);
+      row.set("quantity", quantity);
+      row.set("slope", 2.01);
+      row.set("points", 4LL);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+/// Both grids of every method, filled by a function of row, method and step.
+template <class Fill>
+Rows rows_on_grids(const Fill& fill) {
+  Rows rows;
+  for (const std::string& method : methods) {
+    for (const long long intervals : {16LL, 1024LL}) {
+      Row row = solved_row(method, intervals);
+      fill(row, method == "tangent", 1.0 / static_cast<double>(intervals));
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline long long free_variables(const std::string& method, long long intervals) {
+  return method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4;
+}
+
+/// A row for every tableau with two and three stages.
+template <class Fill>
+Rows rows_by_tableau(const std::string& method, long long intervals, const Fill& fill) {
+  Rows rows;
+  for (const std::string tableau : {"gauss", "lobatto"}) {
+    for (const long long stages : {2LL, 3LL}) {
+      Row row = solved_row(method, intervals);
+      row.set("tableau", tableau);
+      row.set("stages", stages);
+      fill(row, tableau == "gauss" ? 2.0 * static_cast<double>(stages) : 2.0 * static_cast<double>(stages) - 2.0);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline Rows equivalence_rows() {
+  Rows rows;
+  const auto set_differences = [](Row& row, double value) {
+    for (const std::string& column : differences) row.set(column, value);
+  };
+  for (Row& row : rows_on_grids([&](Row& row, bool tangent, double h) {
+         if (row.text("method") != "dmoc") set_differences(row, tangent ? h * h : 1e-13);
+       })) {
+    if (row.text("method") != "dmoc") rows.push_back(row);
+  }
+  for (const std::string method : {"dmoc", "hamiltonian"}) {
+    for (Row& row : rows_by_tableau(method, 64, [&](Row& row, double /*order*/) {
+           if (method == "hamiltonian") set_differences(row, 1e-13);
+           row.set("adjoint_residual", 1e-12);
+           row.set("adjoint_residual_by_plain_coefficients", row.text("tableau") == "gauss" ? 1e-12 : 1e-2);
+         })) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline Rows indirect_slope_rows() {
+  Rows rows;
+  for (const char* method : {"dmoc", "hamiltonian"}) {
+    for (const char* quantity : {"state", "momentum", "costate", "control_from_costate", "control"}) {
+      for (Row& row : rows_by_tableau(method, 0, [&](Row& row, double order) {
+             row.set("quantity", quantity);
+             row.set("verdict", "slope");
+             row.set("slope", quantity == std::string("control") ? *row.number("stages") + 1.0 : order + 0.05);
+           })) {
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
+inline Rows iteration_rows() {
+  Rows rows;
+  for (const std::string& method : methods) {
+    for (const long long intervals : {32LL, 64LL, 128LL}) {
+      for (const std::string crash : {"none", "basis"}) {
+        Row row = solved_row(method, intervals);
+        const long long free = free_variables(method, intervals);
+        row.set("solver", "sqp");
+        row.set("crash", crash);
+        row.set("free_variables", free);
+        row.set("minor_iterations", (crash == "none" ? free : intervals - 4) + 3);
+        row.set("predicted_minors", *row.number("minor_iterations"));
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
+inline Rows derivative_rows() {
+  Rows rows;
+  for (const std::string back_end : {"tape", "adolc", "finite_differences", "forward_differences"}) {
+    for (Row& row : rows_on_grids([&](Row& row, bool /*tangent*/, double /*h*/) {
+           const bool exact = back_end == "tape" || back_end == "adolc";
+           row.set("solver", "ipopt");
+           row.set("derivatives", back_end);
+           row.set("hessian", "exact");
+           if (!exact && row.text("intervals") == "1024") row.set("status", "acceptable");
+           row.set("seconds", exact ? 0.01 : 0.03);
+         })) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+/// Tables as a run that reproduces the paper writes them; `change` doctors every row of the named table.
+inline ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
+  const std::map<std::string, Rows> written{{"convergence_slopes", slope_rows()},
+                                            {"consistency", rows_on_grids([](Row& row, bool tangent, double h) {
+                                               row.set("largest_force", 1.0);
+                                               row.set("momentum_defect_max", tangent ? 1e-4 * h * h * h : 1e-15);
+                                             })},
+                                            {"convergence", rows_on_grids([](Row& row, bool /*tangent*/, double h) {
+                                               row.set("free_variables",
+                                                       free_variables(row.text("method"), std::lround(1.0 / h)));
+                                               row.set("step", 2.9316 * h);
+                                             })},
+                                            {"objective", rows_on_grids([](Row& row, bool tangent, double h) {
+                                               row.set("objective", 4e-5 * (1.0 + (tangent ? 0.9 : 1.0) * h * h));
+                                             })},
+                                            {"equivalence", equivalence_rows()},
+                                            {"equivalence_slopes", rows_by_tableau("tangent", 0,
+                                                                                   [](Row& row, double order) {
+                                                                                     row.set("verdict", "slope");
+                                                                                     row.set("slope", order);
+                                                                                   })},
+                                            {"convergence_indirect_slopes", indirect_slope_rows()},
+                                            {"iterations", iteration_rows()},
+                                            {"derivatives", derivative_rows()}};
+  ResultTables result;
+  for (const auto& [name, rows] : written) {
+    Table table(core_columns());
+    for (Row row : rows) {
+      if (name == doctored) change(row);
+      table.append(std::move(row));
+    }
+    result.add(name, std::move(table));
+  }
+  return result;
+}
+
+}  // namespace dmocbench::tests
