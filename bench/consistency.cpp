@@ -1,4 +1,7 @@
 // Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b) of the paper.
+#include <optional>
+#include <utility>
+
 #include "bench/experiment/experiment.hpp"
 #include "methods/diagnostics/momentum_consistency.hpp"
 #include "methods/error.hpp"

@@ -11,11 +11,11 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/common_columns.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -112,16 +112,7 @@ Columns<MeasuredError> error_columns() {
 }
 
 Columns<MeasuredOrder> order_columns() {
-  constexpr auto fit = &MeasuredOrder::fit;
-  return first_columns<MeasuredOrder>() +
-         Columns<MeasuredOrder>{{"slope", "", "fitted order", from(fit, &FittedOrder::slope)},
-                                {"standard_error", "", "of that; empty with two points",
-                                 [](const MeasuredOrder& order) {
-                                   return order.fit.points > 2 ? Cell(order.fit.standard_error) : Cell();
-                                 }},
-                                {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
-                                {"coarsest", "", "largest step used", from(fit, &FittedOrder::coarsest)},
-                                {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
+  return first_columns<MeasuredOrder>() + fitted_order_columns(&MeasuredOrder::fit);
 }
 
 struct Results {

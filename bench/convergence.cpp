@@ -1,6 +1,5 @@
 // Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 
@@ -26,12 +25,9 @@ namespace {
 long long parse_reference(const std::string& text) {
   if (text.empty()) return 0;
   if (text == "indirect") return exact_reference;
-  long long intervals = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), intervals);
-  if (failure != std::errc() || end != text.data() + text.size() || intervals <= 0) {
-    throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
-  }
-  return intervals;
+  const auto intervals = parsed<long long>(text);
+  if (intervals && *intervals > 0) return *intervals;
+  throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
 }
 
 class Convergence final : public Experiment {
@@ -48,20 +44,21 @@ class Convergence final : public Experiment {
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     constexpr auto stages = &TrajectoryError::stages;
     return {
-        {"state_error", "", "largest error of q over the nodes", of(error_, &TrajectoryError::state)},
-        {"control_error", "", "largest error of u over the stages", of(error_, &TrajectoryError::control)},
-        {"momentum_error", "", "largest error of p over the nodes", of(error_, &TrajectoryError::momentum)},
-        {"costate_error", "", "largest error of psi over the nodes", of(error_, &TrajectoryError::costate)},
-        {"objective_error", "cost", "error of the cost", of(error_, &TrajectoryError::objective)},
-        replay_error_column(replay_),
+        {"state_error", "", "largest error of q over the nodes", of(measured_.error, &TrajectoryError::state)},
+        {"control_error", "", "largest error of u over the stages", of(measured_.error, &TrajectoryError::control)},
+        {"momentum_error", "", "largest error of p over the nodes", of(measured_.error, &TrajectoryError::momentum)},
+        {"costate_error", "", "largest error of psi over the nodes", of(measured_.error, &TrajectoryError::costate)},
+        {"objective_error", "cost", "error of the cost", of(measured_.error, &TrajectoryError::objective)},
+        replay_error_column(measured_.replay),
         {"control_from_costate_error", "",
          "largest error of the control recomputed from state and costate at the nodes",
-         of(control_from_costate_error_)},
+         of(measured_.control_from_costate_error)},
         {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
-        {"stage_configuration_error", "", "largest error of Q_i", of(error_, stages, &StageError::configuration)},
-        {"stage_momentum_error", "", "largest error of P_i", of(error_, stages, &StageError::momentum)},
-        {"stage_costate_q_error", "", "largest error of Psi^q_i", of(error_, stages, &StageError::costate_q)},
-        {"stage_costate_p_error", "", "largest error of Psi^p_i", of(error_, stages, &StageError::costate_p)},
+        {"stage_configuration_error", "", "largest error of Q_i",
+         of(measured_.error, stages, &StageError::configuration)},
+        {"stage_momentum_error", "", "largest error of P_i", of(measured_.error, stages, &StageError::momentum)},
+        {"stage_costate_q_error", "", "largest error of Psi^q_i", of(measured_.error, stages, &StageError::costate_q)},
+        {"stage_costate_p_error", "", "largest error of Psi^p_i", of(measured_.error, stages, &StageError::costate_p)},
     };
   }
   void add_options(CommandLine& line) override {
@@ -107,10 +104,10 @@ class Convergence final : public Experiment {
       curve_ = solved.the_case;
       reference_trajectory_.reset();
     }
-    error_.reset();
-    control_from_costate_error_.reset();
-    replay_ = solved.trajectory ? replay(solved) : std::nullopt;
-    if (!solved.trajectory || !is_usable(solved)) return;
+    measured_ = {};
+    if (!solved.trajectory) return;
+    measured_.replay = replay(solved);
+    if (!is_usable(solved)) return;
     const Problem& problem = *solved.the_case.problem;
     try {
       if (indirect_) {
@@ -145,8 +142,9 @@ class Convergence final : public Experiment {
   }
 
   void measure(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference) {
-    error_ = trajectory_error(trajectory, reference);
-    if (error_->costate) control_from_costate_error_ = node_control_error(problem, trajectory, reference);
+    measured_.error = trajectory_error(trajectory, reference);
+    if (!measured_.error->costate) return;
+    measured_.control_from_costate_error = node_control_error(problem, trajectory, reference);
   }
 
   std::string reference_text_;
@@ -156,9 +154,11 @@ class Convergence final : public Experiment {
   std::optional<FitRange> fit_range_;
   std::optional<Case> curve_;
   std::optional<Trajectory> reference_trajectory_;
-  std::optional<TrajectoryError> error_;  // this and what follows: of the case that is completed
-  std::optional<double> control_from_costate_error_;
-  std::optional<ReplayError> replay_;
+  struct {
+    std::optional<TrajectoryError> error;
+    std::optional<double> control_from_costate_error;
+    std::optional<ReplayError> replay;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What exact derivatives are worth: section 4.1, "Automatic Differentiation", of the paper.
 #include <algorithm>
+#include <optional>
 #include <random>
 
 #include "bench/derivatives/measured_derivatives.hpp"
@@ -12,8 +13,9 @@ namespace {
 
 const std::string limited_memory = "limited_memory";
 
-/// Solves without exact second derivatives may take this many times as long as the tape's on the same grid, but always
-/// the shortest limit; what has not arrived by then is a row that says so. The last holds where there is no such solve.
+/// Solves without exact second derivatives may take this many times as long as the tape's on the same grid, and at
+/// least the shortest limit; a solve that takes longer keeps its row with that status. The last limit holds where the
+/// tape has no solve.
 constexpr double longer_than_tape = 15.0;
 constexpr double shortest_limit = 0.2;  // [s]
 constexpr double limit_without_tape = 0.5;
@@ -23,10 +25,10 @@ constexpr int most_iterations = 150;
 bool is_exact(const std::string& derivatives) { return derivatives == "tape" || derivatives == "adolc"; }
 
 /// Multipliers around 1 of either sign, the same on every run.
-Eigen::VectorXd fixed_multipliers(std::size_t rows) {
+Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
   std::mt19937 engine(20090101U);
   constexpr double half_range = 2147483648.0;
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(rows),
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints),
                                       [&] { return static_cast<double>(engine()) / half_range - 1.0; });
 }
 
@@ -46,20 +48,24 @@ class Derivatives final : public Experiment {
     const auto over_residual = [this](double EvaluationTimes::*evaluation) {
       return [this, evaluation](const SolvedCase& solved) {
         const bool is_wanted = evaluation != &EvaluationTimes::hessian || solved.the_case.variant.empty();
-        return seconds_ && is_wanted ? Cell((*seconds_).*evaluation / seconds_->residual) : Cell();
+        const std::optional<EvaluationTimes>& seconds = measured_.seconds;
+        return seconds && is_wanted ? Cell((*seconds).*evaluation / seconds->residual) : Cell();
       };
     };
     return {
         {"hessian", "", "exact, or limited_memory",
          [](const SolvedCase& s) { return s.the_case.variant.empty() ? "exact" : s.the_case.variant; }},
-        {"jacobian_error", "", "largest error of an entry, relative to the largest entry", of(jacobian_error_)},
-        {"hessian_error", "", "the same of the Hessian; empty where the solver was given none", of(hessian_error_)},
-        {"residual_seconds", "s", "one evaluation of all constraints", of(seconds_, &EvaluationTimes::residual)},
+        {"jacobian_error", "", "largest error of an entry, relative to the largest entry",
+         of(measured_.jacobian_error)},
+        {"hessian_error", "", "the same of the Hessian; empty where the solver was given none",
+         of(measured_.hessian_error)},
+        {"residual_seconds", "s", "one evaluation of all constraints",
+         of(measured_.seconds, &EvaluationTimes::residual)},
         {"gradient_over_residual", "", "time of a gradient over that", over_residual(&EvaluationTimes::gradient)},
         {"jacobian_over_residual", "", "time of a Jacobian over that", over_residual(&EvaluationTimes::jacobian)},
         {"hessian_over_residual", "", "time of a Hessian over that", over_residual(&EvaluationTimes::hessian)},
         {"answer_difference", "", "largest difference of q from the tape's answer, relative to its largest value",
-         of(answer_difference_)},
+         of(measured_.answer_difference)},
     };
   }
 
@@ -91,6 +97,7 @@ class Derivatives final : public Experiment {
     if (solved.trajectory && the_case.derivatives == "tape" && the_case.variant.empty() && is_usable(solved)) {
       answers_.push_back({the_case, *solved.trajectory, solved.solution.seconds});
     }
+    measured_ = {};
     compare(solved);
     evaluate(solved);
   }
@@ -104,21 +111,18 @@ class Derivatives final : public Experiment {
 
   /// Errors and times at the start of the solve.
   void evaluate(const SolvedCase& solved) {
-    jacobian_error_.reset();
-    hessian_error_.reset();
-    seconds_.reset();
     if (!solved.program) return;
     Transcription& program = *solved.program;
     const Eigen::VectorXd multipliers = fixed_multipliers(program.constraint_count());
     const DerivativeReference reference = reference_derivatives(program, solved.start, 1.0, multipliers);
     Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
     program.jacobian(solved.start, jacobian);
-    jacobian_error_ = relative_error(jacobian, reference.jacobian);
-    seconds_ = measure_evaluations(program, solved.start, multipliers);
+    measured_.jacobian_error = relative_error(jacobian, reference.jacobian);
+    measured_.seconds = measure_evaluations(program, solved.start, multipliers);
     if (!solved.the_case.variant.empty()) return;  // the solver was given no Hessian
     Eigen::VectorXd hessian(static_cast<Eigen::Index>(program.hessian_structure().size()));
     program.hessian(solved.start, 1.0, multipliers, hessian);
-    hessian_error_ = relative_error(hessian, reference.hessian);
+    measured_.hessian_error = relative_error(hessian, reference.hessian);
   }
 
   /// The tape's solve of the same program; null if there is none.
@@ -133,18 +137,19 @@ class Derivatives final : public Experiment {
   }
 
   void compare(const SolvedCase& solved) {
-    answer_difference_.reset();
     const Answer* exact = partner_of(solved.the_case);
     if (!solved.trajectory || exact == nullptr) return;
     const Eigen::MatrixXd& q = exact->trajectory.q;
-    answer_difference_ = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
+    measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
   }
 
   std::vector<Answer> answers_;
-  std::optional<double> jacobian_error_;  // this and what follows: of the case that is completed
-  std::optional<double> hessian_error_;
-  std::optional<EvaluationTimes> seconds_;
-  std::optional<double> answer_difference_;
+  struct {
+    std::optional<double> jacobian_error;
+    std::optional<double> hessian_error;
+    std::optional<EvaluationTimes> seconds;
+    std::optional<double> answer_difference;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

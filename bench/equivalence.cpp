@@ -1,6 +1,11 @@
 // DMOC and Hamiltonian collocation with the same tableau describe the same discrete solutions (th:equi): both are
 // solved separately from the common start and compared, tangent-space collocation beside them as the control. The
 // costates of each are put into the adjoint scheme (th:orderapp).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/fitted_orders.hpp"
@@ -84,21 +89,23 @@ class Equivalence final : public Experiment {
     constexpr auto rounding = &ForeignViolation::rounding;
     return {
         {"configuration_difference", "", "largest difference of q from DMOC's",
-         of(found_, &Differences::configuration)},
-        {"momentum_difference", "", "of p", of(found_, &Differences::momentum)},
-        {"control_difference", "", "of the stage controls", of(found_, &Differences::control)},
-        {"costate_difference", "", "of psi", of(found_, &Differences::costate)},
-        {"objective_difference", "", "of the cost", of(found_, &Differences::objective)},
+         of(measured_.differences, &Differences::configuration)},
+        {"momentum_difference", "", "of p", of(measured_.differences, &Differences::momentum)},
+        {"control_difference", "", "of the stage controls", of(measured_.differences, &Differences::control)},
+        {"costate_difference", "", "of psi", of(measured_.differences, &Differences::costate)},
+        {"objective_difference", "", "of the cost", of(measured_.differences, &Differences::objective)},
         {"violation_in_rows_of_dmoc", "", "what the answer leaves in DMOC's constraints",
-         of(found_, &Differences::in_dmoc, violation)},
-        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there", of(found_, &Differences::in_dmoc, rounding)},
+         of(measured_.differences, &Differences::in_dmoc, violation)},
+        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there",
+         of(measured_.differences, &Differences::in_dmoc, rounding)},
         {"violation_of_dmoc_here", "", "what DMOC's answer leaves in this method's constraints",
-         of(found_, &Differences::of_dmoc, violation)},
-        {"rounding_here", "", "what rounding may leave there", of(found_, &Differences::of_dmoc, rounding)},
-        {"stage_costate_difference", "", "of Psi_i", of(found_, &Differences::stage_costate)},
-        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", of(adjoint_residual_)},
+         of(measured_.differences, &Differences::of_dmoc, violation)},
+        {"rounding_here", "", "what rounding may leave there",
+         of(measured_.differences, &Differences::of_dmoc, rounding)},
+        {"stage_costate_difference", "", "of Psi_i", of(measured_.differences, &Differences::stage_costate)},
+        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", of(measured_.adjoint_residual)},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
-         of(plain_residual_)},
+         of(measured_.plain_residual)},
         {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
     };
   }
@@ -108,9 +115,7 @@ class Equivalence final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    found_.reset();
-    adjoint_residual_.reset();
-    plain_residual_.reset();
+    measured_ = {};
     if (!solved.trajectory || !is_usable(solved)) return;
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
@@ -123,7 +128,7 @@ class Equivalence final : public Experiment {
       const bool partner = dmoc.problem == here.problem && dmoc.tableau == here.tableau && dmoc.stages == here.stages &&
                            dmoc.solver == here.solver && dmoc.derivatives == here.derivatives &&
                            answer.node_times == trajectory.node_times;
-      if (partner) found_ = differences(answer, trajectory, here);
+      if (partner) measured_.differences = differences(answer, trajectory, here);
     }
   }
 
@@ -136,14 +141,16 @@ class Equivalence final : public Experiment {
   void measure_adjoint_residuals(const Problem& problem, const Trajectory& trajectory) {
     const Tableau& tableau = trajectory.tableau;
     const AdjointCoefficients plain{.a_q = tableau.a, .a_p = tableau.a_conjugate};
-    adjoint_residual_ = adjoint_residual(problem, trajectory, adjoint_coefficients(tableau)).largest();
-    plain_residual_ = adjoint_residual(problem, trajectory, plain).largest();
+    measured_.adjoint_residual = adjoint_residual(problem, trajectory, adjoint_coefficients(tableau)).largest();
+    measured_.plain_residual = adjoint_residual(problem, trajectory, plain).largest();
   }
 
   std::vector<std::pair<Case, Trajectory>> answers_;  // of DMOC
-  std::optional<Differences> found_;                  // this and what follows: of the case that is completed
-  std::optional<double> adjoint_residual_;
-  std::optional<double> plain_residual_;
+  struct {
+    std::optional<Differences> differences;
+    std::optional<double> adjoint_residual;
+    std::optional<double> plain_residual;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

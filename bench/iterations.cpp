@@ -1,5 +1,6 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

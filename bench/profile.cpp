@@ -1,6 +1,7 @@
 // Across the library: what every method solves from the problems' own guesses, how fast and how accurately.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,25 +24,25 @@ class Profile final : public Experiment {
             {.name = "profile",
              .description =
                  "Every problem by every method from the problem's own guess: performance profiles after Dolan and "
-                 "Moré "
-                 "(NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual below "
-                 "the tolerance and a cost within --objective-tolerance of the reference; all else counts as never. "
-                 "NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the reference.",
+                 "Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual "
+                 "below the tolerance and a cost within --objective-tolerance of the reference; all else counts as "
+                 "never. NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the "
+                 "reference.",
              .options = {.problems = {"all"}, .intervals = "32,64,128", .start = "guess", .tolerance = 1e-8},
              .tells_branches = false,
              .problems_are_independent = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
-    constexpr auto reference = &ReferenceOptimum::objective;
+    const auto& reference = measured_.reference;
     return Columns<SolvedCase>{
-               {"success", "", "yes or no",
-                [this](const SolvedCase&) { return error_ && *error_ <= largest_error_ ? "yes" : "no"; }},
-               {"reference_objective", "cost", "cost that the problem states", of(reference_, reference)},
-               {"reference_digits", "", "digits of it that hold", of(reference_, &ReferenceOptimum::digits)},
-               {"objective_error", "cost", "distance from it", of(error_)},
+               {"success", "", "yes or no", [this](const SolvedCase&) { return measured_.is_success ? "yes" : "no"; }},
+               {"reference_objective", "cost", "cost that the problem states",
+                of(reference, &ReferenceOptimum::objective)},
+               {"reference_digits", "", "digits of it that hold", of(reference, &ReferenceOptimum::digits)},
+               {"objective_error", "cost", "distance from it", of(measured_.error)},
                {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
                 from(&SolvedCase::solution, &Solution::total_evaluations)},
            } +
-           columns_of(checks_);
+           columns_of(measured_.checks);
   }
   void add_options(CommandLine& line) override {
     line.option("--objective-tolerance", objective_tolerance_,
@@ -58,13 +59,14 @@ class Profile final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    error_.reset();
-    checks_ = {};
-    reference_ = solved.the_case.problem->card().reference;
-    if (!reference_ || !is_solved(solved.solution.status) || !solved.trajectory) return;
-    error_ = std::abs(solved.trajectory->cost - reference_->objective);
-    largest_error_ = objective_tolerance_ * std::abs(reference_->objective);
-    checks_ = check_independently(solved);
+    measured_ = {};
+    measured_.reference = solved.the_case.problem->card().reference;
+    const auto& reference = measured_.reference;
+    if (!reference || !is_solved(solved.solution.status) || !solved.trajectory) return;
+    const double error = std::abs(solved.trajectory->cost - reference->objective);
+    measured_.error = error;
+    measured_.is_success = error <= objective_tolerance_ * std::abs(reference->objective);
+    measured_.checks = check_independently(solved);
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
@@ -85,10 +87,12 @@ class Profile final : public Experiment {
   static constexpr double longest_time = 1e6;
   double objective_tolerance_ = 0.02;
   double most_seconds_ = 20.0;
-  std::optional<ReferenceOptimum> reference_;  // this and what follows: of the case that is completed
-  std::optional<double> error_;
-  double largest_error_ = 0.0;
-  IndependentChecks checks_;
+  struct {
+    std::optional<ReferenceOptimum> reference;
+    std::optional<double> error;
+    bool is_success = false;
+    IndependentChecks checks;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

@@ -103,11 +103,11 @@ double relative_error(const Eigen::VectorXd& values, const std::vector<long doub
 EvaluationTimes measure_evaluations(NonlinearProgram& program, const Eigen::VectorXd& x,
                                     const Eigen::VectorXd& multipliers) {
   Eigen::VectorXd gradient(x.size());
-  Eigen::VectorXd rows(multipliers.size());
+  Eigen::VectorXd residual(multipliers.size());
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   Eigen::VectorXd hessian(static_cast<Eigen::Index>(program.hessian_structure().size()));
   const std::array<std::function<void()>, 4> evaluations{
-      [&] { program.constraints(x, rows); }, [&] { program.gradient(x, gradient); },
+      [&] { program.constraints(x, residual); }, [&] { program.gradient(x, gradient); },
       [&] { program.jacobian(x, jacobian); }, [&] { program.hessian(x, 1.0, multipliers, hessian); }};
 
   std::array<int, evaluations.size()> calls{};

@@ -62,17 +62,17 @@ template <class Record>
   return left;
 }
 
-/// The member of a member ... of an object; nothing where an optional on the way is empty.
+/// The member of a member ... of an object; nothing where an optional or a pointer on the way is empty.
 template <class Object>
 [[nodiscard]] Cell member(const Object& object) {
   return object;
 }
 template <class Object, class First, class... Rest>
 [[nodiscard]] Cell member(const Object& object, First first, Rest... rest) {
-  if constexpr (std::is_invocable_v<First, const Object&>) {
-    return member(std::invoke(first, object), rest...);
+  if constexpr (requires { *object; }) {  // an optional or a pointer; std::invoke would not ask whether it is empty
+    return object ? member(*object, first, rest...) : Cell();
   } else {
-    return object ? member(*object, first, rest...) : Cell();  // an optional or a pointer
+    return member(std::invoke(first, object), rest...);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ class Run {
     } else {
       solve_part(0, cases_.size());
     }
-    const Table table = write_table();
+    write_table();
+    const Table table = this->table();
     const bool complete = !interrupt_requested();
     if (complete) experiment_.finish(table, prefix_, metadata_);
     metadata_["complete"] = complete;
@@ -101,10 +103,9 @@ class Run {
   }
 
   /// All rows in the order of the cases.
-  Table write_table() const {
-    Table table = this->table();
+  void write_table() const {
+    const Table table = this->table();
     if (!table.rows().empty()) write_file(table_file(), table.csv());
-    return table;
   }
 
   void solve_part(std::size_t first, std::size_t end) {

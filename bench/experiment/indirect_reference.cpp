@@ -78,7 +78,7 @@ void require_near(const Problem& problem, const IndirectSolution& solution, cons
               "grids");
 }
 
-IndirectSolution parsed(const Json& file, const Problem& problem) {
+IndirectSolution solution_in(const Json& file, const Problem& problem) {
   CollocatedExtremal extremal;
   extremal.stages = file.at("stages").get<int>();
   extremal.horizon = file.at("horizon").get<double>();
@@ -103,7 +103,7 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   try {
     const Json file = Json::parse(read_file(path));
     if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
-    IndirectSolution solution = parsed(file, problem);
+    IndirectSolution solution = solution_in(file, problem);
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
   } catch (const nlohmann::json::exception&) {

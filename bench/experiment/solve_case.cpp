@@ -1,5 +1,8 @@
 #include "bench/experiment/solve_case.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"

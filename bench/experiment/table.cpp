@@ -1,9 +1,8 @@
 #include "bench/experiment/table.hpp"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
+#include "bench/experiment/interval_list.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -60,14 +59,7 @@ std::string Row::text(std::string_view column) const {
   return found == cells_.end() ? std::string() : found->second.text();
 }
 
-std::optional<double> Row::number(std::string_view column) const {
-  const std::string field = text(column);
-  double value = 0.0;
-  const char* end = field.data() + field.size();
-  const auto [stop, error] = std::from_chars(field.data(), end, value);
-  if (error != std::errc() || stop != end || field.empty()) return std::nullopt;
-  return value;
-}
+std::optional<double> Row::number(std::string_view column) const { return parsed<double>(text(column)); }
 
 std::string Row::csv(const std::vector<std::string>& columns) const {
   std::string line;
