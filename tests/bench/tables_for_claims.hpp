@@ -180,7 +180,7 @@ inline ResultTables tables(const std::string& doctored = "", const std::function
                                             {"derivatives", derivative_rows()}};
   ResultTables result;
   for (const auto& [name, rows] : written) {
-    Table table(core_columns());
+    Table table(names_of(core_columns()));
     for (Row row : rows) {
       if (name == doctored) change(row);
       table.append(std::move(row));
