@@ -11,12 +11,11 @@ namespace dmocbench {
 
 /// How often a solver called each evaluation of the program (`NonlinearProgram`).
 ///
-/// What `evaluations` means, here and as a column of every table: the number of calls by which the solver's own method
+/// What `evaluations` means, here and as a column of every table: the number of calls by which the solver's method
 /// asked the program for its objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
-/// `Solver::solve` counts them in one place for all solvers, so the numbers compare. A point at which a solver wants
-/// the values of objective and constraints costs two, with first derivatives four. Calls by which we judge points
-/// ourselves
-/// (`confirm`, and the same judgement as the stopping test of `sqp` and `nlopt`) are not counted.
+/// `Solver::solve` counts them in one place for all solvers, so the numbers are comparable. A point of which a solver
+/// wants the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
+/// which we judge points: in `confirm`, and in the stopping test of `sqp` and `nlopt`, which is the same judgement.
 struct EvaluationCounts {
   int objective = 0;
   int gradient = 0;

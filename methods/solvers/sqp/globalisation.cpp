@@ -8,14 +8,14 @@
 
 namespace dmocbench::sqp {
 
-double Globalisation::longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
+double Globalisation::longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
   constexpr double limit = 2.0;
-  double share = 1.0;
+  double step_length = 1.0;
   for (Eigen::Index j = 0; j < step.size(); ++j) {
     const double allowed = limit * (1.0 + std::abs(point[j]));
-    if (std::abs(step[j]) > allowed) share = std::min(share, allowed / std::abs(step[j]));
+    if (std::abs(step[j]) > allowed) step_length = std::min(step_length, allowed / std::abs(step[j]));
   }
-  return share;
+  return step_length;
 }
 
 double Globalisation::merit(const Linearisation& at) const {
@@ -23,10 +23,10 @@ double Globalisation::merit(const Linearisation& at) const {
 }
 
 LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
-                                       double first_share) {
+                                       double first_length) {
   constexpr double sufficient = 1e-4;
   constexpr double kept = 0.5;  // share of the reduction of the violation that the merit must be predicted to keep
-  constexpr double smallest_share = 1e-8;
+  constexpr double smallest_length = 1e-8;
   const double violation = violations(program_, from.constraints).lpNorm<1>();
   const double objective_derivative = from.gradient.dot(step);
   if (violation > 0.0) {
@@ -37,20 +37,20 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
   const double merit_before = merit(from);
   // Close to the solution, differences of the merit are rounding.
   const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(merit_before));
-  const auto falls_enough = [&](const Linearisation& at, double share) {
+  const auto falls_enough = [&](const Linearisation& at, double step_length) {
     return at.has_finite_values() &&
-           merit(at) <= merit_before + sufficient * share * std::min(merit_derivative, 0.0) + rounding;
+           merit(at) <= merit_before + sufficient * step_length * std::min(merit_derivative, 0.0) + rounding;
   };
 
-  double share = first_share;
-  while (share > smallest_share) {
-    Linearisation tried = values_at(program_, from.point + share * step);
-    if (falls_enough(tried, share)) return {std::move(tried), share};
-    if (share == first_share && tried.has_finite_values()) {
-      Linearisation bent = corrected(from, tried);
-      if (falls_enough(bent, share)) return {std::move(bent), share};
+  double step_length = first_length;
+  while (step_length > smallest_length) {
+    Linearisation tried = values_at(program_, from.point + step_length * step);
+    if (falls_enough(tried, step_length)) return {std::move(tried), step_length};
+    if (step_length == first_length && tried.has_finite_values()) {
+      Linearisation curved = corrected(from, tried);
+      if (falls_enough(curved, step_length)) return {std::move(curved), step_length};
     }
-    share *= 0.5;
+    step_length *= 0.5;
   }
   return {from, 0.0};
 }

@@ -7,10 +7,10 @@
 
 namespace dmocbench::sqp {
 
-/// What a line search ends with.
+/// The result of a line search.
 struct LineSearchResult {
-  Linearisation accepted;  ///< values only
-  double share = 0.0;      ///< of the step; 0 if none was accepted
+  Linearisation accepted;    ///< values only
+  double step_length = 0.0;  ///< 1 for the whole step; 0 if none was accepted
 };
 
 /// The l1 merit function φ(ξ) + μ Σ violations, with the weight μ from the predicted reduction of the quadratic model:
@@ -19,14 +19,14 @@ class Globalisation {
  public:
   explicit Globalisation(NonlinearProgram& program) : program_(program) {}
 
-  /// The largest share of a step that may be tried: |d_j| <= 2 (1 + |ξ_j|).
-  [[nodiscard]] static double longest_share(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
+  /// The largest step length that may be tried: |d_j| <= 2 (1 + |ξ_j|).
+  [[nodiscard]] static double longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
 
-  /// Backtracks along `step` (with curvature dᵀHd) from a share of `first_share` until the merit falls enough. A whole
+  /// Backtracks along `step` (with curvature dᵀHd) from the length `first_length` until the merit falls enough. A whole
   /// step that fails is tried once more with a second-order correction, the shortest vector that removes the violation
   /// of the constraints to first order.
   [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
-                                        double first_share);
+                                        double first_length);
 
   [[nodiscard]] double weight() const noexcept { return weight_; }
 

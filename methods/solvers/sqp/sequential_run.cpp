@@ -124,19 +124,19 @@ std::optional<Status> SequentialRun::major_iteration() {
   }
   const Eigen::VectorXd curved = hessian_->times(quadratic.step);
   const LineSearchResult search = globalisation_.search(at_, quadratic.step, quadratic.step.dot(curved),
-                                                        Globalisation::longest_share(at_.point, quadratic.step));
-  if (search.share == 0.0) {
+                                                        Globalisation::longest_length(at_.point, quadratic.step));
+  if (search.step_length == 0.0) {
     return quadratic.status == QuadraticSolution::Status::infeasible ? Status::infeasible : Status::step_failed;
   }
-  if (options_.verbose) print(quadratic.step.lpNorm<Eigen::Infinity>(), search.share, search.accepted.objective);
+  if (options_.verbose) print(quadratic.step.lpNorm<Eigen::Infinity>(), search.step_length, search.accepted.objective);
   take(search, quadratic);
   return std::nullopt;
 }
 
-void SequentialRun::print(double longest, double share, double objective) const {
+void SequentialRun::print(double longest, double step_length, double objective) const {
   fmt::print(
       "major {}, minors {} + {}, merit weight {:.2e}, shift {:.2e}, step {:.2e} taken by {:.2e}, objective {:.10e}\n",
-      majors_, phase_one_minors_, phase_two_minors_, globalisation_.weight(), shift_, longest, share, objective);
+      majors_, phase_one_minors_, phase_two_minors_, globalisation_.weight(), shift_, longest, step_length, objective);
 }
 
 void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution& quadratic) {
@@ -144,7 +144,7 @@ void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution
   if (quadratic.status == QuadraticSolution::Status::infeasible) {
     wanted = wanted.cwiseMax(-globalisation_.weight()).cwiseMin(globalisation_.weight());
   }
-  multipliers_ += search.share * (wanted - multipliers_);
+  multipliers_ += search.step_length * (wanted - multipliers_);
   const Linearisation before = std::exchange(at_, search.accepted);
   differentiate(program_, at_);
   if (limited_memory_ != nullptr) {
@@ -152,17 +152,17 @@ void SequentialRun::take(const LineSearchResult& search, const QuadraticSolution
                             (at_.gradient + at_.jacobian.transpose() * multipliers_) -
                                 (before.gradient + before.jacobian.transpose() * multipliers_));
   }
-  adapt_shift(search.share);
+  adapt_shift(search.step_length);
 }
 
-void SequentialRun::adapt_shift(double share) {
+void SequentialRun::adapt_shift(double step_length) {
   constexpr double short_step = 0.2;
   constexpr double growth = 4.0;
   constexpr double decay = 3.0;
   constexpr double smallest = 1e-6;
-  if (share < short_step) {
+  if (step_length < short_step) {
     cautious_shift_ = growth * std::max({shift_, cautious_shift_, smallest});
-  } else if (share == 1.0) {
+  } else if (step_length == 1.0) {
     cautious_shift_ /= decay;
     if (cautious_shift_ < smallest) cautious_shift_ = 0.0;
   }

@@ -34,9 +34,9 @@ class SequentialRun {
   [[nodiscard]] std::optional<Status> major_iteration();
   void choose_hessian();
   void take(const LineSearchResult& search, const QuadraticSolution& quadratic);
-  void adapt_shift(double share);
+  void adapt_shift(double step_length);
   [[nodiscard]] bool has_converged();
-  void print(double longest, double share, double objective) const;
+  void print(double longest, double step_length, double objective) const;
   [[nodiscard]] std::optional<Status> reason_to_stop() const;
   [[nodiscard]] bool observe(MinorIteration minor);
 

@@ -70,7 +70,7 @@ namespace {
 
 /// Entries of the table may be this large: smaller bounds cost more exchanges and gain little.
 constexpr double largest_entry = 4.0;
-/// A pivot below this is no pivot: the row depends on others.
+/// A smaller pivot means that the row depends on others.
 constexpr double smallest_pivot = 1e-9;
 
 bool is_slack(const QuadraticProgram& program, Eigen::Index j) { return j >= program.variable_count(); }
@@ -104,8 +104,8 @@ void improve(BasisChoice& choice) {
   }
 }
 
-/// Replaces the slacks in the basis, row by row, each by the variable with the largest pivot. A slack that went does
-/// not come back.
+/// Replaces the slacks in the basis, row by row, each by the variable with the largest pivot. A slack that has left
+/// does not return.
 void replace_slacks(const QuadraticProgram& program, BasisChoice& choice) {
   for (Eigen::Index row = 0; row < choice.table.rows(); ++row) {
     if (!is_slack(program, choice.basics[static_cast<std::size_t>(row)])) continue;
@@ -116,7 +116,7 @@ void replace_slacks(const QuadraticProgram& program, BasisChoice& choice) {
   }
 }
 
-/// The table anew, from factors of the basis: many exchanges in a row gather rounding.
+/// Computes the table from factors of the basis, because rounding accumulates over many exchanges.
 bool recompute(const QuadraticProgram& program, BasisChoice& choice) {
   BasisFactorisation factors;
   if (!factors.factorise(program, choice.basics)) return false;

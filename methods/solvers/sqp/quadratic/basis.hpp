@@ -19,7 +19,7 @@ class BasisFactorisation {
   void replace(Eigen::Index position, const Eigen::VectorXd& solved);
 
   /// True if so many columns have been replaced that new factors are cheaper and more accurate.
-  [[nodiscard]] bool is_worn() const noexcept { return replacements_.size() >= most_replacements; }
+  [[nodiscard]] bool needs_refactorisation() const noexcept { return replacements_.size() >= most_replacements; }
 
   /// B⁻¹ y.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& y) const;
@@ -49,10 +49,10 @@ struct BasisChoice {
   Eigen::MatrixXd table;  ///< B⁻¹ (columns `others`): m x others
 };
 
-/// Starts from `basics` and exchanges them for `others` until no entry of the table is larger than a small bound: then
-/// Z = (-table; I) is well conditioned, whatever the basis was before (a rank-revealing factorisation of both lists
-/// together). Where `basics` are singular, the start is the slack basis; a slack that cannot be replaced stays. Not
-/// counted as minor iterations: no point moves.
+/// Starts from `basics` and exchanges them for `others` until no entry of the table exceeds a small bound. Then
+/// Z = (-table; I) is well conditioned whatever the first basis was: a rank-revealing factorisation of both lists
+/// together. Where `basics` are singular it starts from the slack basis; a slack that cannot be replaced stays. The
+/// exchanges are no minor iterations, since no point moves.
 [[nodiscard]] BasisChoice choose_basis(const QuadraticProgram& program, std::vector<Eigen::Index> basics,
                                        std::vector<Eigen::Index> others);
 

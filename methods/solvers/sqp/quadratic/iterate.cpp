@@ -13,7 +13,7 @@ Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double feasib
       lower_(program.lower),
       upper_(program.upper),
       values_(Eigen::VectorXd::Zero(program.column_count()).cwiseMax(lower_).cwiseMin(upper_)) {
-  refresh();
+  refactorise();
 }
 
 double Iterate::infeasibility() const {
@@ -69,13 +69,13 @@ Eigen::MatrixXd Iterate::reduced_hessian() const {
 void Iterate::replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved) {
   sets_.replace_basic(position, entering);
   basis_.replace(position, solved);
-  if (basis_.is_worn()) refresh();
+  if (basis_.needs_refactorisation()) refactorise();
 }
 
 void Iterate::choose_basis_again() {
   BasisChoice choice = choose_basis(*program_, sets_.basics(), sets_.superbasics());
   sets_ = WorkingSet(program_->column_count(), std::move(choice.basics), std::move(choice.others));
-  refresh();
+  refactorise();
 }
 
 void Iterate::accept_violations() {
@@ -83,7 +83,7 @@ void Iterate::accept_violations() {
   upper_ = upper_.cwiseMax(values_);
 }
 
-void Iterate::refresh() {
+void Iterate::refactorise() {
   if (!basis_.factorise(*program_, sets_.basics())) throw Breakdown("the basis is singular");
   const Eigen::Index variables = program_->variable_count();
   Eigen::VectorXd others = values_;

@@ -18,7 +18,7 @@ class Breakdown : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A point (d, s) of the active-set method with its sets. A d = s holds throughout: the basic columns follow from the
+/// A point (d, s) of the active-set method with its sets. A d = s always holds: the basic columns follow from the
 /// others.
 class Iterate {
  public:
@@ -33,7 +33,7 @@ class Iterate {
   /// (d, s), n + m entries.
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }
   [[nodiscard]] Eigen::VectorXd variables() const { return values_.head(program_->variable_count()); }
-  /// The bounds in force: the program's, but for what `accept_violations` widened.
+  /// The bounds in force: the program's, except where `accept_violations` widened them.
   [[nodiscard]] const Eigen::VectorXd& lower() const noexcept { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const noexcept { return upper_; }
 
@@ -63,7 +63,9 @@ class Iterate {
   /// Moves all columns by `step` times `direction` (n + m entries).
   void move(const Eigen::VectorXd& direction, double step) { values_ += step * direction; }
   /// Puts a column exactly onto the bound that it has reached.
-  void settle(Eigen::Index column, bool at_upper) { values_[column] = at_upper ? upper_[column] : lower_[column]; }
+  void put_on_bound(Eigen::Index column, bool at_upper) {
+    values_[column] = at_upper ? upper_[column] : lower_[column];
+  }
 
   void make_superbasic(Eigen::Index column) { sets_.make_superbasic(column); }
   void drop_superbasic(Eigen::Index place) { sets_.drop_superbasic(place); }
@@ -77,7 +79,7 @@ class Iterate {
   void accept_violations();
 
  private:
-  void refresh();
+  void refactorise();
 
   const QuadraticProgram* program_;
   WorkingSet sets_;

@@ -13,8 +13,8 @@ namespace dmocbench::sqp {
 
 namespace {
 
-/// The columns that are neither basic nor (if `but_superbasics`) superbasic, may move, and lower the objective by it:
-/// `rates` (n + m entries) are the rates of change of the objective.
+/// The columns that may move and thereby lower the objective, without the basic and (if `but_superbasics`) the
+/// superbasic ones. `rates` (n + m entries): the rates of change of the objective.
 std::vector<PricedColumn> candidates_of(const Iterate& iterate, const Eigen::VectorXd& rates, double tolerance,
                                         bool but_superbasics) {
   std::vector<PricedColumn> candidates;
@@ -80,7 +80,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
     change[basics[position]] = -direction * solved[static_cast<Eigen::Index>(position)];
   }
   std::vector<Eigen::Index> moving = basics;
-  moving.push_back(entering.column);  // it may run into its own other bound
+  moving.push_back(entering.column);  // it may reach its own other bound
   const RatioTest test = ratio_test(iterate, moving, change, std::numeric_limits<double>::infinity());
   if (!test.blocking) throw Breakdown("no row stops a column that lowers the infeasibility");
 
@@ -89,7 +89,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
   const bool from_below = iterate.values()[leaving] < iterate.lower()[leaving] - iterate.tolerance();
   const bool from_above = iterate.values()[leaving] > iterate.upper()[leaving] + iterate.tolerance();
   iterate.move(change, test.step);
-  iterate.settle(leaving, from_above || (change[leaving] > 0.0 && !from_below));
+  iterate.put_on_bound(leaving, from_above || (change[leaving] > 0.0 && !from_below));
   if (!crosses) {
     iterate.replace_basic(static_cast<Eigen::Index>(*test.blocking), entering.column, solved);
   } else if (iterate.sets().of(leaving) == WorkingSet::Membership::superbasic) {
@@ -114,11 +114,11 @@ class PhaseTwo {
   }
 
   Eigen::VectorXd run() {
-    bool stationary = largest_rate_of_superbasics() <= allowed();
+    bool stationary = largest_rate_of_superbasics() <= tolerance();
     while (true) {
       std::optional<Eigen::Index> entering;
       if (stationary) {
-        const auto candidates = candidates_of(iterate_, rates_, allowed(), true);
+        const auto candidates = candidates_of(iterate_, rates_, tolerance(), true);
         if (candidates.empty()) return multipliers_;
         entering = pricing_.choose(candidates).column;
         add_superbasic(*entering);
@@ -130,9 +130,9 @@ class PhaseTwo {
  private:
   [[nodiscard]] const QuadraticProgram& program() const { return iterate_.program(); }
 
-  /// Scaled as the convergence test of the whole is: a quadratic program solved less accurately than that would stall
-  /// it.
-  [[nodiscard]] double allowed() const {
+  /// Scaled like the convergence test of the whole method, which would stall if quadratic programs were solved less
+  /// accurately.
+  [[nodiscard]] double tolerance() const {
     constexpr double multiplier_scale = 100.0;
     const double mean = multipliers_.size() > 0 ? multipliers_.cwiseAbs().mean() : 0.0;
     return tolerance_ * std::max(1.0, mean / multiplier_scale);
@@ -154,7 +154,7 @@ class PhaseTwo {
   void add_superbasic(Eigen::Index column) {
     iterate_.make_superbasic(column);
     if (border()) return;
-    // An ill-conditioned basis may look like negative curvature: the same columns with a better basis among them.
+    // An ill-conditioned basis may look like negative curvature: try a better basis among the same columns.
     rebuild();
   }
 
@@ -196,7 +196,7 @@ class PhaseTwo {
                          .step = test.step};
     if (test.blocking) {
       minor.leaving = moving[*test.blocking];
-      iterate_.settle(*minor.leaving, change[*minor.leaving] > 0.0);
+      iterate_.put_on_bound(*minor.leaving, change[*minor.leaving] > 0.0);
       if (*test.blocking < basic_count) {
         minor.into_basis = exchange(static_cast<Eigen::Index>(*test.blocking));
       } else {
@@ -208,7 +208,7 @@ class PhaseTwo {
     compute_rates();
     if (!test.blocking) refine();
     report(iterate_, minor, observer_);
-    return !test.blocking || largest_rate_of_superbasics() <= allowed();
+    return !test.blocking || largest_rate_of_superbasics() <= tolerance();
   }
 
   /// The basic column at `position` stays at its bound; the superbasic column with the largest pivot takes its place.
@@ -225,10 +225,11 @@ class PhaseTwo {
     return entering;
   }
 
-  /// Rounding of an ill-conditioned reduced Hessian leaves the step a little short; the rest belongs to the same step.
+  /// Where the reduced Hessian is ill conditioned, rounding leaves the step a little short; the rest belongs to the
+  /// same step.
   void refine() {
     constexpr int most = 3;
-    for (int i = 0; i < most && largest_rate_of_superbasics() > 0.1 * allowed(); ++i) {
+    for (int i = 0; i < most && largest_rate_of_superbasics() > 0.1 * tolerance(); ++i) {
       iterate_.move(iterate_.null_space_times(-reduced_.solve(iterate_.at_superbasics(rates_))), 1.0);
       compute_rates();
     }

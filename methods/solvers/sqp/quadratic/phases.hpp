@@ -8,8 +8,8 @@
 
 namespace dmocbench::sqp {
 
-/// Told of every minor iteration as it ends; false stops the method. The count of minor iterations is the number of
-/// calls.
+/// Called at the end of every minor iteration; false stops the method. The number of calls is the count of minor
+/// iterations.
 using MinorObserver = std::function<bool(const MinorIteration&)>;
 
 /// Thrown where an observer asks to stop.

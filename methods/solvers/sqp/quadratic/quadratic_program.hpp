@@ -5,7 +5,7 @@
 
 namespace dmocbench::sqp {
 
-/// The Hessian of a quadratic program: a symmetric matrix that is only ever multiplied.
+/// The Hessian of a quadratic program, a symmetric matrix of which only products are needed.
 class Hessian {
  public:
   virtual ~Hessian() = default;
@@ -25,8 +25,8 @@ class Hessian {
 ///
 ///   minimise gᵀd + ½ dᵀHd  such that  A d - s = 0,  lower <= (d, s) <= upper,
 ///
-/// where the slack s_i stands for the linearised row i. A row that is an equality has a fixed slack. Bounds are those
-/// of the nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
+/// where the slack s_i stands for the linearised constraint i; that of an equality is fixed. Bounds are those of the
+/// nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
 struct QuadraticProgram {
   const Hessian* hessian = nullptr;  ///< n x n, positive definite on the null space of the equality rows
   Eigen::VectorXd gradient;          ///< g, n entries

@@ -14,7 +14,7 @@
 
 namespace dmocbench::sqp {
 
-/// What a quadratic program ends with.
+/// How a quadratic program ended.
 struct QuadraticSolution {
   enum class Status : std::uint8_t {
     optimal,

@@ -12,24 +12,13 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Rates below this share of the largest one are rounding.
 constexpr double smallest_rate = 1e-11;
 
-/// The bound that the column moves towards and must not pass; infinite if there is none.
-double bound_ahead(const MovingColumn& column, double tolerance) {
-  if (column.rate > 0.0) {
-    if (column.value < column.lower - tolerance) return column.lower;
-    if (column.value > column.upper + tolerance) return never;
-    return column.upper;
-  }
-  if (column.value > column.upper + tolerance) return column.upper;
-  if (column.value < column.lower - tolerance) return -never;
-  return column.lower;
-}
-
-/// The step at which it is reached if `slack` beyond it is allowed.
-double step_to_bound(const MovingColumn& column, double tolerance, double slack) {
-  const double bound = bound_ahead(column, tolerance);
-  if (std::isinf(bound)) return never;
-  const double distance = column.rate > 0.0 ? bound - column.value : column.value - bound;
-  return std::max(0.0, (distance + slack) / std::abs(column.rate));
+/// The step at which the column reaches the bound ahead of it, if it may pass that by `slack`. One that is outside has
+/// the bound that it violates ahead of it, or none if it moves away.
+double step_to_bound(MovingColumn column, double tolerance, double slack) {
+  if (column.rate < 0.0) column = {-column.value, -column.rate, -column.upper, -column.lower};
+  if (column.value > column.upper + tolerance) return never;
+  const double bound = column.value < column.lower - tolerance ? column.lower : column.upper;
+  return std::max(0.0, (bound - column.value + slack) / column.rate);
 }
 
 }  // namespace
