@@ -9,12 +9,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/interior_point/banded_kkt.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
@@ -342,22 +342,19 @@ namespace {
 
 using Factorisation = InteriorPointOptions::Factorisation;
 
-constexpr std::array<NamedChoice<Factorisation>, 3> factorisations{
-    {{"intervals", Factorisation::intervals}, {"banded", Factorisation::banded}, {"sparse", Factorisation::sparse}}};
+constexpr std::array<NamedChoice<Factorisation>, 2> factorisations{
+    {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}}};
 
-/// Null, with the reason in `why`, where the program has no structure that intervals need.
-std::unique_ptr<interior_point::KktSystem> make_system(NonlinearProgram& program, const InteriorPointOptions& choices,
-                                                       std::string& why) {
+using interior_point::KktSystem;
+
+/// The reason in a sentence where the program has no structure that intervals need.
+tl::expected<std::unique_ptr<KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                  const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
-  const Factorisation choice = choices.factorisation;
-  if (choice == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  if (choice == Factorisation::banded) return interior_point::BandedKkt::make(program, why);
-  auto by_intervals = interior_point::IntervalKkt::make(program);
-  if (!by_intervals) {
-    why = by_intervals.error();
-    return nullptr;
-  }
-  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
+  if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
+  return interior_point::IntervalKkt::make(program).map([&](auto kkt) -> std::unique_ptr<KktSystem> {
+    return std::make_unique<interior_point::RefinedKkt>(program, std::move(kkt));
+  });
 }
 
 }  // namespace
@@ -379,18 +376,17 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
     throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
                             program.constraint_count()));
   }
-  std::string why;
-  const auto kkt = make_system(program, choices_, why);
+  const auto kkt = make_system(program, choices_);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
     refused.message = fmt::format(
         "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
         "factorisation=sparse.",
-        why);
+        kkt.error());
     return refused;
   }
-  interior_point::InteriorPointRun run(program, *kkt, options());
+  interior_point::InteriorPointRun run(program, **kkt, options());
   std::optional<Status> end = run.begin(start);
   while (!end) end = run.iterate();
   return run.solution(*end);

@@ -31,9 +31,9 @@ class EntryTable {
     place_unknowns();
     place_rows();
     result_.shape = {.node = count(result_.node_unknowns),
-                     .carried = count(result_.node_rows),
-                     .shared = count(result_.shared_unknowns),
-                     .inner = count(result_.inner_unknowns),
+                     .node_sums = count(result_.node_rows),
+                     .global = count(result_.shared_unknowns),
+                     .interval = count(result_.inner_unknowns),
                      .rows = count(result_.node_rows) + count(result_.interval_rows),
                      .inequalities = count(result_.inequality_rows)};
     if (free_size(result_.shape) < 0) refuse("an interval has more equalities than unknowns");
@@ -168,7 +168,7 @@ class EntryTable {
   [[nodiscard]] int inner(const Member& m) const { return result_.shape.node + m.column; }
   [[nodiscard]] int this_node(const Member& m) const { return next_size(result_.shape) + m.column; }
   [[nodiscard]] int shared(const Member& m) const {
-    return next_size(result_.shape) + result_.shape.node + result_.shape.carried + m.column;
+    return next_size(result_.shape) + result_.shape.node + result_.shape.node_sums + m.column;
   }
 
   /// Where an unknown is seen from interval k; -1 if it does not belong to it.
@@ -272,7 +272,7 @@ class EntryTable {
     const int column = seen_from(of, row.at);
     if (column < 0) refuse("a row of an interval reads unknowns of another one");
     if (row.is_inequality) return Target{{LocalEntry::Block::inequality, row.column, column}, row.at};
-    const int number = result_.shape.carried + row.column;
+    const int number = result_.shape.node_sums + row.column;
     return Target{{LocalEntry::Block::equality, number, column}, row.at};
   }
 
@@ -310,17 +310,17 @@ class EntryTable {
     using Block = LocalEntry::Block;
     const auto append_unknown = [&](int column, std::size_t first) {
       result_.local.push_back({Block::hessian, column, column, Source::diagonal, first});
-      result_.local.push_back({Block::hessian, column, one, Source::slope, first});
+      result_.local.push_back({Block::hessian, column, one, Source::gradient, first});
     };
     for (int i = 0; i < shape.node; ++i) append_unknown(i, result_.node_unknowns[static_cast<std::size_t>(i)] + 1);
-    for (int i = 0; i < shape.inner; ++i) {
+    for (int i = 0; i < shape.interval; ++i) {
       const auto j = static_cast<std::size_t>(i);
       if (!result_.inner_is_fixed[j]) append_unknown(shape.node + i, result_.inner_unknowns[j]);
     }
     for (int i = 0; i < shape.rows; ++i) {
       const auto j = static_cast<std::size_t>(i);
       const std::size_t first =
-          i < shape.carried ? result_.node_rows[j] : result_.interval_rows[j - result_.node_rows.size()];
+          i < shape.node_sums ? result_.node_rows[j] : result_.interval_rows[j - result_.node_rows.size()];
       result_.local.push_back({Block::equality, i, one, Source::rows, first});
     }
     for (int i = 0; i < shape.inequalities; ++i) {
