@@ -25,15 +25,14 @@ double median(std::vector<double> values) {
 }
 
 /// Solves several times from the same start; the answer is the first one's, the times are medians.
-Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& start, const Case& what,
-                          const SolverOptions& options, int repeats) {
-  const auto solver = make_solver(what.solver, options);
-  Solution solution = solver->solve(transcription, start);
+Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& start, const Solver& solver,
+                          int repeats) {
+  Solution solution = solver.solve(transcription, start);
   std::vector<double> seconds{solution.seconds};
   std::vector<double> evaluation_seconds{solution.evaluation_seconds};
   std::vector<double> linear_seconds{solution.linear_seconds.value_or(0.0)};
   for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
-    const Solution again = solver->solve(transcription, start);
+    const Solution again = solver.solve(transcription, start);
     if (again.status == Status::interrupted) break;
     seconds.push_back(again.seconds);
     evaluation_seconds.push_back(again.evaluation_seconds);
@@ -109,14 +108,16 @@ SolvedCase unsolved_case(const Case& what, const std::string& reason) {
   return result;
 }
 
-SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats, bool polishes) {
+SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats, bool polishes,
+                      const SolverMaker& make) {
   SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
   const auto setup_start = Clock::now();
   Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
                               what.grid, what.derivatives, what.form);
   const double setup_seconds = seconds_since(setup_start);
   result.start = sample(transcription, start.motion);
-  result.solution = solve_repeatedly(transcription, result.start, what, options, repeats);
+  const auto solver = make ? make(what, options) : make_solver(what.solver, options);
+  result.solution = solve_repeatedly(transcription, result.start, *solver, repeats);
   Solution& solution = result.solution;
   if (what.derivatives != "tape") judge_exactly(what, options.tolerance, solution);
   if (polishes) result.row.set("polish_steps", static_cast<long long>(polish(transcription, solution)));

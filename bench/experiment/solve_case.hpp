@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +34,16 @@ struct Start {
   std::optional<Motion> branch;
 };
 
+/// Makes the solver of a case.
+using SolverMaker = std::function<std::unique_ptr<Solver>(const Case& of, const SolverOptions& options)>;
+
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
 /// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
 /// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
 /// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps (column polish_steps; no time
-/// counts them).
+/// counts them). `make`: instead of `make_solver` by the case's name of a solver.
 [[nodiscard]] SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats,
-                                    bool polishes = false);
+                                    bool polishes = false, const SolverMaker& make = {});
 
 /// The row of a case that could not even start, with status "not run" and the reason as its message.
 [[nodiscard]] SolvedCase unsolved_case(const Case& what, const std::string& reason);

@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "bench/experiment/solve_case.hpp"
@@ -43,25 +42,22 @@ std::optional<double> cost_of(const Row& row, const Quantity& quantity) {
   return *value * row.number("intervals").value_or(0.0);
 }
 
-/// One method by one solver over its grids.
-struct Line {
-  const Row* head = nullptr;
-  std::vector<const Row*> rows;
-};
+using Key = std::vector<std::string>;
+/// The rows of one method by one solver and factorisation: its grids.
+using Line = std::vector<const Row*>;
 
-std::vector<std::string> key_of(const Row& row, const std::vector<const char*>& columns) {
-  std::vector<std::string> key;
-  key.reserve(columns.size());
+Key key_of(const Row& row, const std::vector<const char*>& columns) {
+  Key key;
   for (const char* column : columns) key.push_back(row.text(column));
   return key;
 }
 
 const std::vector<const char*> program_columns{"problem", "method", "tableau", "stages", "intervals"};
-const std::vector<const char*> line_columns{"problem", "method", "tableau", "stages", "solver", "factorisation"};
+const std::vector<const char*> line_columns{"method", "problem", "tableau", "stages", "solver", "factorisation"};
 
 /// The rows that count.
 std::vector<const Row*> comparable_rows(const Table& table) {
-  std::map<std::vector<std::string>, double> lowest;
+  std::map<Key, double> lowest;
   for (const Row& row : table.rows()) {
     if (!is_usable(row)) continue;
     const double objective = row.number("objective").value_or(std::numeric_limits<double>::infinity());
@@ -77,29 +73,8 @@ std::vector<const Row*> comparable_rows(const Table& table) {
   return rows;
 }
 
-std::vector<Line> lines_of(const std::vector<const Row*>& rows) {
-  std::map<std::vector<std::string>, std::size_t> found;
-  std::vector<Line> lines;
-  for (const Row* row : rows) {
-    const auto [place, is_new] = found.try_emplace(key_of(*row, line_columns), lines.size());
-    if (is_new) lines.push_back({row, {}});
-    lines[place->second].rows.push_back(row);
-  }
-  return lines;
-}
-
-/// DMOC by the same solver and factorisation.
-const Line* dmoc_beside(const std::vector<Line>& lines, const Row& head) {
-  const auto found = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
-    const auto same = [&](const char* column) { return line.head->text(column) == head.text(column); };
-    return line.head->text("method") == "dmoc" && same("factorisation") && same("problem") && same("tableau") &&
-           same("stages") && same("solver");
-  });
-  return found == lines.end() ? nullptr : &*found;
-}
-
 std::optional<double> on_same_grid(const Line& line, const Row& other, const Quantity& quantity) {
-  for (const Row* row : line.rows) {
+  for (const Row* row : line) {
     if (row->text("intervals") == other.text("intervals")) return cost_of(*row, quantity);
   }
   return std::nullopt;
@@ -109,7 +84,7 @@ std::optional<double> at_same_error(const Line& line, const Row& other, const Qu
   const auto error = other.number("objective_error");
   if (!error || !(*error > 0.0)) return std::nullopt;
   std::vector<ErrorCostPoint> points;
-  for (const Row* row : line.rows) {
+  for (const Row* row : line) {
     const auto cost = cost_of(*row, quantity);
     const double error_of_row = row->number("objective_error").value_or(0.0);
     if (!cost || !(*cost > 0.0) || !(error_of_row > 0.0)) continue;
@@ -129,21 +104,25 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
 Table advantage_ratios(const Table& advantage) {
   Table table({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
                "ratio_at_equal_intervals", "ratio_at_equal_accuracy"});
-  const std::vector<Line> lines = lines_of(comparable_rows(advantage));
-  for (const Line& line : lines) {
-    if (line.head->text("method") == "dmoc") continue;
-    const Line* const dmoc = dmoc_beside(lines, *line.head);
-    if (dmoc == nullptr) continue;
+  const std::vector<const Row*> rows = comparable_rows(advantage);
+  std::map<Key, Line> lines;
+  for (const Row* row : rows) lines[key_of(*row, line_columns)].push_back(row);
+  for (const Row* head : rows) {
+    Key key = key_of(*head, line_columns);
+    const Line& line = lines.at(key);
+    key.front() = "dmoc";
+    const auto dmoc = lines.find(key);
+    if (head != line.front() || head->text("method") == "dmoc" || dmoc == lines.end()) continue;
     for (const Quantity& quantity : quantities) {
-      for (const Row* row : line.rows) {
+      for (const Row* row : line) {
         const auto cost = cost_of(*row, quantity);
         if (!cost) continue;
         Row result;
         for (const char* column : line_columns) result.set(column, row->text(column));
         result.set("intervals", row->text("intervals"));
         result.set("quantity", quantity.name);
-        result.set("ratio_at_equal_intervals", ratio(cost, on_same_grid(*dmoc, *row, quantity)));
-        result.set("ratio_at_equal_accuracy", ratio(cost, at_same_error(*dmoc, *row, quantity)));
+        result.set("ratio_at_equal_intervals", ratio(cost, on_same_grid(dmoc->second, *row, quantity)));
+        result.set("ratio_at_equal_accuracy", ratio(cost, at_same_error(dmoc->second, *row, quantity)));
         table.append(std::move(result));
       }
     }

@@ -12,8 +12,11 @@
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/structure_advantage/advantage_ratios.hpp"
+#include "bench/structure_advantage/banded_kkt.hpp"
 #include "bench/structure_advantage/operation_count.hpp"
 #include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 namespace dmocbench {
 
@@ -36,12 +39,6 @@ const std::vector<std::string> own_columns{"factorisation",
                                            "half_bandwidth",
                                            "objective_error"};
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 /// The ways to solve a case. Solvers but ours have none to choose.
 std::vector<std::string> ways_of(const Case& what, const std::vector<std::string>& chosen) {
   if (what.solver != structured_solver) return {""};
@@ -51,6 +48,19 @@ std::vector<std::string> ways_of(const Case& what, const std::vector<std::string
     if (is_chosen) ways.push_back(way);
   }
   return ways;
+}
+
+/// The solver by the way of the case. The band is no factorisation of the method's own.
+std::unique_ptr<Solver> make_solver_of(const Case& what, SolverOptions options) {
+  if (what.variant == "banded") {
+    InteriorPointOptions choices;
+    choices.make_kkt_system = [](NonlinearProgram& program) {
+      return std::make_unique<interior_point::BandedKkt>(program);
+    };
+    return std::make_unique<InteriorPointSolver>(std::move(options), std::move(choices));
+  }
+  if (!what.variant.empty()) options.passed_on["factorisation"] = what.variant;
+  return make_solver(what.solver, options);
 }
 
 }  // namespace
@@ -83,7 +93,7 @@ AdvantageRun::AdvantageRun(const ExperimentOptions& options, const std::vector<s
       for (std::size_t i = first; i < last; ++i) {
         cases.push_back(all[i]);
         cases.back().variant = way;
-        static_cast<void>(make_solver(all[i].solver, options_for(cases.back())));
+        static_cast<void>(make_solver_of(cases.back(), solver_options_));
       }
     }
     first = last;
@@ -91,12 +101,6 @@ AdvantageRun::AdvantageRun(const ExperimentOptions& options, const std::vector<s
   starts_.check(cases);
   for (Case& what : cases) subjects_.push_back({std::move(what), std::nullopt, {}, {}, {}});
   solver_options_.stop_requested = interrupt_requested;
-}
-
-SolverOptions AdvantageRun::options_for(const Case& what) const {
-  SolverOptions options = solver_options_;
-  if (!what.variant.empty()) options.passed_on["factorisation"] = what.variant;
-  return options;
 }
 
 /// Subjects that differ in method and solver only.
@@ -117,7 +121,7 @@ void AdvantageRun::solve_once(Subject& subject, const Progress& progress) {
   try {
     const Start start{.motion = starts_.motion_for(what), .branch = starts_.branch_for(what)};
     progress.show(what.label());
-    SolvedCase solved = solve_case(what, start, options_for(what), repeats_of(subject));
+    SolvedCase solved = solve_case(what, start, solver_options_, repeats_of(subject), false, make_solver_of);
     subject.seconds.push_back(solved.solution.seconds);
     subject.evaluation_seconds.push_back(solved.solution.evaluation_seconds);
     if (solved.solution.linear_seconds) subject.linear_seconds.push_back(*solved.solution.linear_seconds);

@@ -44,7 +44,6 @@ class AdvantageRun {
   };
 
   [[nodiscard]] std::vector<std::vector<std::size_t>> groups() const;
-  [[nodiscard]] SolverOptions options_for(const Case& what) const;
   [[nodiscard]] static int repeats_of(const Subject& subject);
   void solve_group(const std::vector<std::size_t>& group, Progress& progress);
   void solve_once(Subject& subject, const Progress& progress);

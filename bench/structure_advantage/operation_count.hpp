@@ -5,22 +5,28 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 
 namespace dmocbench {
 
-/// What one factorisation of the KKT matrix takes: multiplications, each with an addition, and divisions.
+/// What one factorisation of the KKT matrix takes, for the whole grid.
 struct OperationCount {
-  /// Of the elimination; none where a solver does not tell.
+  /// Multiplications, each with an addition, and divisions; none where a solver does not tell.
   std::optional<double> elimination;
   /// Of a band: the largest distance of an entry from the diagonal.
   std::optional<long long> half_bandwidth;
 };
 
-/// Factorises the KKT matrix at a solution, without bounds' terms but with a unit shift if it needs one, by one of
-/// `interior_point`'s ways and counts: "intervals" by running the elimination on numbers that count, "banded" from the
-/// rows that LAPACK exchanged, "sparse" as MUMPS says. Empty for another name, and where the matrix cannot be
-/// factorised in that way. For the whole grid.
+/// Factorises the KKT matrix at a solution, without the terms of bounds and with a unit shift if it needs one, and
+/// counts: "intervals" by running the elimination on numbers that count, "banded" from the rows that LAPACK exchanged,
+/// "sparse" as MUMPS says. Empty for another name, and where the matrix cannot be factorised in that way.
 [[nodiscard]] OperationCount count_operations(NonlinearProgram& program, const Solution& solution,
                                               const std::string& factorisation);
+
+/// The kernels of the elimination by intervals for a number type that counts: the same source, slow. Not for two
+/// threads.
+[[nodiscard]] interior_point::SegmentKernel counting_segment_kernel(const interior_point::Shape& shape);
+/// Multiplications and divisions per interval of the last backward sweep by such a kernel.
+[[nodiscard]] double counted_operations_per_interval();
 
 }  // namespace dmocbench

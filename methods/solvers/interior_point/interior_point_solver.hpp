@@ -17,7 +17,6 @@ class KktSystem;
 struct InteriorPointOptions {
   enum class Factorisation : std::uint8_t {
     intervals,  ///< interval by interval; a program whose structure does not allow it is refused
-    banded,     ///< LAPACK's LU with exchanges of rows, for any program with an interval structure
     sparse,     ///< by MUMPS, for any program
   };
   Factorisation factorisation = Factorisation::intervals;
@@ -28,7 +27,7 @@ struct InteriorPointOptions {
 
 /// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md.
 ///
-/// `InteriorPointOptions` by name: factorisation=intervals|banded|sparse.
+/// `InteriorPointOptions` by name: factorisation=intervals|sparse.
 class InteriorPointSolver final : public Solver {
  public:
   /// Throws `Error` on an option passed on that there is not, or a value that it does not take.

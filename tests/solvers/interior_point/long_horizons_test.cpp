@@ -12,8 +12,8 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
-#include "methods/solvers/interior_point/intervals/group_memory.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/intervals/segment_group.hpp"
 #include "methods/solvers/interior_point/newton_residual.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 #include "methods/transcription/start.hpp"
@@ -91,9 +91,7 @@ void expect_nothing_to_correct(const Problem& problem, const tests::Scheme& sche
   std::vector<Steps> found;
   for (const std::size_t threads : {1U, 2U, 3U}) {
     const tests::Threads there(threads);
-    auto made = IntervalKkt::make(*program);
-    ASSERT_TRUE(made) << made.error();
-    const auto& kkt = *made;
+    const auto kkt = IntervalKkt::make(*program).value();
     found.emplace_back(numbers);
     ASSERT_EQ(found.back().solve_with(*kkt, numbers), FactorisationStatus::solved);
     EXPECT_TRUE(found.back() == found.front()) << threads << " threads";
@@ -143,7 +141,7 @@ class GroupSweeps {
     give(Source::hessian, numbers_.hessian);
     give(Source::diagonal, numbers_.diagonal);
     give(Source::compliance, numbers_.compliance);
-    give(Source::slope, numbers_.slope);
+    give(Source::gradient, numbers_.slope);
     give(Source::rows, numbers_.rows);
     give(Source::padded, padded_);
     for (const PaddedColumn& column : entries_.padded) {
@@ -158,7 +156,7 @@ class GroupSweeps {
   struct Result {
     explicit Result(const KktNumbers& numbers) : steps(numbers) {}
     Steps steps;
-    std::vector<double> value;  // and reach
+    std::vector<double> value;  // and reachability
     int steps_of_group = 0;
     int recorded_steps = 0;
   };
@@ -173,7 +171,7 @@ class GroupSweeps {
     Result result(numbers_);
     const std::ptrdiff_t X = state_size(plan_.shape);
     result.value.assign(group.value, group.value + X * (2 * X + 1) * lane_count);
-    result.value.insert(result.value.end(), group.reach, group.reach + X * (X + 1) * lane_count);
+    result.value.insert(result.value.end(), group.reachability, group.reachability + X * (X + 1) * lane_count);
     tests::RandomPoints random;
     for (std::ptrdiff_t i = 0; i < X * lane_count; ++i) {
       group.state[i] = random.number();
@@ -243,10 +241,9 @@ KktNumbers system_at_guess(Transcription& program, const Eigen::VectorXd& guess)
   return numbers;
 }
 
-/// What one elimination leaves of the slope, relative to the terms Jᵀ δλ that cancel in it.
-double relative_rest_of_slope(Transcription& program, const KktNumbers& numbers) {
-  const auto made = IntervalKkt::make(program);
-  const auto& kkt = made.value();
+/// What one elimination leaves of the gradient, relative to the terms Jᵀ δλ that cancel in it.
+double relative_rest_of_gradient(Transcription& program, const KktNumbers& numbers) {
+  const auto kkt = IntervalKkt::make(program).value();
   Steps found(numbers);
   EXPECT_EQ(found.solve_with(*kkt, numbers), FactorisationStatus::solved);
   NewtonResidual residual(program);
@@ -263,8 +260,8 @@ TEST(LongHorizons, KeepTheDigitsOfDmocStepsWhenIntervalsBecomeShort) {
   for (const Eigen::Index intervals : {64, 512, 4096}) {
     Transcription program(*problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(intervals));
     const Eigen::VectorXd guess = sample(program, guessed_motion(*problem));
-    EXPECT_LT(relative_rest_of_slope(program, system_at_guess(program, guess)), 2e-12) << "N = " << intervals;
-    EXPECT_LT(relative_rest_of_slope(program, tests::shifted_system(program, guess)), 5e-13) << "N = " << intervals;
+    EXPECT_LT(relative_rest_of_gradient(program, system_at_guess(program, guess)), 2e-12) << "N = " << intervals;
+    EXPECT_LT(relative_rest_of_gradient(program, tests::shifted_system(program, guess)), 5e-13) << "N = " << intervals;
   }
 }
 

@@ -138,7 +138,7 @@ TEST(SegmentChain, OfManySegmentsOfAnyLengthIsTheWholeHorizon) {
     const Eigen::VectorXd multiplier = random.vector(n);
     Eigen::MatrixXd states;
     Eigen::MatrixXd multipliers;
-    chain.spread(first, multiplier, states, multipliers);
+    chain.back_substitute(first, multiplier, states, multipliers);
     EXPECT_EQ(states.col(0), first);
     EXPECT_EQ(multipliers.rightCols(1), multiplier);
     for (std::size_t s = 0; s + 1 < values.size(); ++s) {

@@ -29,22 +29,6 @@ Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays
   return matrix;
 }
 
-/// Largest entry of what is left, with every row measured by its own largest entry.
-std::pair<Eigen::Index, Eigen::Index> best_pivot(const Eigen::MatrixXd& left, const Eigen::VectorXd& row_scale,
-                                                 Eigen::Index from, Eigen::Index end_of_columns) {
-  std::pair<Eigen::Index, Eigen::Index> best{from, from};
-  double largest = 0.0;
-  for (Eigen::Index j = from; j < end_of_columns; ++j) {
-    for (Eigen::Index i = from; i < left.rows(); ++i) {
-      const double size = std::abs(left(i, j)) / row_scale[i];
-      if (!(size > largest)) continue;
-      largest = size;
-      best = {i, j};
-    }
-  }
-  return best;
-}
-
 /// `columns_in_order`: the columns are taken as they stand, the first of them dependent.
 std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
@@ -58,7 +42,14 @@ std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
   constexpr double smallest = 1e-12;  // of a row's largest entry: beyond it a pivot is rounding
   for (Eigen::Index p = 0; p < left.rows(); ++p) {
-    const auto [row, column] = best_pivot(left, row_scale, p, columns_in_order ? p + 1 : left.cols());
+    // The largest entry of what is left, with every row measured by its own largest entry.
+    const Eigen::Index height = left.rows() - p;
+    const Eigen::Index width = columns_in_order ? 1 : left.cols() - p;
+    Eigen::Index row = 0;
+    Eigen::Index column = 0;
+    (left.block(p, p, height, width).array().abs().colwise() / row_scale.tail(height).array()).maxCoeff(&row, &column);
+    row += p;
+    column += p;
     const double pivot = left(row, column);
     if (!(std::abs(pivot) > smallest * row_scale[row])) return std::nullopt;
     left.row(p).swap(left.row(row));
@@ -102,18 +93,19 @@ class Slots {
     const int node = blocks_.shape.node;
     switch (entry.block) {
       case LocalEntry::Block::equality:
-        return twice(blocks_.equality(row(entry.row), column(entry.column)));
+        return twice(blocks_.equalities()(row(entry.row), column(entry.column)));
       case LocalEntry::Block::carry:
-        return twice(blocks_.carry(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
+        return twice(
+            blocks_.carry()(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
       case LocalEntry::Block::inequality:
-        return twice(entry.column < 0 ? blocks_.compliance() + entry.row
-                                      : blocks_.inequality(entry.row, column(entry.column)));
+        return twice(entry.column < 0 ? blocks_.compliance()(entry.row, 0)
+                                      : blocks_.inequalities()(entry.row, column(entry.column)));
       case LocalEntry::Block::hessian:
         break;
     }
-    const int slot = blocks_.hessian(column(entry.row), column(entry.column));
+    const int slot = blocks_.hessian()(column(entry.row), column(entry.column));
     if (entry.column >= next_size(blocks_.shape)) return twice(slot);
-    return {slot, blocks_.hessian(column(entry.column), column(entry.row))};
+    return {slot, blocks_.hessian()(column(entry.column), column(entry.row))};
   }
 
  private:
@@ -124,58 +116,59 @@ class Slots {
   std::vector<int> next_at_;
 };
 
-void append_collected(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+void append_gathers(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
   std::vector<bool> is_set(static_cast<std::size_t>(slots.blocks().size()), false);
+  const auto append = [&](const LocalEntry& entry, bool from_before, int slot, int mirror) {
+    const auto at = static_cast<std::size_t>(slot);
+    plan.gathers.push_back({entry.source, is_set[at], from_before, entry.first, slot, mirror});
+    is_set[at] = true;
+  };
   for (const LocalEntry& entry : entries.local) {
     const auto [slot, mirror] = slots.of(entry);
-    const auto at = static_cast<std::size_t>(slot);
-    plan.collected.push_back({entry.source, is_set[at], false, entry.first, slot, mirror});
-    is_set[at] = true;
+    append(entry, false, slot, mirror);
   }
   // What the interval before has put into s_k beyond J_{k,k-1} x_{k-1} is taken back.
   for (const LocalEntry& entry : entries.local) {
     if (entry.block != LocalEntry::Block::carry || entry.column >= entries.shape.node) continue;
     if (!moves_by_increment(entries.shape, plan.node_in_next.data(), entry.column)) continue;
-    const int slot = slots.blocks().equality(slots.row(entry.row), next_size(entries.shape) + entry.column);
-    const auto at = static_cast<std::size_t>(slot);
-    plan.collected.push_back({entry.source, is_set[at], true, entry.first, slot, slot});
-    is_set[at] = true;
+    const int slot = slots.blocks().equalities()(slots.row(entry.row), next_size(entries.shape) + entry.column);
+    append(entry, true, slot, slot);
   }
 }
 
 /// The constants: s_k stands in the rows of its node as it is; a fixed unknown has a Hessian of its own.
-void append_ones(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+void append_unit_entries(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
   const Shape& shape = entries.shape;
-  for (int i = 0; i < shape.carried; ++i) {
-    plan.ones.push_back(slots.blocks().equality(slots.row(i), next_size(shape) + shape.node + i));
+  for (int i = 0; i < shape.node_sums; ++i) {
+    plan.unit_entries.push_back(slots.blocks().equalities()(slots.row(i), next_size(shape) + shape.node + i));
   }
-  for (int j = 0; j < shape.inner; ++j) {
+  for (int j = 0; j < shape.interval; ++j) {
     if (!entries.inner_is_fixed[static_cast<std::size_t>(j)]) continue;
     const int place = slots.column(shape.node + j);
-    plan.ones.push_back(slots.blocks().hessian(place, place));
+    plan.unit_entries.push_back(slots.blocks().hessian()(place, place));
   }
 }
 
-void append_emitted(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
+void append_scatters(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
   const Shape& shape = entries.shape;
-  using What = Emitted::What;
+  const ForwardBlocks<Shape> results{shape};
   for (int i = 0; i < shape.node; ++i) {
-    plan.emitted.push_back({What::state, i, false, entries.node_unknowns[static_cast<std::size_t>(i)] + 1});
+    const std::size_t first = entries.node_unknowns[static_cast<std::size_t>(i)];
+    plan.scatters.push_back({results.next_state()(i, 0), false, first + 1});
   }
-  for (int j = 0; j < shape.inner; ++j) {
+  for (int j = 0; j < shape.interval; ++j) {
     const auto column = static_cast<std::size_t>(j);
     if (entries.inner_is_fixed[column]) continue;
     const int place = slots.column(shape.node + j);
-    const bool is_free = place >= shape.rows;
-    plan.emitted.push_back({is_free ? What::free : What::dependent, is_free ? place - shape.rows : place, false,
-                            entries.inner_unknowns[column]});
+    const int index = place >= shape.rows ? results.columns()(place - shape.rows, 0) : results.dependent()(place, 0);
+    plan.scatters.push_back({index, false, entries.inner_unknowns[column]});
   }
   for (int i = 0; i < shape.rows; ++i) {
-    const bool of_node = i < shape.carried;
+    const bool of_node = i < shape.node_sums;
     const std::size_t first = of_node ? entries.node_rows[static_cast<std::size_t>(i)]
-                                      : entries.interval_rows[static_cast<std::size_t>(i - shape.carried)];
+                                      : entries.interval_rows[static_cast<std::size_t>(i - shape.node_sums)];
     // Without rows of its own an interval's multipliers come as the derivative with respect to s, in natural order.
-    plan.emitted.push_back({What::multiplier, has_own_rows(shape) ? slots.row(i) : i, true, first});
+    plan.scatters.push_back({results.multipliers()(has_own_rows(shape) ? slots.row(i) : i, 0), true, first});
   }
 }
 
@@ -198,9 +191,9 @@ std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, 
   plan.shape.is_plain = is_plain && std::is_sorted(order->columns.begin(), order->columns.end());
   for (const double pivot : order->pivots) plan.pivot_scales.push_back(1.0 / pivot);
   for (int i = 0; i < entries.shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
-  append_ones(entries, slots, plan);
-  append_collected(entries, slots, plan);
-  append_emitted(entries, slots, plan);
+  append_unit_entries(entries, slots, plan);
+  append_gathers(entries, slots, plan);
+  append_scatters(entries, slots, plan);
   return plan;
 }
 

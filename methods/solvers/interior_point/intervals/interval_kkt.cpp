@@ -17,8 +17,7 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-tl::expected<std::unique_ptr<IntervalKkt>, std::string> IntervalKkt::make(const NonlinearProgram& program,
-                                                                          SegmentKernelChoice choose) {
+IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
   try {
@@ -29,13 +28,12 @@ tl::expected<std::unique_ptr<IntervalKkt>, std::string> IntervalKkt::make(const 
 }
 
 IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
-    : entries_(std::move(entries)), ends_(program, entries_), choose_(choose), weights_(entries_) {
+    : entries_(std::move(entries)), boundary_(program, entries_), choose_(choose), weights_(entries_) {
   padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
   groups_ = cut_into_groups(entries_.shape, entries_.intervals);
 }
 
-NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                    const Eigen::VectorXd& rows) {
+NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side) {
   NewtonArrays arrays;
   const auto give = [&](Source source, const Eigen::VectorXd& values) {
     arrays.arrays[static_cast<std::size_t>(source)] = values.data();
@@ -44,8 +42,8 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const Eigen::Vector
   give(Source::hessian, matrix.hessian);
   give(Source::diagonal, matrix.diagonal);
   give(Source::compliance, matrix.compliance);
-  give(Source::slope, slope);
-  give(Source::rows, rows);
+  give(Source::gradient, right_hand_side.gradient);
+  give(Source::rows, right_hand_side.constraints);
   give(Source::padded, padded_);
   for (const PaddedColumn& column : entries_.padded) {
     const double* from = arrays.of(column.source) + column.entry;
@@ -70,32 +68,30 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
 
 FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                        const KktStep& step) {
-  const auto& [slope, rows] = right_hand_side;
-  const auto& [primal_step, multiplier_step] = step;
-  NewtonArrays arrays = arrays_of(matrix, slope, rows);
+  NewtonArrays arrays = arrays_of(matrix, right_hand_side);
   if (!has_plan_ && !choose_plan(arrays)) return FactorisationStatus::singular;
-  weights_.follow(arrays);
-  FactorisationStatus verdict = eliminate(arrays, matrix, slope, rows);
-  if (verdict == FactorisationStatus::untrusted) {
+  weights_.rescale(arrays);
+  FactorisationStatus status = eliminate(arrays, matrix, right_hand_side);
+  if (status == FactorisationStatus::untrusted) {
     if (!choose_plan(arrays)) return FactorisationStatus::singular;
-    verdict = eliminate(arrays, matrix, slope, rows);
+    status = eliminate(arrays, matrix, right_hand_side);
   }
   // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
-  const auto may_be_weight = [&] {
-    return (verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular) &&
+  const auto may_be_due_to_weights = [&] {
+    return (status == FactorisationStatus::wrong_inertia || status == FactorisationStatus::singular) &&
            !has_certain_inertia_;
   };
-  // To try the other weights costs less than the factorisation that is asked otherwise.
-  if (verdict == FactorisationStatus::singular) weights_.believe_no_failure();
-  while (may_be_weight() && weights_.try_another()) verdict = eliminate(arrays, matrix, slope, rows);
-  if (verdict != FactorisationStatus::solved) return verdict;
-  substitute(arrays, rows, primal_step, multiplier_step);
-  return is_finite(primal_step) && is_finite(multiplier_step) ? FactorisationStatus::solved
-                                                              : FactorisationStatus::singular;
+  // To try the other weights costs less than the sparse factorisation that is asked otherwise.
+  if (status == FactorisationStatus::singular) weights_.distrust_next_failure();
+  while (may_be_due_to_weights() && weights_.next_multiple()) status = eliminate(arrays, matrix, right_hand_side);
+  if (status != FactorisationStatus::solved) return status;
+  substitute(arrays, right_hand_side.constraints, step);
+  return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
+                                                               : FactorisationStatus::singular;
 }
 
-FactorisationStatus IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                           const Eigen::VectorXd& rows) {
+FactorisationStatus IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix,
+                                           const KktRightHandSide& right_hand_side) {
   arrays.terminal_weights = weights_.values().data();
   has_certain_inertia_ = false;
   ++eliminations_;
@@ -108,15 +104,16 @@ FactorisationStatus IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix
   }
   if (!join_segments()) return FactorisationStatus::wrong_inertia;
   find_last_carry(arrays);
-  const FactorisationStatus verdict = ends_.solve(matrix, slope, rows, chain_.total(), last_carry_, weights_.values());
-  has_certain_inertia_ = ends_.is_certain();
-  return verdict;
+  const FactorisationStatus status =
+      boundary_.solve(matrix, right_hand_side, {chain_.total(), last_carry_, weights_.values()});
+  has_certain_inertia_ = boundary_.is_certain();
+  return status;
 }
 
 /// J_{N,N-1}, of the unknowns that move by increments.
 void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
   const Shape& shape = entries_.shape;
-  last_carry_.setZero(shape.carried, shape.node);
+  last_carry_.setZero(shape.node_sums, shape.node);
   for (const LocalEntry& entry : entries_.local) {
     if (entry.block != LocalEntry::Block::carry || entry.column >= shape.node) continue;
     if (!moves_by_increment(shape, plan_.node_in_next.data(), entry.column)) continue;
@@ -130,7 +127,7 @@ bool IntervalKkt::join_segments() {
   for (std::size_t g = groups_.size(); g-- > 0;) {
     for (int segment = lane_count - 1; segment >= 0; --segment) {
       read_value(groups_[g].group(), segment);
-      weights_.learn(segment_value_.Gamma);
+      weights_.observe(segment_value_.Gamma);
       if (is_last) {
         chain_.start(segment_value_, weights_.values());
       } else if (!chain_.join(segment_value_)) {
@@ -155,13 +152,12 @@ void IntervalKkt::read_value(const SegmentGroup& group, int segment) {
   read(group.value, segment_value_.P);
   read(group.value + X * X * lane_count, segment_value_.p);
   read(group.value + X * (X + 1) * lane_count, segment_value_.Phi);
-  read(group.reach, segment_value_.gamma);
-  read(group.reach + X * lane_count, segment_value_.Gamma);
+  read(group.reachability, segment_value_.gamma);
+  read(group.reachability + X * lane_count, segment_value_.Gamma);
 }
 
-void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                             Eigen::VectorXd& multiplier_step) {
-  chain_.spread(ends_.state(), ends_.multiplier(), states_, multipliers_);
+void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step) {
+  chain_.back_substitute(boundary_.state(), boundary_.multiplier(), states_, multipliers_);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const SegmentGroup& group = groups_[g].group();
     const auto first = static_cast<Eigen::Index>(g) * lane_count;
@@ -170,21 +166,17 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
     Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
         multipliers_.middleCols(first, lane_count).transpose();
   }
-  set_fixed_to_zero(primal_step);
-  for_each_part(groups_.size(), [&](std::size_t g) {
-    kernel_.forward(plan_, arrays, groups_[g].group(), primal_step.data(), multiplier_step.data());
-  });
-  ends_.write(primal_step, multiplier_step);
-  write_inequality_multipliers(arrays, rows, primal_step, multiplier_step);
-}
-
-/// The sweep writes what moves, and `EndSystem` all that belongs to the ends.
-void IntervalKkt::set_fixed_to_zero(Eigen::VectorXd& primal_step) const {
+  // The sweep writes what moves, and `BoundarySystem` all that belongs to the ends.
+  const auto count = static_cast<Eigen::Index>(entries_.intervals);
   for (std::size_t j = 0; j < entries_.inner_unknowns.size(); ++j) {
     if (!entries_.inner_is_fixed[j]) continue;
-    const auto first = static_cast<Eigen::Index>(entries_.inner_unknowns[j]);
-    primal_step.segment(first, static_cast<Eigen::Index>(entries_.intervals)).setZero();
+    step.primal.segment(static_cast<Eigen::Index>(entries_.inner_unknowns[j]), count).setZero();
   }
+  for_each_part(groups_.size(), [&](std::size_t g) {
+    kernel_.forward(plan_, arrays, groups_[g].group(), step.primal.data(), step.multipliers.data());
+  });
+  boundary_.write(step);
+  write_inequality_multipliers(arrays, constraints, step);
 }
 
 std::size_t IntervalKkt::first_of(int column) const {
@@ -193,32 +185,32 @@ std::size_t IntervalKkt::first_of(int column) const {
   if (column < next_size(shape)) return entries_.inner_unknowns[static_cast<std::size_t>(column - shape.node)];
   const int state = column - next_size(shape);
   if (state < shape.node) return entries_.node_unknowns[static_cast<std::size_t>(state)];
-  return entries_.shared_unknowns[static_cast<std::size_t>(state - shape.node - shape.carried)];
+  return entries_.shared_unknowns[static_cast<std::size_t>(state - shape.node - shape.node_sums)];
 }
 
-void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
-                                               const Eigen::VectorXd& primal_step,
-                                               Eigen::VectorXd& multiplier_step) const {
+/// (J δx + constraints) / e for the rows of every inequality.
+void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
+                                               const KktStep& step) const {
   const auto count = static_cast<Eigen::Index>(entries_.intervals);
   const auto at = [](std::size_t first) { return static_cast<Eigen::Index>(first); };
   for (const std::size_t row : entries_.inequality_rows) {
-    multiplier_step.segment(at(row), count) = rows.segment(at(row), count);
+    step.multipliers.segment(at(row), count) = constraints.segment(at(row), count);
   }
-  const int first_shared = next_size(entries_.shape) + entries_.shape.node + entries_.shape.carried;
+  const int first_global = next_size(entries_.shape) + entries_.shape.node + entries_.shape.node_sums;
   const int one = next_size(entries_.shape) + state_size(entries_.shape);
   for (const LocalEntry& entry : entries_.local) {
     if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
-    auto sum = multiplier_step.segment(at(entries_.inequality_rows[static_cast<std::size_t>(entry.row)]), count);
+    auto sum = step.multipliers.segment(at(entries_.inequality_rows[static_cast<std::size_t>(entry.row)]), count);
     const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
-    if (entry.column >= first_shared) {
-      sum += derivative * primal_step[at(first_of(entry.column))];
+    if (entry.column >= first_global) {
+      sum += derivative * step.primal[at(first_of(entry.column))];
     } else {
-      sum += derivative.cwiseProduct(primal_step.segment(at(first_of(entry.column)), count));
+      sum += derivative.cwiseProduct(step.primal.segment(at(first_of(entry.column)), count));
     }
   }
   for (const std::size_t row : entries_.inequality_rows) {
     const Eigen::Map<const Eigen::ArrayXd> compliance(arrays.of(Source::compliance) + row, count);
-    multiplier_step.segment(at(row), count).array() /= compliance;
+    step.multipliers.segment(at(row), count).array() /= compliance;
   }
 }
 

@@ -8,12 +8,11 @@
 #include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/intervals/boundary_system.hpp"
 #include "methods/solvers/interior_point/intervals/elimination_plan.hpp"
-#include "methods/solvers/interior_point/intervals/end_system.hpp"
-#include "methods/solvers/interior_point/intervals/group_memory.hpp"
 #include "methods/solvers/interior_point/intervals/interval_entries.hpp"
 #include "methods/solvers/interior_point/intervals/segment_chain.hpp"
-#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/interior_point/intervals/segment_group.hpp"
 #include "methods/solvers/interior_point/intervals/terminal_weights.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
 
@@ -23,9 +22,9 @@ namespace dmocbench::interior_point {
 /// linearly with their number; README.md tells how.
 class IntervalKkt : public KktSystem {
  public:
-  /// The reason instead for a program whose structure does not allow it (interval_entries.hpp).
-  [[nodiscard]] static tl::expected<std::unique_ptr<IntervalKkt>, std::string> make(
-      const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
+  /// The reason in a sentence for a program whose structure does not allow it (interval_entries.hpp).
+  using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
+  [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
@@ -38,23 +37,20 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] int eliminations() const noexcept { return eliminations_; }
 
  private:
-  [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const Eigen::VectorXd& slope,
-                                       const Eigen::VectorXd& rows);
+  [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
   [[nodiscard]] FactorisationStatus eliminate(NewtonArrays& arrays, const KktMatrix& matrix,
-                                              const Eigen::VectorXd& slope, const Eigen::VectorXd& rows);
+                                              const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool join_segments();
   void read_value(const SegmentGroup& group, int segment);
   void find_last_carry(const NewtonArrays& arrays);
-  void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& rows, Eigen::VectorXd& primal_step,
-                  Eigen::VectorXd& multiplier_step);
-  void set_fixed_to_zero(Eigen::VectorXd& primal_step) const;
-  void write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& rows,
-                                    const Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
+  void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step);
+  void write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
+                                    const KktStep& step) const;
   [[nodiscard]] std::size_t first_of(int column) const;
 
   IntervalEntries entries_;
-  EndSystem ends_;
+  BoundarySystem boundary_;
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
@@ -62,7 +58,7 @@ class IntervalKkt : public KktSystem {
   int eliminations_ = 0;
   EliminationPlan plan_;
   TerminalWeights weights_;
-  Eigen::MatrixXd last_carry_;  // carried x node
+  Eigen::MatrixXd last_carry_;  // node_sums x node
 
   Eigen::VectorXd padded_;
   std::vector<GroupMemory> groups_;

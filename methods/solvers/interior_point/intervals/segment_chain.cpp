@@ -53,8 +53,8 @@ void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& termin
 }
 
 bool SegmentChain::join(const SegmentValue& segment) {
-  // A size that the compiler knows needs no memory of the heap, which would take longer than the numbers; every further
-  // one takes the compiler longer than the rest of the method.
+  // A size that the compiler knows needs no memory from the heap, which would take longer than the arithmetic. Every
+  // further size costs compile time.
   constexpr int usual = 4;
   return total_.P.rows() == usual ? join_sized<usual>(segment) : join_sized<Eigen::Dynamic>(segment);
 }
@@ -65,41 +65,41 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   using Vector = Eigen::Matrix<double, size, 1>;
   const Eigen::Index n = total_.P.rows();
   const Matrix identity = Matrix::Identity(n, n);
-  const Matrix reach = segment.Gamma;
+  const Matrix reachability = segment.Gamma;
   const Matrix Phi = segment.Phi;
   const Matrix mixed = total_.Phi;
   const Vector constant = total_.p;
-  Matrix slope = total_.P;
-  slope.diagonal() -= terminal_weights_;
-  // The state y between and the multiplier ν' of the segment in front make (slope, -I; -I, -Γ): two such blocks have
-  // the inertia of a minimum exactly if I + Lᵀ slope L is positive definite.
-  const Matrix factor = semidefinite_factor<size>(reach);
-  if (Eigen::LLT<Matrix>(identity + factor.transpose() * slope * factor).info() != Eigen::Success) return false;
-  const Eigen::PartialPivLU<Matrix> system(identity + reach * slope);
+  Matrix stiffness = total_.P;
+  stiffness.diagonal() -= terminal_weights_;
+  // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
+  // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
+  const Matrix factor = semidefinite_factor<size>(reachability);
+  if (Eigen::LLT<Matrix>(identity + factor.transpose() * stiffness * factor).info() != Eigen::Success) return false;
+  const Eigen::PartialPivLU<Matrix> system(identity + reachability * stiffness);
   const Matrix state_state = solve_columns<decltype(system), Matrix>(system, Phi.transpose());
-  const Matrix state_multiplier = -solve_columns<decltype(system), Matrix>(system, reach * mixed);
-  const Vector state_constant = system.solve(segment.gamma - reach * constant);
+  const Matrix state_multiplier = -solve_columns<decltype(system), Matrix>(system, reachability * mixed);
+  const Vector state_constant = system.solve(segment.gamma - reachability * constant);
 
   const Vector gamma = mixed.transpose() * state_constant;
-  const Vector p = Phi * (slope * state_constant + constant);
+  const Vector p = Phi * (stiffness * state_constant + constant);
   total_.gamma += gamma;
   total_.Gamma = symmetric_part<Matrix>(total_.Gamma - mixed.transpose() * state_multiplier);
   total_.p = segment.p + p;
-  total_.Phi = Phi * (mixed + slope * state_multiplier);
-  total_.P = symmetric_part<Matrix>(segment.P + Phi * slope * state_state);
+  total_.Phi = Phi * (mixed + stiffness * state_multiplier);
+  total_.P = symmetric_part<Matrix>(segment.P + Phi * stiffness * state_state);
   if (joins_.size() <= count_) joins_.emplace_back();
   Join& join = joins_[count_++];
   join.state_state = state_state;
   join.state_multiplier = state_multiplier;
   join.state_constant = state_constant;
-  join.slope = slope;
+  join.stiffness = stiffness;
   join.mixed = mixed;
   join.constant = constant;
   return true;
 }
 
-void SegmentChain::spread(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier, Eigen::MatrixXd& states,
-                          Eigen::MatrixXd& multipliers) const {
+void SegmentChain::back_substitute(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier,
+                                   Eigen::MatrixXd& states, Eigen::MatrixXd& multipliers) const {
   states.resize(state.size(), static_cast<Eigen::Index>(count_) + 1);
   multipliers.resizeLike(states);
   states.col(0) = state;
@@ -108,7 +108,7 @@ void SegmentChain::spread(const Eigen::VectorXd& state, const Eigen::VectorXd& m
     const auto column = static_cast<Eigen::Index>(s);
     states.col(column + 1) =
         join.state_state * states.col(column) + join.state_multiplier * multiplier + join.state_constant;
-    multipliers.col(column) = join.slope * states.col(column + 1) + join.mixed * multiplier + join.constant;
+    multipliers.col(column) = join.stiffness * states.col(column + 1) + join.mixed * multiplier + join.constant;
   }
   multipliers.rightCols(1) = multiplier;
 }

@@ -33,17 +33,17 @@ class SegmentChain {
 
   /// States and multipliers of all segments, first to last, from X at the first node and ν of the last: column s for
   /// segment s.
-  void spread(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier, Eigen::MatrixXd& states,
-              Eigen::MatrixXd& multipliers) const;
+  void back_substitute(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier, Eigen::MatrixXd& states,
+                       Eigen::MatrixXd& multipliers) const;
 
  private:
-  /// What `spread` needs of a join: y = state_state X + state_multiplier ν + state_constant, and the multiplier of the
-  /// segment in front, ν' = slope y + mixed ν + constant.
+  /// What `back_substitute` needs of a join: y = state_state X + state_multiplier ν + state_constant, and the
+  /// multiplier of the segment in front, ν' = stiffness y + mixed ν + constant.
   struct Join {
     Eigen::MatrixXd state_state;
     Eigen::MatrixXd state_multiplier;
     Eigen::VectorXd state_constant;
-    Eigen::MatrixXd slope;
+    Eigen::MatrixXd stiffness;
     Eigen::MatrixXd mixed;
     Eigen::VectorXd constant;
   };

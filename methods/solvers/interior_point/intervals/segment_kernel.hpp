@@ -13,12 +13,12 @@ namespace dmocbench::interior_point {
 inline constexpr int lane_count = 8;
 
 /// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
-enum class Source : unsigned char { jacobian, hessian, diagonal, slope, rows, compliance, padded };
+enum class Source : unsigned char { jacobian, hessian, diagonal, gradient, rows, compliance, padded };
 inline constexpr std::size_t source_count = 7;
 
 /// One number of every interval: interval k reads entry `first` + k of an array and puts it into (or adds it to) the
 /// entry `slot` of its blocks (`LocalBlocks`), and by symmetry also into `mirror` if that is another one.
-struct Collected {
+struct Gather {
   Source source;
   bool adds;
   bool from_before;  ///< reads what interval k - 1 would, and 0 for the first
@@ -27,11 +27,9 @@ struct Collected {
   int mirror;
 };
 
-/// One number of every interval that a step is made of: interval k writes it to entry `first` + k.
-struct Emitted {
-  enum class What : unsigned char { state, free, dependent, multiplier };
-  What what;
-  int index;           ///< entry of X, of w, of the dependent ones, of the multipliers of its rows
+/// One number of every interval that a Newton step is made of: interval k writes it to entry `first` + k.
+struct Scatter {
+  int index;           ///< entry of `ForwardBlocks`
   bool is_multiplier;  ///< goes to the multipliers' step, else to the variables'
   std::size_t first;
 };
@@ -42,11 +40,11 @@ inline constexpr double smallest_pivot_share = 1e-13;
 /// How the intervals of a program are eliminated; the same for all of them.
 struct EliminationPlan {
   Shape shape{};
-  std::vector<Collected> collected;
-  std::vector<Emitted> emitted;
+  std::vector<Gather> gathers;
+  std::vector<Scatter> scatters;
   std::vector<int> node_in_next;     ///< which entry of Z, in the order of elimination, is x_i
-  std::vector<double> pivot_scales;  ///< of the equalities: one over what the pivots are on the whole
-  std::vector<int> ones;             ///< entries of the blocks that are 1 in every interval
+  std::vector<double> pivot_scales;  ///< of the equalities: reciprocals of the usual pivots
+  std::vector<int> unit_entries;     ///< entries of the blocks that are 1 in every interval
 };
 
 /// Eight segments side by side, and where their results stand. All arrays of numbers are lane by lane: entry i of lane
@@ -66,7 +64,7 @@ struct SegmentGroup {
   // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
   // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.
   double* value = nullptr;
-  double* reach = nullptr;
+  double* reachability = nullptr;
 
   double* state = nullptr;       ///< forward: X at the first node
   double* multiplier = nullptr;  ///< forward: ν
@@ -93,13 +91,8 @@ struct SegmentKernel {
                   double* primal_step, double* multiplier_step);
 };
 
-/// Gives the kernel for a shape.
+/// Gives the kernel for a shape (segment_group.hpp).
 using SegmentKernelChoice = SegmentKernel (*)(const Shape& shape);
-
-/// The kernel for a shape of the preferred instruction set.
-[[nodiscard]] SegmentKernel segment_kernel_for(const Shape& shape);
-/// The choice among the kernels of a set.
-[[nodiscard]] SegmentKernelChoice segment_kernels_of(InstructionSet set);
 
 // The same source, segment_kernel.cpp, compiled once per instruction set.
 [[nodiscard]] SegmentKernel segment_kernel_baseline(const Shape& shape);

@@ -13,19 +13,18 @@ namespace {
 
 /// The multiples of the stiffness that are tried, one after the other.
 constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
-/// Where a failure is most to be believed: the smallest may be too small, the largest may drown the stiffness.
+/// The multiple whose failure says most: the smallest may be too small, the largest may drown the stiffness.
 constexpr std::size_t middle = 2;
-/// Failures that are believed, after all multiples were tried in vain: fewer than it takes for the sparse factorisation
-/// to be asked (`RefinedKkt`), which costs more than they do.
+/// Failures that are believed after all multiples were tried in vain. They are fewer than make `RefinedKkt` ask the
+/// sparse factorisation, which costs more than all multiples do.
 constexpr int patience = 2;
-/// Of a weight that drowned the stiffness: what it may have been at most.
+/// A weight that drowned the stiffness tells that it was at most this share of the weight.
 constexpr double drowned_share = 1e-3;
 constexpr double smallest_curvature = 1e-12;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// The row of Z that a diagonal entry of the Hessian belongs to, as a number of an unknown of the interval; -1 for
-/// others.
-int inner_of(const LocalEntry& entry, const Shape& shape) {
+/// The number of the interval's unknown that a diagonal entry of the Hessian belongs to; -1 for other entries.
+int unknown_of(const LocalEntry& entry, const Shape& shape) {
   const bool is_diagonal = entry.block == LocalEntry::Block::hessian && entry.row == entry.column;
   return is_diagonal ? entry.row - shape.node : -1;
 }
@@ -34,14 +33,14 @@ int inner_of(const LocalEntry& entry, const Shape& shape) {
 
 TerminalWeights::TerminalWeights(const IntervalEntries& entries)
     : intervals_(entries.intervals),
-      diagonals_(static_cast<std::size_t>(entries.shape.inner)),
+      diagonals_(static_cast<std::size_t>(entries.shape.interval)),
       stiffness_(Eigen::VectorXd::Ones(state_size(entries.shape))),
-      learned_(Eigen::VectorXd::Constant(state_size(entries.shape), unknown)),
+      observed_(Eigen::VectorXd::Constant(state_size(entries.shape), unknown)),
       values_(Eigen::VectorXd::Ones(state_size(entries.shape))) {
   for (const LocalEntry& entry : entries.local) {
-    const int inner = inner_of(entry, entries.shape);
-    if (inner < 0) continue;
-    Diagonal& diagonal = diagonals_[static_cast<std::size_t>(inner)];
+    const int number = unknown_of(entry, entries.shape);
+    if (number < 0) continue;
+    Diagonal& diagonal = diagonals_[static_cast<std::size_t>(number)];
     if (entry.source == Source::diagonal) {
       diagonal.moves = true;
       diagonal.first = entry.first;
@@ -57,8 +56,8 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
 
 void TerminalWeights::use(const EliminationPlan& plan) {
   const auto is_free = [&](const Diagonal& diagonal) {
-    return std::ranges::any_of(plan.emitted, [&](const Emitted& item) {
-      return item.what == Emitted::What::free && item.first == diagonal.first;
+    return std::ranges::any_of(plan.scatters, [&](const Scatter& item) {
+      return !item.is_multiplier && item.index < free_size(plan.shape) && item.first == diagonal.first;
     });
   };
   const bool some_are_free = std::ranges::any_of(diagonals_, is_free);
@@ -78,9 +77,9 @@ double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArra
   });
 }
 
-/// The softest unknowns count most, so it is their harmonic mean; as the Hessian of an interval is proportional to its
-/// length, their number is a factor. Unknowns that cost next to nothing, such as slopes, are left out: equalities tie
-/// them to others that do.
+/// The harmonic mean, because the most compliant unknowns count most, times the number of intervals, because the
+/// Hessian of an interval is proportional to its length. Unknowns that cost next to nothing, such as stage rates, are
+/// left out: equalities tie them to others that have a cost.
 double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
   constexpr double next_to_nothing = 1e4;
   std::vector<double> compliances;
@@ -100,14 +99,14 @@ double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) c
   return sum > 0.0 ? count * count * kinds / sum : 1.0;
 }
 
-void TerminalWeights::follow(const NewtonArrays& arrays) {
+void TerminalWeights::rescale(const NewtonArrays& arrays) {
   update();
   scale_ = stiffness_of_free_unknowns(arrays);
   values_ = multiples[level_] * scale_ * stiffness_;
   tried_ = 0;
 }
 
-bool TerminalWeights::try_another() {
+bool TerminalWeights::next_multiple() {
   if (believed_ > 0) {
     --believed_;
     return false;
@@ -125,19 +124,19 @@ bool TerminalWeights::try_another() {
   return true;
 }
 
-void TerminalWeights::learn(const Eigen::MatrixXd& reach) {
+void TerminalWeights::observe(const Eigen::MatrixXd& Gamma) {
   for (Eigen::Index i = 0; i < values_.size(); ++i) {
-    if (!(reach(i, i) > 0.0)) continue;
-    const double stiffness = std::max(1.0 / reach(i, i) - values_[i], drowned_share * values_[i]);
-    if (std::isfinite(stiffness)) learned_[i] = std::min(learned_[i], stiffness);
+    if (!(Gamma(i, i) > 0.0)) continue;
+    const double stiffness = std::max(1.0 / Gamma(i, i) - values_[i], drowned_share * values_[i]);
+    if (std::isfinite(stiffness)) observed_[i] = std::min(observed_[i], stiffness);
   }
 }
 
 void TerminalWeights::update() {
   for (Eigen::Index i = 0; i < values_.size(); ++i) {
-    // A state that the free unknowns hardly reach needs no weight of its size.
-    if (learned_[i] < unknown) stiffness_[i] = std::min(1.0, learned_[i] / scale_);
-    learned_[i] = unknown;
+    // A state that the free unknowns hardly reach needs no larger weight.
+    if (observed_[i] < unknown) stiffness_[i] = std::min(1.0, observed_[i] / scale_);
+    observed_[i] = unknown;
   }
 }
 

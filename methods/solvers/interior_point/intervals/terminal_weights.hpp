@@ -11,36 +11,36 @@
 namespace dmocbench::interior_point {
 
 /// The weights ρ_i of ½ Σ ρ_i (X_i - d_i)² at the end of every segment. The term is zero where the segment ends at the
-/// state d that it has to; without it a segment whose end were free could have a conjugate point, and its elimination
-/// no minimum, where the whole problem has one (Finsler: for ρ large enough the two are the same).
+/// given state d. Without it a segment with a free end may have a conjugate point, so that its elimination has no
+/// minimum although the whole problem has one. For ρ large enough the two agree (Finsler).
 ///
-/// Too large a weight drowns the stiffness a_i that the free unknowns give the end of a segment, and with it the digits
-/// of what is joined: the reach of a segment is about 1/(ρ + a). So weights are multiples of the smallest stiffness
-/// that was last seen, which moves with the compliance of the free unknowns from one matrix to the next.
+/// The reachability Γ of a segment is about 1/(ρ + a), a_i being the stiffness that the free unknowns give its end. Too
+/// large a weight drowns a_i, and with it the digits of what is joined. So weights are multiples of the smallest
+/// stiffness that was last observed, rescaled from matrix to matrix by the compliance of the free unknowns.
 class TerminalWeights {
  public:
   explicit TerminalWeights(const IntervalEntries& entries);
 
-  /// For another order of elimination: which unknowns of the intervals it leaves free. (Those that equalities
-  /// determine, the slopes of several stages say, may cost nothing; their compliance is not the segment's.)
+  /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
+  /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
   void use(const EliminationPlan& plan);
-  /// For a new matrix.
-  void follow(const NewtonArrays& arrays);
-  /// After a failure: takes the next multiple, which stays if it succeeds; false if none is left for this matrix.
-  [[nodiscard]] bool try_another();
-  /// The next failure is not believed: all multiples are tried.
-  void believe_no_failure() noexcept { believed_ = 0; }
-  /// Learns the stiffness from the reach Γ of a segment that was eliminated with these weights.
-  void learn(const Eigen::MatrixXd& reach);
+  /// Adapts the weights to a new matrix.
+  void rescale(const NewtonArrays& arrays);
+  /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
+  [[nodiscard]] bool next_multiple();
+  /// All multiples are to be tried after the next failure.
+  void distrust_next_failure() noexcept { believed_ = 0; }
+  /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
+  void observe(const Eigen::MatrixXd& Gamma);
 
   /// ρ, one per entry of the state.
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }
 
  private:
-  /// Where the diagonal entries of the Hessian of an unknown of the intervals are.
+  /// Where the diagonal entries of the Hessian of an unknown of the intervals stand.
   struct Diagonal {
     bool moves = false;     ///< is not fixed
-    std::size_t first = 0;  ///< of what is added to them
+    std::size_t first = 0;  ///< of the diagonal d that is added to them
     bool has_hessian = false;
     Source source = Source::hessian;
     std::size_t entry = 0;
@@ -54,10 +54,10 @@ class TerminalWeights {
   std::vector<Diagonal> diagonals_;
   std::size_t level_ = 0;  // which multiple
   std::size_t tried_ = 0;  // others, for this matrix
-  int believed_ = 0;       // failures that are still to be believed
+  int believed_ = 0;       // next failures that are believed without further multiples
   double scale_ = 1.0;
   Eigen::VectorXd stiffness_;  // relative to the scale
-  Eigen::VectorXd learned_;    // since the last matrix
+  Eigen::VectorXd observed_;   // since the last matrix
   Eigen::VectorXd values_;
 };
 

@@ -1,6 +1,7 @@
-#include "methods/solvers/interior_point/banded_kkt.hpp"
+#include "bench/structure_advantage/banded_kkt.hpp"
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "tests/support/dense_kkt.hpp"
 #include "tests/support/random_structured_program.hpp"
 #include "tests/support/restated_problems.hpp"
+#include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
 #include "tests/support/system_choice.hpp"
@@ -58,15 +60,13 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     const DenseKkt dense(program, numbers);
     const DenseKkt::Inertia inertia = dense.inertia();
     if (!(inertia.rank > 1e-9) || !(inertia.smallest > 1e-9 * inertia.largest)) continue;
-    std::string why;
-    const auto kkt = BandedKkt::make(program, why);
-    ASSERT_NE(kkt, nullptr) << why;
+    BandedKkt kkt(program);
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     const FactorisationStatus verdict =
-        kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+        kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
     // A band that is singular without its border: too few unknowns for its rows.
-    if (verdict == FactorisationStatus::untrusted && kkt->order().border_size > 0) {
+    if (verdict == FactorisationStatus::untrusted && kkt.order().border_size > 0) {
       ++untrusted;
       continue;
     }
@@ -77,7 +77,7 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     const Eigen::VectorXd wanted = dense.solution();
     EXPECT_LT((found - wanted).lpNorm<Eigen::Infinity>(), 1e-8 * wanted.lpNorm<Eigen::Infinity>());
     ++solved;
-    if (kkt->order().border_size > 0) ++with_border;
+    if (kkt.order().border_size > 0) ++with_border;
   }
   EXPECT_GT(solved, 250);
   EXPECT_GT(with_border, 50);
@@ -90,16 +90,14 @@ TEST(BandedKkt, SeesCurvatureDownwardsWhereTheSlopePointsThere) {
   shape.intervals = 8;
   RandomStructuredProgram program(shape, 1);
   KktNumbers numbers = SystemChoice(1).numbers(program, shape.hessian);
-  std::string why;
-  const auto kkt = BandedKkt::make(program, why);
-  ASSERT_NE(kkt, nullptr) << why;
+  BandedKkt kkt(program);
   Eigen::VectorXd primal(numbers.slope.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
   numbers.diagonal.setConstant(-1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
+  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::wrong_inertia);
   numbers.diagonal.setConstant(1e3);
-  EXPECT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
+  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::solved);
 }
 
@@ -109,9 +107,7 @@ TEST(BandedKkt, FindsTheBandwidth) {
   const TwoLinkManipulator two_link;
   const auto half_bandwidth = [](const Problem& problem, const std::string& method) {
     const auto program = tests::transcribe(problem, {method}, Grid::uniform(12));
-    std::string why;
-    const auto order = node_order(*program, why);
-    return order ? order->half_bandwidth : 0;
+    return node_order(*program).half_bandwidth;
   };
   EXPECT_EQ(half_bandwidth(orbit, "dmoc"), 8U);
   EXPECT_EQ(half_bandwidth(orbit, "hamiltonian"), 10U);
@@ -123,9 +119,7 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   const OrbitalTransfer orbit;
   constexpr int intervals = 64;
   const auto program = tests::transcribe(orbit, {"dmoc"}, Grid::uniform(intervals));
-  std::string why;
-  const auto kkt = BandedKkt::make(*program, why);
-  ASSERT_NE(kkt, nullptr) << why;
+  BandedKkt kkt(*program);
   const auto n = static_cast<Eigen::Index>(program->variable_count());
   const auto m = static_cast<Eigen::Index>(program->constraint_count());
   KktNumbers numbers;
@@ -136,18 +130,18 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   numbers.compliance.setZero(m);
   numbers.slope.setOnes(n);
   numbers.rows.setOnes(m);
-  ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {numbers.slope, numbers.rows}),
+  ASSERT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {numbers.slope, numbers.rows}),
             FactorisationStatus::solved);
   const auto lines = static_cast<double>(n + m);
-  const auto width = static_cast<double>(kkt->order().half_bandwidth);
-  EXPECT_GT(kkt->factorisation_operations(), 0.9 * lines * width * width);
-  EXPECT_LT(kkt->factorisation_operations(), lines * width * (2.0 * width + 1.0));
+  const auto width = static_cast<double>(kkt.order().half_bandwidth);
+  EXPECT_GT(kkt.factorisation_operations(), 0.9 * lines * width * width);
+  EXPECT_LT(kkt.factorisation_operations(), lines * width * (2.0 * width + 1.0));
 }
 
-Solution solve_by(const std::string& factorisation, NonlinearProgram& program, const Eigen::VectorXd& start) {
-  SolverOptions options;
-  options.passed_on["factorisation"] = factorisation;
-  return InteriorPointSolver(options).solve(program, start);
+Solution solve_banded(NonlinearProgram& program, const Eigen::VectorXd& start) {
+  InteriorPointOptions choices;
+  choices.make_kkt_system = [](NonlinearProgram& of) { return std::make_unique<BandedKkt>(of); };
+  return InteriorPointSolver({}, choices).solve(program, start);
 }
 
 void expect_agreement_with_ipopt(const Problem& problem, Eigen::Index intervals, const Motion& motion,
@@ -157,7 +151,7 @@ void expect_agreement_with_ipopt(const Problem& problem, Eigen::Index intervals,
     const auto program = tests::transcribe(problem, scheme, Grid::uniform(intervals));
     const Eigen::VectorXd start = sample(*program, motion);
     const Solution ipopt = make_solver("ipopt")->solve(*program, start);
-    const Solution banded = solve_by("banded", *program, start);
+    const Solution banded = solve_banded(*program, start);
     ASSERT_EQ(ipopt.status, Status::solved) << ipopt.message;
     ASSERT_EQ(banded.status, Status::solved) << banded.message;
     EXPECT_NEAR(banded.objective, ipopt.objective, 1e-9 * std::abs(ipopt.objective));
@@ -186,9 +180,10 @@ TEST(BandedKkt, SolvesEverythingAtOnce) {
 
 TEST(BandedKkt, RefusesAProgramWithoutIntervalsInASentence) {
   tests::SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve_by("banded", program, tests::vector({-1.2, 1.0}));
-  EXPECT_EQ(solution.status, Status::invalid_program);
-  EXPECT_NE(solution.message.find("interval structure"), std::string::npos) << solution.message;
+  const std::string sentence = tests::sentence_of_error([&] {
+    return solve_banded(program, tests::vector({-1.2, 1.0}));
+  });
+  EXPECT_NE(sentence.find("interval structure"), std::string::npos) << sentence;
 }
 
 }  // namespace

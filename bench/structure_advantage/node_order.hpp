@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "methods/program/nonlinear_program.hpp"
@@ -39,8 +37,7 @@ struct NodeOrder {
   std::size_t half_bandwidth = 0;      ///< largest distance of an entry of the band from the diagonal
 };
 
-/// Bandwidth and border are found from the program's patterns. None, with the reason in `why`, if the program has no
-/// interval structure.
-[[nodiscard]] std::optional<NodeOrder> node_order(const NonlinearProgram& program, std::string& why);
+/// Bandwidth and border are found from the program's patterns. Throws `Error` if the program has no interval structure.
+[[nodiscard]] NodeOrder node_order(const NonlinearProgram& program);
 
 }  // namespace dmocbench::interior_point

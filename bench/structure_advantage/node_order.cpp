@@ -1,8 +1,10 @@
-#include "methods/solvers/interior_point/node_order.hpp"
+#include "bench/structure_advantage/node_order.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <tuple>
+
+#include "methods/error.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -109,11 +111,10 @@ NodeOrder::Line NodeOrder::place(std::size_t line, std::size_t other) const {
   return lines[line];
 }
 
-std::optional<NodeOrder> node_order(const NonlinearProgram& program, std::string& why) {
+NodeOrder node_order(const NonlinearProgram& program) {
   const IntervalStructure* const structure = program.interval_structure();
   if (structure == nullptr || structure->intervals == 0) {
-    why = "it tells no interval structure";
-    return std::nullopt;
+    throw Error("a program without an interval structure has no band");
   }
   std::vector<Key> keys;
   keys.reserve(structure->unknowns.size() + structure->rows.size());

@@ -1,8 +1,7 @@
-#include "methods/solvers/interior_point/banded_kkt.hpp"
+#include "bench/structure_advantage/banded_kkt.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/LU>
 #include <lapacke.h>
@@ -22,14 +21,9 @@ lapack_int lapack(std::size_t number) { return static_cast<lapack_int>(number); 
 
 }  // namespace
 
-std::unique_ptr<BandedKkt> BandedKkt::make(const NonlinearProgram& program, std::string& why) {
-  auto order = node_order(program, why);
-  return order ? std::make_unique<BandedKkt>(program, std::move(*order)) : nullptr;
-}
-
-BandedKkt::BandedKkt(const NonlinearProgram& program, NodeOrder order)
+BandedKkt::BandedKkt(const NonlinearProgram& program)
     : program_(program),
-      order_(std::move(order)),
+      order_(node_order(program)),
       hessian_pattern_(program.hessian_structure().expand()),
       jacobian_pattern_(program.jacobian_structure().expand()),
       is_free_(free_variables(program)),

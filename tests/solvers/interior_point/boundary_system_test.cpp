@@ -1,4 +1,4 @@
-#include "methods/solvers/interior_point/intervals/symmetric_solve.hpp"
+#include "methods/solvers/interior_point/intervals/boundary_system.hpp"
 
 #include <cmath>
 #include <limits>

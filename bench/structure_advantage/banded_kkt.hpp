@@ -1,37 +1,33 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "bench/structure_advantage/node_order.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
-#include "methods/solvers/interior_point/node_order.hpp"
 
 namespace dmocbench::interior_point {
 
 /// The KKT system of a program with an interval structure as a general band matrix, by LAPACK's LU factorisation with
-/// partial pivoting (dgbtrf): rows are exchanged across intervals as rounding wants it, which elimination by intervals
-/// cannot do, and the symmetry is given up for it. Rows that couple both ends are a border, eliminated by its Schur
-/// complement; where the band without them is singular, the verdict is `untrusted`.
+/// partial pivoting (dgbtrf). It exchanges rows across intervals, which the elimination by intervals cannot do, and
+/// gives up the symmetry for that. Rows that couple both ends are a border, eliminated by its Schur complement; where
+/// the band without them is singular, the status is `untrusted`.
 ///
-/// LU knows no inertia. The verdict is that of an inertia-free test on curvature (Chiang and Zavala, Computational
-/// Optimization and Applications 64, 2016, the test for tangential steps): the step t that the slope alone asks for,
-/// along which the equalities do not change, must have
+/// LU factors do not tell the inertia. Instead the status is that of an inertia-free test of the curvature (Chiang and
+/// Zavala, Computational Optimization and Applications 64, 2016, the test for tangential steps): the step t for the
+/// gradient alone, along which the equalities do not change, must have
 ///
 ///   tᵀ (H + diag(d)) t + Σ (∇a_i · t)² / e_i >= 1e-12 |t|²,  the sum over rows that are no equalities.
 ///
-/// It needs one more right-hand side. A Hessian that is indefinite in other directions only is let pass: the step then
-/// is no minimum of the quadratic program, but still one along which the line search can make progress.
+/// It takes one more right-hand side. A Hessian that is indefinite in other directions only passes: the step is then no
+/// minimum of the quadratic program, but the line search can still make progress along it.
 class BandedKkt final : public KktSystem {
  public:
-  /// Null, with the reason in `why`, for a program without interval structure.
-  [[nodiscard]] static std::unique_ptr<BandedKkt> make(const NonlinearProgram& program, std::string& why);
-
-  BandedKkt(const NonlinearProgram& program, NodeOrder order);
+  /// Throws `Error` for a program without interval structure.
+  explicit BandedKkt(const NonlinearProgram& program);
 
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
