@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +22,12 @@ template <class Table, class NameOf>
 template <class Table, class NameOf>
 [[nodiscard]] std::size_t position_of(const Table& table, const NameOf& name_of, std::string_view name,
                                       const std::string& refusal) {
-  const std::vector<std::string> names = names_of(table, name_of);
   std::string known;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return i;
-    known += (i == 0 ? "; choose one of " : ", ") + names[i];
+  std::size_t position = 0;
+  for (const auto& entry : table) {
+    const std::string candidate(name_of(entry));
+    if (candidate == name) return position;
+    known += (position++ == 0 ? "; choose one of " : ", ") + candidate;
   }
   throw Error(refusal + " \"" + std::string(name) + "\"" + (known.empty() ? "; there are none" : known));
 }

@@ -58,9 +58,9 @@ class RadialThrust final : public ExampleSystem {
 /// A spherical pendulum of unit mass and length, q = (θ, φ), θ measured from below,
 /// L = ½(θ̇² + sin²θ φ̇²) + cos θ, with a torque along the meridian: f = (u, 0) is orthogonal to the rotations about
 /// the vertical, ξ = (0, 1).
-class SphericalPendulum final : public ExampleSystem {
+class MeridianPendulum final : public ExampleSystem {
  public:
-  SphericalPendulum()
+  MeridianPendulum()
       : ExampleSystem("spherical_pendulum", {"theta", "phi"}, {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.2, 1.3)},
                       10.0) {}
   [[nodiscard]] Expression lagrangian(const State& x) const override {

@@ -38,7 +38,7 @@ std::vector<Invariant> invariant_systems() {
   };
   const auto radial = std::make_shared<RadialThrust>();
   add(radial, true, 0.3, radial->initial_state(), 0.05);
-  const auto pendulum = std::make_shared<SphericalPendulum>();
+  const auto pendulum = std::make_shared<MeridianPendulum>();
   add(pendulum, true, 0.5, pendulum->initial_state(), 0.05);
   add(make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05);
   std::shared_ptr<Problem> links = make_problem("two_link_manipulator");
