@@ -7,7 +7,7 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/runtime/vector_loops.hpp"
-#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/interior_point/intervals/segment_group.hpp"
 
 namespace dmocbench {
 namespace {
