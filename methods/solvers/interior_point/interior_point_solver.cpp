@@ -358,8 +358,7 @@ InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOpt
     : Solver(std::move(options)), choices_(std::move(choices)) {
   read_named_options("interior_point", this->options().passed_on,
                      {named_option("factorisation", choices_.factorisation,
-                                   {{"intervals", Factorisation::intervals},
-                                    {"sparse", Factorisation::sparse}})});
+                                   {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}})});
 }
 
 std::string InteriorPointSolver::description() const {
