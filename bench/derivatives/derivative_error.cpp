@@ -17,8 +17,10 @@ using Position = std::pair<int, int>;
 /// Values of a sparse matrix, added up entry by entry.
 class SparseSum {
  public:
-  explicit SparseSum(const SparsityPattern& pattern) : values_(pattern.size(), 0.0L) {
-    for (std::size_t e = 0; e < pattern.size(); ++e) entry_at_[{pattern.rows[e], pattern.columns[e]}] = e;
+  explicit SparseSum(const BlockPattern& pattern) : values_(pattern.size(), 0.0L) {
+    pattern.for_each([&](Eigen::Index e, int row, int column) {
+      entry_at_[{row, column}] = static_cast<std::size_t>(e);
+    });
   }
   void add(std::size_t row, std::size_t column, long double value) {
     values_[entry_at_.at({static_cast<int>(row), static_cast<int>(column)})] += value;

@@ -24,6 +24,8 @@ lapack_int lapack(std::size_t number) { return static_cast<lapack_int>(number); 
 BandedKkt::BandedKkt(const NonlinearProgram& program)
     : program_(program),
       order_(node_order(program)),
+      hessian_pattern_(program.hessian_structure().expand()),
+      jacobian_pattern_(program.jacobian_structure().expand()),
       is_free_(free_variables(program)),
       leading_(3 * order_.half_bandwidth + 1) {
   const auto size = static_cast<Eigen::Index>(order_.band_size);
@@ -63,8 +65,8 @@ BandedKkt::Target BandedKkt::target_of(std::size_t entry, std::size_t row, std::
 }
 
 void BandedKkt::find_targets() {
-  const SparsityPattern& hessian = program_.hessian_structure();
-  const SparsityPattern& jacobian = program_.jacobian_structure();
+  const SparsityPattern& hessian = hessian_pattern_;
+  const SparsityPattern& jacobian = jacobian_pattern_;
   const std::size_t unknowns = program_.variable_count();
   const auto is_free = [&](int unknown) { return is_free_[static_cast<std::size_t>(unknown)]; };
   for (std::size_t e = 0; e < hessian.size(); ++e) {
@@ -187,7 +189,7 @@ void BandedKkt::multiply(const KktMatrix& matrix, const Eigen::VectorXd& primal,
   unknown_products_ = matrix.diagonal.cwiseProduct(primal);
   row_products_.setZero(multipliers.size());
   if (matrix.compliance.size() > 0) row_products_ -= matrix.compliance.cwiseProduct(multipliers);
-  const SparsityPattern& hessian = program_.hessian_structure();
+  const SparsityPattern& hessian = hessian_pattern_;
   for (const Target& target : hessian_) {
     const int i = hessian.rows[target.entry];
     const int j = hessian.columns[target.entry];
@@ -195,7 +197,7 @@ void BandedKkt::multiply(const KktMatrix& matrix, const Eigen::VectorXd& primal,
     unknown_products_[i] += value * primal[j];
     if (i != j) unknown_products_[j] += value * primal[i];
   }
-  const SparsityPattern& jacobian = program_.jacobian_structure();
+  const SparsityPattern& jacobian = jacobian_pattern_;
   for (const Target& target : jacobian_) {
     const int i = jacobian.rows[target.entry];
     const int j = jacobian.columns[target.entry];

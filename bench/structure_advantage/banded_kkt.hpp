@@ -67,6 +67,8 @@ class BandedKkt final : public KktSystem {
 
   const NonlinearProgram& program_;
   NodeOrder order_;
+  SparsityPattern hessian_pattern_;
+  SparsityPattern jacobian_pattern_;
   std::vector<bool> is_free_;
   std::size_t leading_;  // of the band in LAPACK's storage: 2 kl + ku + 1
   std::vector<double> band_;

@@ -34,14 +34,13 @@ constexpr Key key_of_tie(std::size_t interval) { return {2 * interval + 2, 0}; }
 void bring_home_rows_of_one_place(const NonlinearProgram& program, std::vector<Key>& keys) {
   constexpr std::size_t unseen = Key::border - 1;
   const std::size_t unknowns = program.variable_count();
-  const SparsityPattern& jacobian = program.jacobian_structure();
   std::vector<std::size_t> place(program.constraint_count(), unseen);
-  for (std::size_t e = 0; e < jacobian.size(); ++e) {
-    const auto row = static_cast<std::size_t>(jacobian.rows[e]);
-    const std::size_t read = keys[static_cast<std::size_t>(jacobian.columns[e])].place;
-    if (!keys[unknowns + row].in_border() || read == Key::border) continue;  // T is everywhere
+  program.jacobian_structure().for_each([&](Eigen::Index /*entry*/, int i, int j) {
+    const auto row = static_cast<std::size_t>(i);
+    const std::size_t read = keys[static_cast<std::size_t>(j)].place;
+    if (!keys[unknowns + row].in_border() || read == Key::border) return;  // T is everywhere
     place[row] = place[row] == unseen || place[row] == read ? read : Key::border;
-  }
+  });
   for (std::size_t row = 0; row < place.size(); ++row) {
     if (!keys[unknowns + row].in_border() || place[row] == Key::border) continue;
     keys[unknowns + row] = {place[row] == unseen ? 0 : place[row], 1};
@@ -83,14 +82,14 @@ void number(const std::vector<Key>& keys, std::size_t unknowns, NodeOrder& order
 
 std::size_t distance(std::size_t a, std::size_t b) { return std::max(a, b) - std::min(a, b); }
 
-void measure_bandwidth(const SparsityPattern& pattern, std::size_t first_row, NodeOrder& order) {
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    const std::size_t row = first_row + static_cast<std::size_t>(pattern.rows[e]);
-    const auto column = static_cast<std::size_t>(pattern.columns[e]);
+void measure_bandwidth(const BlockPattern& pattern, std::size_t first_row, NodeOrder& order) {
+  pattern.for_each([&](Eigen::Index /*entry*/, int of_row, int of_column) {
+    const std::size_t row = first_row + static_cast<std::size_t>(of_row);
+    const auto column = static_cast<std::size_t>(of_column);
     const NodeOrder::Line i = order.place(row, column);
     const NodeOrder::Line j = order.place(column, row);
     if (!i.in_border && !j.in_border) order.half_bandwidth = std::max(order.half_bandwidth, distance(i.at, j.at));
-  }
+  });
 }
 
 void measure_bandwidth_of_ties(NodeOrder& order) {
@@ -119,8 +118,8 @@ NodeOrder node_order(const NonlinearProgram& program) {
   }
   std::vector<Key> keys;
   keys.reserve(structure->unknowns.size() + structure->rows.size());
-  for (const Place& place : structure->unknowns) keys.push_back(key_of(place, false));
-  for (const Place& place : structure->rows) keys.push_back(key_of(place, true));
+  structure->unknowns.for_each([&](const Place& place) { keys.push_back(key_of(place, false)); });
+  structure->rows.for_each([&](const Place& place) { keys.push_back(key_of(place, true)); });
   bring_home_rows_of_one_place(program, keys);
 
   const std::size_t unknowns = program.variable_count();

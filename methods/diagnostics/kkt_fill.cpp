@@ -36,19 +36,17 @@ KktFill kkt_fill(const Transcription& transcription) {
   entries.reserve(static_cast<std::size_t>(size) + transcription.hessian_structure().size() +
                   transcription.jacobian_structure().size());
   for (int i = 0; i < size; ++i) entries.emplace_back(i, i, static_cast<double>(size));
-  const SparsityPattern& hessian = transcription.hessian_structure();
-  for (std::size_t e = 0; e < hessian.size(); ++e) {
-    const int row = position(hessian.rows[e]);
-    const int column = position(hessian.columns[e]);
+  transcription.hessian_structure().for_each([&](Eigen::Index /*entry*/, int i, int j) {
+    const int row = position(i);
+    const int column = position(j);
     if (row >= 0 && column >= 0 && row != column) {
       entries.emplace_back(std::max(row, column), std::min(row, column), -0.5);
     }
-  }
-  const SparsityPattern& jacobian = transcription.jacobian_structure();
-  for (std::size_t e = 0; e < jacobian.size(); ++e) {
-    const int column = position(jacobian.columns[e]);
-    if (column >= 0) entries.emplace_back(free + jacobian.rows[e], column, -0.5);
-  }
+  });
+  transcription.jacobian_structure().for_each([&](Eigen::Index /*entry*/, int row, int j) {
+    const int column = position(j);
+    if (column >= 0) entries.emplace_back(free + row, column, -0.5);
+  });
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor(matrix);

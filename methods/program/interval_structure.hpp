@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace dmocbench {
@@ -14,12 +16,60 @@ struct Place {
   std::size_t index = 0;
 };
 
+/// Consecutive unknowns, or rows, of one kind: number `first` + i belongs to node, or interval, `index` + i.
+struct PlaceRun {
+  Place::Kind kind = Place::Kind::border;
+  std::size_t index = 0;
+  std::size_t count = 0;
+  std::size_t first = 0;
+};
+
+/// The places of all unknowns, or of all rows, as runs. A quantity of all nodes is one run of N + 1, a quantity of all
+/// intervals one of N; a shorter run is a quantity of its nodes alone.
+class Places {
+ public:
+  /// Adds a run and returns the number of its first member.
+  std::size_t append(Place::Kind kind, std::size_t index, std::size_t count) {
+    runs_.push_back({kind, index, count, size_});
+    size_ += count;
+    return runs_.back().first;
+  }
+
+  [[nodiscard]] const std::vector<PlaceRun>& runs() const noexcept { return runs_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// The number of the run that a member belongs to.
+  [[nodiscard]] std::size_t run_of(std::size_t number) const {
+    const auto behind = std::ranges::upper_bound(runs_, number, {}, &PlaceRun::first);
+    return static_cast<std::size_t>(std::distance(runs_.begin(), behind)) - 1;
+  }
+  /// The place of a member.
+  [[nodiscard]] Place operator[](std::size_t number) const {
+    const PlaceRun& run = runs_[run_of(number)];
+    return {run.kind, run.kind == Place::Kind::border ? 0 : run.index + number - run.first};
+  }
+  /// Calls visit(place) for every member in order.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const PlaceRun& run : runs_) {
+      for (std::size_t i = 0; i < run.count; ++i) {
+        visit(Place{run.kind, run.kind == Place::Kind::border ? 0 : run.index + i});
+      }
+    }
+  }
+
+ private:
+  std::vector<PlaceRun> runs_;
+  std::size_t size_ = 0;
+};
+
 /// The structure that solvers by intervals need: a row of interval k reads unknowns of nodes k and k + 1, of interval k
-/// and of the border only; a row of node k those of intervals k - 1 and k.
+/// and of the border only; a row of node k those of intervals k - 1 and k. A run of the Jacobian's pattern keeps within
+/// one run of `rows` and one of `unknowns`, a run of the Hessian's within two of `unknowns`.
 struct IntervalStructure {
   std::size_t intervals = 0;
-  std::vector<Place> unknowns;  ///< one per variable
-  std::vector<Place> rows;      ///< one per constraint
+  Places unknowns;
+  Places rows;
 };
 
 }  // namespace dmocbench

@@ -66,13 +66,11 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
   Eigen::VectorXd slope;
   resize_unwritten(slope, primal.size());
   program.gradient(primal, slope);
-  const SparsityPattern& pattern = program.jacobian_structure();
+  const BlockPattern& pattern = program.jacobian_structure();
   Eigen::VectorXd jacobian;
   resize_unwritten(jacobian, static_cast<Eigen::Index>(pattern.size()));
   program.jacobian(primal, jacobian);
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    slope[pattern.columns[e]] += jacobian[static_cast<Eigen::Index>(e)] * multipliers[pattern.rows[e]];
-  }
+  pattern.for_each([&](Eigen::Index e, int row, int column) { slope[column] += jacobian[e] * multipliers[row]; });
   for (Eigen::Index i = 0; i < primal.size(); ++i) {
     const double lower = program.variable_lower()[i];
     const double upper = program.variable_upper()[i];

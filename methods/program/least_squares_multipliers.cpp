@@ -48,14 +48,14 @@ Selection active_rows(const NonlinearProgram& program, const Eigen::VectorXd& ro
 }
 
 /// (∂a/∂ξ)ᵀ of the chosen rows and variables.
-Eigen::SparseMatrix<double> transposed(const SparsityPattern& pattern, const Eigen::VectorXd& values,
+Eigen::SparseMatrix<double> transposed(const BlockPattern& pattern, const Eigen::VectorXd& values,
                                        const Selection& rows, const Selection& variables) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    const int row = rows.number[static_cast<std::size_t>(pattern.rows[e])];
-    const int variable = variables.number[static_cast<std::size_t>(pattern.columns[e])];
-    if (row >= 0 && variable >= 0) entries.emplace_back(variable, row, values[static_cast<Eigen::Index>(e)]);
-  }
+  pattern.for_each([&](Eigen::Index e, int i, int j) {
+    const int row = rows.number[static_cast<std::size_t>(i)];
+    const int variable = variables.number[static_cast<std::size_t>(j)];
+    if (row >= 0 && variable >= 0) entries.emplace_back(variable, row, values[e]);
+  });
   // Eigen's sparse QR wants at least as many rows as columns; rows of zeros change no least-squares solution.
   Eigen::SparseMatrix<double> matrix(std::max(variables.count, rows.count), rows.count);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -71,7 +71,7 @@ Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen
                 " variables, got " + std::to_string(primal.size()));
   }
   const auto row_count = static_cast<Eigen::Index>(program.constraint_count());
-  const SparsityPattern& pattern = program.jacobian_structure();
+  const BlockPattern& pattern = program.jacobian_structure();
   Eigen::VectorXd gradient(primal.size());
   Eigen::VectorXd values(row_count);
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(pattern.size()));

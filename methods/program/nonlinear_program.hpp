@@ -1,10 +1,10 @@
 #pragma once
 
 #include <limits>
-#include <vector>
 
 #include <Eigen/Core>
 
+#include "methods/program/block_pattern.hpp"
 #include "methods/program/interval_structure.hpp"
 
 namespace dmocbench {
@@ -15,13 +15,6 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// A vector that is read, or written, in place: an Eigen vector or a map of someone else's memory.
 using VectorIn = Eigen::Ref<const Eigen::VectorXd>;
 using VectorOut = Eigen::Ref<Eigen::VectorXd>;
-
-/// Where the entries of a sparse matrix are; entry e stands at (rows[e], columns[e]). No position occurs twice.
-struct SparsityPattern {
-  std::vector<int> rows;
-  std::vector<int> columns;
-  [[nodiscard]] std::size_t size() const noexcept { return rows.size(); }
-};
 
 /// A nonlinear program, (NLP) of the paper with constants in the bounds:
 ///
@@ -50,9 +43,9 @@ class NonlinearProgram {
   [[nodiscard]] virtual const Eigen::VectorXd& constraint_upper() const = 0;
 
   /// ∂a_i/∂ξ_j.
-  [[nodiscard]] virtual const SparsityPattern& jacobian_structure() const = 0;
-  /// Lower triangle (row >= column) of the Hessian of the Lagrangian.
-  [[nodiscard]] virtual const SparsityPattern& hessian_structure() const = 0;
+  [[nodiscard]] virtual const BlockPattern& jacobian_structure() const = 0;
+  /// Lower triangle (row >= column) of the Hessian of the Lagrangian. A run lies on the diagonal, or does not touch it.
+  [[nodiscard]] virtual const BlockPattern& hessian_structure() const = 0;
 
   [[nodiscard]] virtual double objective(const VectorIn& x) = 0;
   /// `result`: variable_count() entries.

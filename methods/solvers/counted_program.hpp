@@ -26,8 +26,8 @@ class CountedProgram final : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return program_.variable_upper(); }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return program_.constraint_lower(); }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return program_.constraint_upper(); }
-  [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
-  [[nodiscard]] const SparsityPattern& hessian_structure() const override { return program_.hessian_structure(); }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return program_.hessian_structure(); }
   [[nodiscard]] double rounding_floor() const override { return program_.rounding_floor(); }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return program_.interval_structure(); }
 

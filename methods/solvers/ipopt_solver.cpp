@@ -146,9 +146,11 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   static Eigen::Map<const Eigen::VectorXd> point(const Number* values, Index size) { return {values, size}; }
   static Eigen::Map<Eigen::VectorXd> array(Number* values, Index size) { return {values, size}; }
 
-  static bool copy(const SparsityPattern& pattern, Index* rows, Index* columns) {
-    std::copy(pattern.rows.begin(), pattern.rows.end(), rows);
-    std::copy(pattern.columns.begin(), pattern.columns.end(), columns);
+  static bool copy(const BlockPattern& pattern, Index* rows, Index* columns) {
+    pattern.for_each([&](Eigen::Index e, int row, int column) {
+      rows[e] = row;
+      columns[e] = column;
+    });
     return true;
   }
 

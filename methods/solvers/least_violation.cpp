@@ -6,7 +6,7 @@
 namespace dmocbench {
 
 bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
-  const SparsityPattern& pattern = program.jacobian_structure();
+  const BlockPattern& pattern = program.jacobian_structure();
   Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(pattern.size()));
   program.constraints(primal, rows);
@@ -15,9 +15,7 @@ bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorX
 
   const Eigen::VectorXd outside = rows - rows.cwiseMax(program.constraint_lower()).cwiseMin(program.constraint_upper());
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(primal.size());
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    slope[pattern.columns[e]] += jacobian[static_cast<Eigen::Index>(e)] * outside[pattern.rows[e]];
-  }
+  pattern.for_each([&](Eigen::Index e, int row, int column) { slope[column] += jacobian[e] * outside[row]; });
   double steepest = 0.0;
   for (Eigen::Index i = 0; i < primal.size(); ++i) {
     const bool is_held = (slope[i] > 0.0 && primal[i] <= program.variable_lower()[i]) ||

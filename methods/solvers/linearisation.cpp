@@ -7,13 +7,11 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::SparseMatrix<double> matrix_of(const SparsityPattern& pattern, const Eigen::VectorXd& values, Eigen::Index rows,
+Eigen::SparseMatrix<double> matrix_of(const BlockPattern& pattern, const Eigen::VectorXd& values, Eigen::Index rows,
                                       Eigen::Index columns) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(pattern.size());
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    entries.emplace_back(pattern.rows[e], pattern.columns[e], values[static_cast<Eigen::Index>(e)]);
-  }
+  pattern.for_each([&](Eigen::Index e, int row, int column) { entries.emplace_back(row, column, values[e]); });
   Eigen::SparseMatrix<double> matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;

@@ -21,15 +21,13 @@ OneSidedRows::OneSidedRows(const NonlinearProgram& program, Kind kind, const std
     append(i, 1.0, upper);
     if (kind == Kind::inequalities) append(i, -1.0, lower);
   }
-  const SparsityPattern& pattern = program.jacobian_structure();
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    const Eigen::Index number = numbers[static_cast<std::size_t>(pattern.columns[e])];
-    if (number < 0) continue;
-    for (const std::size_t side : sides_of[static_cast<std::size_t>(pattern.rows[e])]) {
-      entries_.push_back(
-          {static_cast<Eigen::Index>(e), side * free_count + static_cast<std::size_t>(number), sides_[side].sign});
+  program.jacobian_structure().for_each([&](Eigen::Index e, int row, int column) {
+    const Eigen::Index number = numbers[static_cast<std::size_t>(column)];
+    if (number < 0) return;
+    for (const std::size_t side : sides_of[static_cast<std::size_t>(row)]) {
+      entries_.push_back({e, side * free_count + static_cast<std::size_t>(number), sides_[side].sign});
     }
-  }
+  });
 }
 
 void OneSidedRows::values(const Eigen::VectorXd& rows, double* result) const {

@@ -18,7 +18,7 @@ struct LocalEntries {
 
 /// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
 struct AssembledPattern {
-  SparsityPattern pattern;
+  BlockPattern pattern;
   std::vector<ColumnPlace> places;  ///< per local entry, as `ColumnAssembly` wants it
 };
 
@@ -26,6 +26,6 @@ struct AssembledPattern {
 [[nodiscard]] AssembledPattern assemble_pattern(const LocalEntries& entries);
 
 /// Adds the few entries of a part with one interval to a pattern, and says where each of them goes.
-[[nodiscard]] std::vector<ColumnPlace> extend_pattern(SparsityPattern& pattern, const LocalEntries& entries);
+[[nodiscard]] std::vector<ColumnPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries);
 
 }  // namespace dmocbench

@@ -2,14 +2,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-void append_column(std::vector<Place>& places, Place::Kind kind, std::size_t length) {
-  for (std::size_t k = 0; k < length; ++k) places.push_back({kind, k});
-}
-
-}  // namespace
-
 Layout::Layout(const LayoutShape& shape) : shape_(shape) {
   append_unknowns();
   append_rows();
@@ -21,16 +13,20 @@ Eigen::Index Layout::node_columns() const noexcept {
   return shape_.node_state == NodeState::configuration ? shape_.configuration_size : 2 * shape_.configuration_size;
 }
 
+void Layout::append_singles(Places& places, std::size_t node) const {
+  for (Eigen::Index i = 0; i < shape_.configuration_size; ++i) places.append(Place::Kind::node, node, 1);
+}
+
 void Layout::append_unknowns() {
   const Eigen::Index m = shape_.control_size;
   const std::size_t intervals = shape_.intervals;
-  std::vector<Place>& unknowns = structure_.unknowns;
+  Places& unknowns = structure_.unknowns;
   structure_.intervals = intervals;
   const auto node_wise = [&](Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) append_column(unknowns, Place::Kind::node, intervals + 1);
+    for (Eigen::Index i = 0; i < count; ++i) unknowns.append(Place::Kind::node, 0, intervals + 1);
   };
   const auto interval_wise = [&](Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) append_column(unknowns, Place::Kind::interval, intervals);
+    for (Eigen::Index i = 0; i < count; ++i) unknowns.append(Place::Kind::interval, 0, intervals);
   };
   node_wise(node_columns());
   interval_wise((shape_.stages - 1) * node_columns());
@@ -39,23 +35,21 @@ void Layout::append_unknowns() {
   cost_column_ = unknowns.size();
   node_wise(shape_.mayer ? 1 : 0);
   single_unknowns_ = unknowns.size();
-  const auto n = static_cast<std::size_t>(shape_.configuration_size);
-  if (shape_.first_has_velocity) unknowns.insert(unknowns.end(), n, {Place::Kind::node, 0});
-  if (shape_.last_has_velocity) unknowns.insert(unknowns.end(), n, {Place::Kind::node, intervals});
-  if (shape_.free_horizon) unknowns.push_back({Place::Kind::border, 0});
+  if (shape_.first_has_velocity) append_singles(unknowns, 0);
+  if (shape_.last_has_velocity) append_singles(unknowns, intervals);
+  if (shape_.free_horizon) unknowns.append(Place::Kind::border, 0, 1);
 }
 
 void Layout::append_rows() {
   const std::size_t intervals = shape_.intervals;
-  std::vector<Place>& rows = structure_.rows;
-  for (Eigen::Index i = 0; i < shape_.node_rows; ++i) append_column(rows, Place::Kind::node, intervals + 1);
-  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) append_column(rows, Place::Kind::interval, intervals);
+  Places& rows = structure_.rows;
+  for (Eigen::Index i = 0; i < shape_.node_rows; ++i) rows.append(Place::Kind::node, 0, intervals + 1);
+  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) rows.append(Place::Kind::interval, 0, intervals);
   single_rows_ = rows.size();
   const bool own_ties = shape_.node_state == NodeState::momentum;
-  const auto n = static_cast<std::size_t>(shape_.configuration_size);
-  if (shape_.first_has_velocity && own_ties) rows.insert(rows.end(), n, {Place::Kind::node, 0});
-  if (shape_.last_has_velocity && own_ties) rows.insert(rows.end(), n, {Place::Kind::node, intervals});
-  rows.insert(rows.end(), static_cast<std::size_t>(shape_.conditions), {Place::Kind::border, 0});
+  if (shape_.first_has_velocity && own_ties) append_singles(rows, 0);
+  if (shape_.last_has_velocity && own_ties) append_singles(rows, intervals);
+  if (shape_.conditions > 0) rows.append(Place::Kind::border, 0, static_cast<std::size_t>(shape_.conditions));
 }
 
 void Layout::place_interval() {

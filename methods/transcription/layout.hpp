@@ -79,6 +79,8 @@ class Layout {
 
  private:
   [[nodiscard]] Eigen::Index node_columns() const noexcept;
+  /// One of each configuration at one node.
+  void append_singles(Places& places, std::size_t node) const;
   void append_unknowns();
   void append_rows();
   void place_interval();

@@ -127,14 +127,11 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
 }
 
 long long Transcription::fixed_variables_of_an_interval() const {
-  const std::vector<Place>& places = layout_.structure().unknowns;
-  long long fixed = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto entry = static_cast<Eigen::Index>(i);
-    const bool of_first = places[i].kind == Place::Kind::interval && places[i].index == 0;
-    if (of_first && variable_lower()[entry] == variable_upper()[entry]) ++fixed;
-  }
-  return fixed;
+  const auto is_fixed = [&](const PlaceRun& run) {
+    const auto first = static_cast<Eigen::Index>(run.first);
+    return run.kind == Place::Kind::interval && variable_lower()[first] == variable_upper()[first];
+  };
+  return std::ranges::count_if(layout_.structure().unknowns.runs(), is_fixed);
 }
 
 PartPlaces Transcription::interval_places() const {

@@ -52,8 +52,8 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return bounds_.variables.upper; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return bounds_.rows.lower; }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return bounds_.rows.upper; }
-  [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return jacobian_pattern_.pattern; }
-  [[nodiscard]] const SparsityPattern& hessian_structure() const override { return hessian_pattern_.pattern; }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return jacobian_pattern_.pattern; }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return hessian_pattern_.pattern; }
   [[nodiscard]] double objective(const VectorIn& x) override;
   void gradient(const VectorIn& x, VectorOut result) override;
   void constraints(const VectorIn& x, VectorOut result) override;

@@ -13,12 +13,10 @@ TEST(KktFill, CountsWhatTheProgramHasInFreeVariables) {
   const auto program = tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(3));
   std::size_t expected = free_variable_count(*program) + program->constraint_count();  // the diagonal
   const auto is_free = [&](int j) { return program->variable_lower()[j] != program->variable_upper()[j]; };
-  const SparsityPattern& hessian = program->hessian_structure();
-  for (std::size_t e = 0; e < hessian.size(); ++e) {
-    expected +=
-        hessian.rows[e] != hessian.columns[e] && is_free(hessian.rows[e]) && is_free(hessian.columns[e]) ? 1 : 0;
-  }
-  for (const int column : program->jacobian_structure().columns) expected += is_free(column) ? 1 : 0;
+  program->hessian_structure().for_each([&](Eigen::Index /*entry*/, int row, int column) {
+    expected += row != column && is_free(row) && is_free(column) ? 1 : 0;
+  });
+  for (const int column : program->jacobian_structure().expand().columns) expected += is_free(column) ? 1 : 0;
   const KktFill fill = kkt_fill(*program);
   EXPECT_EQ(fill.nonzeros, expected);
   EXPECT_GE(fill.factor_nonzeros, fill.nonzeros);

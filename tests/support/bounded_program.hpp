@@ -18,8 +18,8 @@ class BoundedProgram final : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return upper_; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return program_.constraint_lower(); }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return program_.constraint_upper(); }
-  [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
-  [[nodiscard]] const SparsityPattern& hessian_structure() const override { return program_.hessian_structure(); }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return program_.hessian_structure(); }
   [[nodiscard]] double objective(const VectorIn& x) override { return program_.objective(x); }
   void gradient(const VectorIn& x, VectorOut result) override { program_.gradient(x, result); }
   void constraints(const VectorIn& x, VectorOut result) override { program_.constraints(x, result); }

@@ -21,12 +21,12 @@ DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
       m_(static_cast<Eigen::Index>(program.constraint_count())),
       compliance_(numbers.compliance) {
   matrix_.setZero(n_ + m_, n_ + m_);
-  const SparsityPattern& hessian = program.hessian_structure();
+  const SparsityPattern hessian = program.hessian_structure().expand();
   for (std::size_t e = 0; e < hessian.size(); ++e) {
     matrix_(hessian.rows[e], hessian.columns[e]) = numbers.hessian[static_cast<Eigen::Index>(e)];
     matrix_(hessian.columns[e], hessian.rows[e]) = numbers.hessian[static_cast<Eigen::Index>(e)];
   }
-  const SparsityPattern& jacobian = program.jacobian_structure();
+  const SparsityPattern jacobian = program.jacobian_structure().expand();
   for (std::size_t e = 0; e < jacobian.size(); ++e) {
     matrix_(n_ + jacobian.rows[e], jacobian.columns[e]) = numbers.jacobian[static_cast<Eigen::Index>(e)];
     matrix_(jacobian.columns[e], n_ + jacobian.rows[e]) = numbers.jacobian[static_cast<Eigen::Index>(e)];

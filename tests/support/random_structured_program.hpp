@@ -71,8 +71,8 @@ class RandomStructuredProgram final : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return row_lower_; }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return row_upper_; }
-  [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return jacobian_pattern_; }
-  [[nodiscard]] const SparsityPattern& hessian_structure() const override { return hessian_pattern_; }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return jacobian_pattern_; }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return hessian_pattern_; }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return &structure_; }
 
   [[nodiscard]] double objective(const VectorIn& x) override {
@@ -82,18 +82,14 @@ class RandomStructuredProgram final : public NonlinearProgram {
   }
   void gradient(const VectorIn& x, VectorOut result) override {
     result = gradient_;
-    for (std::size_t e = 0; e < hessian_pattern_.size(); ++e) {
-      const int row = hessian_pattern_.rows[e];
-      const int column = hessian_pattern_.columns[e];
-      result[row] += hessian_[static_cast<Eigen::Index>(e)] * x[column];
-      if (row != column) result[column] += hessian_[static_cast<Eigen::Index>(e)] * x[row];
-    }
+    hessian_pattern_.for_each([&](Eigen::Index e, int row, int column) {
+      result[row] += hessian_[e] * x[column];
+      if (row != column) result[column] += hessian_[e] * x[row];
+    });
   }
   void constraints(const VectorIn& x, VectorOut result) override {
     result.setZero();
-    for (std::size_t e = 0; e < jacobian_pattern_.size(); ++e) {
-      result[jacobian_pattern_.rows[e]] += jacobian_[static_cast<Eigen::Index>(e)] * x[jacobian_pattern_.columns[e]];
-    }
+    jacobian_pattern_.for_each([&](Eigen::Index e, int row, int column) { result[row] += jacobian_[e] * x[column]; });
   }
   void jacobian(const VectorIn& /*x*/, VectorOut values) override { values = jacobian_; }
   void hessian(const VectorIn& /*x*/, double objective_factor, const VectorIn& /*multipliers*/,
@@ -112,11 +108,8 @@ class RandomStructuredProgram final : public NonlinearProgram {
 
   void append_unknowns() {
     const std::size_t N = structure_.intervals = shape_.intervals;
-    std::vector<Place>& places = structure_.unknowns;
-    const auto column = [&](Place::Kind kind, std::size_t length) {
-      for (std::size_t k = 0; k < length; ++k) places.push_back({kind, k});
-      return places.size() - length;
-    };
+    Places& places = structure_.unknowns;
+    const auto column = [&](Place::Kind kind, std::size_t length) { return places.append(kind, 0, length); };
     for (Eigen::Index i = 0; i < shape_.node; ++i) nodes_.push_back(column(Place::Kind::node, N + 1));
     for (const std::size_t right : {0U, 1U}) {
       for (const std::size_t first : nodes_) local_unknowns_.emplace_back(first + right);
@@ -128,23 +121,18 @@ class RandomStructuredProgram final : public NonlinearProgram {
     for (const std::size_t end : {0U, 1U}) {
       for (const std::size_t first : nodes_) ends_[end].push_back(first + end * N);
       for (Eigen::Index i = 0; shape_.velocity[end] && i < shape_.node; ++i) {
-        ends_[end].push_back(places.size());
-        places.push_back({Place::Kind::node, end * N});
+        ends_[end].push_back(places.append(Place::Kind::node, end * N, 1));
       }
     }
     if (!shape_.horizon) return;
-    local_unknowns_.emplace_back(places.size(), true);
-    places.push_back({Place::Kind::border, 0});
+    local_unknowns_.emplace_back(places.append(Place::Kind::border, 0, 1), true);
   }
 
   void append_rows() {
     const std::size_t N = shape_.intervals;
-    std::vector<Place>& places = structure_.rows;
+    Places& places = structure_.rows;
     const std::size_t node = size(shape_.node);
-    const auto column = [&](Place::Kind kind, std::size_t length) {
-      for (std::size_t k = 0; k < length; ++k) places.push_back({kind, k});
-      return places.size() - length;
-    };
+    const auto column = [&](Place::Kind kind, std::size_t length) { return places.append(kind, 0, length); };
     for (std::size_t i = 0; shape_.rows_at_nodes && i < node; ++i) {
       node_rows_.push_back(column(Place::Kind::node, N + 1));
       local_rows_.push_back({ColumnPlace(node_rows_.back()), i + node});
@@ -157,10 +145,10 @@ class RandomStructuredProgram final : public NonlinearProgram {
     single_rows_ = places.size();
     for (const std::size_t end : {0U, 1U}) {
       const bool own = !shape_.rows_at_nodes && shape_.velocity[end];
-      for (std::size_t i = 0; own && i < node; ++i) places.push_back({Place::Kind::node, end * N});
+      for (std::size_t i = 0; own && i < node; ++i) places.append(Place::Kind::node, end * N, 1);
     }
     first_condition_ = places.size();
-    places.insert(places.end(), size(shape_.conditions), {Place::Kind::border, 0});
+    if (shape_.conditions > 0) places.append(Place::Kind::border, 0, size(shape_.conditions));
   }
 
   template <class Column>
@@ -186,6 +174,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     const AssembledPattern assembled = assemble_pattern(entries);
     jacobian_pattern_ = assembled.pattern;
     const std::vector<ColumnPlace> end_places = extend_pattern(jacobian_pattern_, end_rows());
+    jacobian_entries_ = jacobian_pattern_.expand();
     jacobian_.setZero(static_cast<Eigen::Index>(jacobian_pattern_.size()));
     for (std::size_t e = 0; e < increment.size(); ++e) {
       const double base = increment[e] + shape_.coupling * random_.number();
@@ -246,11 +235,11 @@ class RandomStructuredProgram final : public NonlinearProgram {
     const std::size_t source = local_rows_[size(equalities) - 2].place.first + k;
     const std::size_t target = local_rows_[size(equalities) - 1].place.first + k;
     for (std::size_t e = 0; e < jacobian_pattern_.size(); ++e) {
-      if (static_cast<std::size_t>(jacobian_pattern_.rows[e]) != target) continue;
+      if (static_cast<std::size_t>(jacobian_entries_.rows[e]) != target) continue;
       double other = 0.0;
       for (std::size_t f = 0; f < jacobian_pattern_.size(); ++f) {
-        const bool is_other = static_cast<std::size_t>(jacobian_pattern_.rows[f]) == source &&
-                              jacobian_pattern_.columns[f] == jacobian_pattern_.columns[e];
+        const bool is_other = static_cast<std::size_t>(jacobian_entries_.rows[f]) == source &&
+                              jacobian_entries_.columns[f] == jacobian_entries_.columns[e];
         if (is_other) other = jacobian_[static_cast<Eigen::Index>(f)];
       }
       jacobian_[static_cast<Eigen::Index>(e)] = other + 1e-6 * random_.number();
@@ -334,10 +323,10 @@ class RandomStructuredProgram final : public NonlinearProgram {
   [[nodiscard]] Eigen::VectorXd derivatives_of(std::size_t row, std::size_t interval) const {
     Eigen::VectorXd derivatives = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(local_unknowns_.size()));
     for (std::size_t e = 0; e < jacobian_pattern_.size(); ++e) {
-      if (static_cast<std::size_t>(jacobian_pattern_.rows[e]) != row) continue;
+      if (static_cast<std::size_t>(jacobian_entries_.rows[e]) != row) continue;
       for (std::size_t j = 0; j < local_unknowns_.size(); ++j) {
         const std::size_t unknown = local_unknowns_[j].at(interval);
-        if (static_cast<std::size_t>(jacobian_pattern_.columns[e]) != unknown) continue;
+        if (static_cast<std::size_t>(jacobian_entries_.columns[e]) != unknown) continue;
         derivatives[static_cast<Eigen::Index>(j)] = jacobian_[static_cast<Eigen::Index>(e)];
       }
     }
@@ -378,8 +367,9 @@ class RandomStructuredProgram final : public NonlinearProgram {
   std::size_t first_inequality_ = 0;
   std::size_t single_rows_ = 0;
   std::size_t first_condition_ = 0;
-  SparsityPattern jacobian_pattern_;
-  SparsityPattern hessian_pattern_;
+  BlockPattern jacobian_pattern_;
+  BlockPattern hessian_pattern_;
+  SparsityPattern jacobian_entries_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd hessian_;
   Eigen::VectorXd gradient_;

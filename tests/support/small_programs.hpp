@@ -25,11 +25,9 @@ class SmallProgram : public NonlinearProgram {
   };
 
   explicit SmallProgram(Statement statement) : statement_(std::move(statement)) {
-    const auto n = static_cast<int>(variable_count());
-    const auto m = static_cast<int>(constraint_count());
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < m; ++i) append(jacobian_, i, j);
-      for (int i = j; i < n; ++i) append(hessian_, i, j);
+    for (std::size_t j = 0; j < variable_count(); ++j) {
+      for (std::size_t i = 0; i < constraint_count(); ++i) jacobian_.append(i, j);
+      for (std::size_t i = j; i < variable_count(); ++i) hessian_.append(i, j);
     }
   }
 
@@ -39,8 +37,8 @@ class SmallProgram : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return statement_.variable_upper; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return statement_.row_lower; }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return statement_.row_upper; }
-  [[nodiscard]] const SparsityPattern& jacobian_structure() const override { return jacobian_; }
-  [[nodiscard]] const SparsityPattern& hessian_structure() const override { return hessian_; }
+  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return jacobian_; }
+  [[nodiscard]] const BlockPattern& hessian_structure() const override { return hessian_; }
 
   [[nodiscard]] double objective(const VectorIn& x) override { return statement_.objective(seeded(x, -1, -1)).x; }
   void gradient(const VectorIn& x, VectorOut result) override {
@@ -71,10 +69,6 @@ class SmallProgram : public NonlinearProgram {
 
  private:
   static std::size_t size(const Eigen::VectorXd& vector) { return static_cast<std::size_t>(vector.size()); }
-  static void append(SparsityPattern& pattern, int row, int column) {
-    pattern.rows.push_back(row);
-    pattern.columns.push_back(column);
-  }
   static HyperVector seeded(const VectorIn& x, Eigen::Index first, Eigen::Index second) {
     HyperVector point(x.begin(), x.end());
     if (first >= 0) point[static_cast<std::size_t>(first)].e1 = 1.0;
@@ -83,8 +77,8 @@ class SmallProgram : public NonlinearProgram {
   }
 
   Statement statement_;
-  SparsityPattern jacobian_;
-  SparsityPattern hessian_;
+  BlockPattern jacobian_;
+  BlockPattern hessian_;
 };
 
 inline Eigen::VectorXd vector(std::initializer_list<double> entries) {

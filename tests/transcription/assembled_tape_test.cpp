@@ -97,10 +97,9 @@ TEST(AssemblePattern, PutsEveryLocalEntryWhereItBelongsAndNothingTwice) {
     }
     const AssembledPattern assembled = assemble_pattern({rows, columns, intervals});
     std::map<std::pair<int, int>, std::size_t> place;
-    for (std::size_t e = 0; e < assembled.pattern.size(); ++e) {
-      const auto position = std::pair(assembled.pattern.rows[e], assembled.pattern.columns[e]);
-      EXPECT_TRUE(place.emplace(position, e).second) << "N = " << intervals;
-    }
+    assembled.pattern.for_each([&](Eigen::Index e, int row, int column) {
+      EXPECT_TRUE(place.emplace(std::pair(row, column), static_cast<std::size_t>(e)).second) << "N = " << intervals;
+    });
     ASSERT_EQ(assembled.places.size(), rows.size());
     std::size_t reached = 0;
     std::map<std::size_t, bool> seen;
@@ -124,24 +123,27 @@ TEST(AssemblePattern, KeepsRowsAndColumnsOfAQuantityOfTheWholeHorizon) {
   const AssembledPattern assembled =
       assemble_pattern({{0, 1, 10, horizon}, {horizon, horizon, horizon, horizon}, intervals});
   EXPECT_EQ(assembled.pattern.size(), (intervals + 1) + intervals + 1);
+  const SparsityPattern pattern = assembled.pattern.expand();
   for (std::size_t k = 0; k < intervals; ++k) {
     const std::size_t left = assembled.places[0].at(k);
     const std::size_t right = assembled.places[1].at(k);
-    EXPECT_EQ(assembled.pattern.rows[left], static_cast<int>(k));
-    EXPECT_EQ(assembled.pattern.rows[right], static_cast<int>(k + 1));
-    EXPECT_EQ(assembled.pattern.columns[right], 20);
-    EXPECT_EQ(assembled.pattern.rows[assembled.places[2].at(k)], static_cast<int>(10 + k));
+    EXPECT_EQ(pattern.rows[left], static_cast<int>(k));
+    EXPECT_EQ(pattern.rows[right], static_cast<int>(k + 1));
+    EXPECT_EQ(pattern.columns[right], 20);
+    EXPECT_EQ(pattern.rows[assembled.places[2].at(k)], static_cast<int>(10 + k));
   }
   EXPECT_TRUE(assembled.places[3].shared);
-  EXPECT_EQ(assembled.pattern.rows[assembled.places[3].first], 20);
+  EXPECT_EQ(pattern.rows[assembled.places[3].first], 20);
 }
 
 TEST(ExtendPattern, FindsWhatIsThereAndAppendsTheRest) {
-  SparsityPattern pattern{{0, 1, 2}, {0, 1, 2}};
+  BlockPattern pattern;
+  pattern.append({.row_step = 1, .column_step = 1, .length = 3});
   const std::vector<ColumnPlace> places = extend_pattern(pattern, {{1, 7, 2, 7}, {1, 0, 2, 0}, 1});
   EXPECT_EQ(places, (std::vector<ColumnPlace>{1, 3, 2, 3}));
-  EXPECT_EQ(pattern.rows, (std::vector<int>{0, 1, 2, 7}));
-  EXPECT_EQ(pattern.columns, (std::vector<int>{0, 1, 2, 0}));
+  const SparsityPattern entries = pattern.expand();
+  EXPECT_EQ(entries.rows, (std::vector<int>{0, 1, 2, 7}));
+  EXPECT_EQ(entries.columns, (std::vector<int>{0, 1, 2, 0}));
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST(Layout, IntervalStructureHoldsForEveryEntryOfTheJacobian) {
     EXPECT_EQ(structure->intervals, 9U);
     ASSERT_EQ(structure->unknowns.size(), program->variable_count());
     ASSERT_EQ(structure->rows.size(), program->constraint_count());
-    const SparsityPattern& pattern = program->jacobian_structure();
+    const SparsityPattern pattern = program->jacobian_structure().expand();
     for (std::size_t e = 0; e < pattern.size(); ++e) {
       const auto row = static_cast<std::size_t>(pattern.rows[e]);
       const auto column = static_cast<std::size_t>(pattern.columns[e]);

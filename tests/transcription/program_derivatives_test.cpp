@@ -98,8 +98,8 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 Derivatives of_program(Transcription& program, const Eigen::VectorXd& x, double factor,
                        const Eigen::VectorXd& multipliers) {
-  const SparsityPattern& jacobian = program.jacobian_structure();
-  const SparsityPattern& hessian = program.hessian_structure();
+  const SparsityPattern jacobian = program.jacobian_structure().expand();
+  const SparsityPattern hessian = program.hessian_structure().expand();
   Derivatives result;
   result.gradient.resize(x.size());
   result.rows.resize(multipliers.size());
@@ -174,17 +174,34 @@ TEST_P(ProgramDerivatives, AgreeWithDifferencesOfTheProgramItself) {
 TEST_P(ProgramDerivatives, HaveNoPositionTwiceAndTheHessianOnlyItsLowerTriangle) {
   for (const int intervals : {4, 5, 70}) {
     const auto program = tests::transcribe(*problem_, scheme_, Grid::uniform(intervals));
-    for (const SparsityPattern* pattern : {&program->jacobian_structure(), &program->hessian_structure()}) {
+    for (const BlockPattern* pattern : {&program->jacobian_structure(), &program->hessian_structure()}) {
       std::set<std::pair<int, int>> positions;
-      ASSERT_EQ(pattern->rows.size(), pattern->columns.size());
-      for (std::size_t e = 0; e < pattern->size(); ++e) {
-        EXPECT_TRUE(positions.insert({pattern->rows[e], pattern->columns[e]}).second);
+      pattern->for_each([&](Eigen::Index e, int row, int column) {
+        EXPECT_EQ(e, static_cast<Eigen::Index>(positions.size()));
+        EXPECT_TRUE(positions.insert({row, column}).second);
         if (pattern == &program->hessian_structure()) {
-          EXPECT_GE(pattern->rows[e], pattern->columns[e]);
+          EXPECT_GE(row, column);
         }
+      });
+      EXPECT_EQ(positions.size(), pattern->size());
+    }
+  }
+}
+
+TEST_P(ProgramDerivatives, HaveAsManyRunsOnAnyGridAndThoseOfTheHessianLieOnTheDiagonalOrOffIt) {
+  std::set<std::pair<std::size_t, std::size_t>> counts;
+  for (const int intervals : {5, 70}) {
+    const auto program = tests::transcribe(*problem_, scheme_, Grid::uniform(intervals));
+    counts.insert({program->jacobian_structure().runs().size(), program->hessian_structure().runs().size()});
+    for (const PatternRun& run : program->hessian_structure().runs()) {
+      if (run.row == run.column) {
+        EXPECT_EQ(run.row_step, run.column_step);
+      } else {
+        EXPECT_GT(run.row + (run.length - 1) * run.row_step, run.column + (run.length - 1) * run.column_step);
       }
     }
   }
+  EXPECT_EQ(counts.size(), 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives,

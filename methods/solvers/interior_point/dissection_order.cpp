@@ -44,8 +44,8 @@ std::vector<int> dissection_order(const NonlinearProgram& program) {
     keys.emplace_back(2 * (in_border ? next : ranks[number_of(place)]) + (is_first ? 0U : 1U),
                       static_cast<int>(keys.size()));
   };
-  for (const Place& place : structure->unknowns) append(place, false);
-  for (const Place& place : structure->rows) append(place, true);
+  structure->unknowns.for_each([&](const Place& place) { append(place, false); });
+  structure->rows.for_each([&](const Place& place) { append(place, true); });
   std::ranges::sort(keys);
   std::vector<int> positions(keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i)

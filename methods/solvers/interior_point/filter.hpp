@@ -5,36 +5,33 @@
 
 namespace dmocbench::interior_point {
 
-/// Pairs of violation and barrier function that no later point may be as bad as in both (Fletcher and Leyffer; Wächter
-/// and Biegler 2006, whose constants these are).
+/// The filter of the line search: pairs (θ, φ) of violation and barrier function, of which no later point may be as bad
+/// in both (Fletcher and Leyffer; Wächter and Biegler 2006, section 2.3, whose constants these are).
 class Filter {
  public:
-  /// The margin by which a point has to be better, as a share of the violation.
+  /// γ_θ = γ_φ: how much better a point has to be, as a share of the violation.
   static constexpr double margin = 1e-5;
 
-  /// Forgets all pairs; from now on points whose violation exceeds `largest_violation` are refused.
-  void reset(double largest_violation) {
-    largest_violation_ = largest_violation;
+  /// Forgets all pairs; from now on points with θ > θ_max are refused, (21).
+  void reset(double theta_max) {
+    theta_max_ = theta_max;
     pairs_.clear();
   }
 
-  [[nodiscard]] bool accepts(double violation, double function) const {
-    if (!(violation <= largest_violation_)) return false;
-    return std::ranges::none_of(
-        pairs_, [&](const Pair& pair) { return violation >= pair.violation && function >= pair.function; });
+  [[nodiscard]] bool accepts(double theta, double phi) const {
+    if (!(theta <= theta_max_)) return false;
+    return std::ranges::none_of(pairs_, [&](const Pair& pair) { return theta >= pair.theta && phi >= pair.phi; });
   }
 
-  /// Refuses points that are not better than this one.
-  void add(double violation, double function) {
-    pairs_.push_back({(1.0 - margin) * violation, function - margin * violation});
-  }
+  /// Refuses points that are not better than this one, (22).
+  void add(double theta, double phi) { pairs_.push_back({(1.0 - margin) * theta, phi - margin * theta}); }
 
  private:
   struct Pair {
-    double violation;
-    double function;
+    double theta;
+    double phi;
   };
-  double largest_violation_ = 0.0;
+  double theta_max_ = 0.0;
   std::vector<Pair> pairs_;
 };
 

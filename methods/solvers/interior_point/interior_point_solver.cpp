@@ -1,21 +1,342 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <tl/expected.hpp>
 
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/interior_point/interior_point_run.hpp"
+#include "methods/solvers/interior_point/barrier_program.hpp"
+#include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
+#include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
+#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
+
+namespace interior_point {
+
+namespace {
+
+// Constants of Wächter and Biegler, by their names there.
+constexpr double mu_0 = 0.1;
+constexpr double kappa_1 = 1e-2;
+constexpr double kappa_epsilon = 10.0;
+constexpr double kappa_mu = 0.2;
+constexpr double theta_mu = 1.5;
+constexpr double tau_min = 0.99;
+constexpr double eta_phi = 1e-8;
+constexpr double delta = 1.0;
+constexpr double s_theta = 1.1;
+constexpr double s_phi = 2.3;
+constexpr double gamma_alpha = 0.05;
+constexpr double kappa_soc = 0.99;
+constexpr int p_max = 4;
+constexpr double theta_min_ratio = 1e-4;
+constexpr double theta_max_ratio = 1e4;
+// Ours.
+constexpr double mu_of_warm_start = 1e-6;
+constexpr double push_of_warm_start = 1e-6;
+constexpr double correctable = 2.0;  // see try_second_order_correction
+
+/// One solve by the primal-dual interior-point method with a filter line search of Wächter and Biegler ("On the
+/// implementation of an interior-point filter line-search algorithm for large-scale nonlinear programming",
+/// Mathematical Programming 106, 2006). Numbers in brackets are those of its equations, A-1 to A-9 the steps of its
+/// Algorithm A.
+class InteriorPointRun {
+ public:
+  InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
+      : uncounted_(program.uncounted()),
+        options_(options),
+        program_(program),
+        newton_(program_, kkt),
+        allowed_(program, options.tolerance) {}
+
+  /// A-1. A status ends the solve, here and below.
+  [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start) {
+    const bool is_warm = options_.start_multipliers.size() > 0;
+    if (program_.has_bounds()) mu_ = is_warm ? mu_of_warm_start : mu_0;
+    at_ = program_.interior(start, is_warm ? push_of_warm_start : kappa_1);
+    if (!program_.evaluate(at_, mu_, values_)) return Status::evaluation_failed;
+    program_.differentiate(at_.x);
+    if (is_warm) {
+      at_.multipliers = options_.start_multipliers;
+    } else {
+      newton_.estimate_multipliers(at_);
+    }
+    if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
+    if (is_warm) program_.bounds().balance(mu_, gradient_, at_);
+    const double theta = std::max(1.0, values_.theta);
+    theta_min_ = theta_min_ratio * theta;
+    theta_max_ = theta_max_ratio * theta;
+    filter_.reset(theta_max_);
+    rounding_of_theta_ = uncounted_.rounding_floor() * std::sqrt(static_cast<double>(values_.constraints.size()));
+    return std::nullopt;
+  }
+
+  /// One iteration.
+  [[nodiscard]] std::optional<Status> iterate() {
+    const BarrierBounds& bounds = program_.bounds();
+    const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
+    // A-2. Stop where E_0 <= ε, (5) and (6).
+    if (has_converged(errors)) return Status::solved;
+    if (const auto reason = reason_to_stop()) return reason;
+    // A-3. Lower μ while E_μ <= κ_ε μ, (7).
+    update_barrier_parameter(errors);
+    ++iterations_;
+    // A-4. The Newton step (13), its Hessian shifted by Algorithm IC until the inertia is right.
+    program_.evaluate_hessian(at_);
+    bool is_accepted = false;
+    if (newton_.compute(at_, mu_, gradient_, values_.constraints, step_)) {
+      // A-5. From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
+      const double derivative = newton_.directional_derivative(at_, mu_, step_);
+      const double alpha_min = smallest_length(derivative);
+      double alpha = bounds.fraction_to_boundary(at_, step_, tau());
+      is_accepted = try_step(step_, alpha, derivative, alpha) || try_second_order_correction(alpha, derivative);
+      while (!is_accepted && 0.5 * alpha >= alpha_min) {
+        alpha *= 0.5;
+        is_accepted = try_step(step_, alpha, derivative, alpha);
+      }
+      length_ = alpha;
+      // A-6. λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
+      if (is_accepted) {
+        set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
+        const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
+        bounds.update_multipliers(step_, alpha_z, mu_, at_);
+      }
+    }
+    // A-9. Restore feasibility where no step is acceptable.
+    if (!is_accepted) {
+      if (const auto reason = restoration_phase()) return reason;
+    }
+    program_.differentiate(at_.x);
+    if (!is_accepted) reset_bound_multipliers();
+    if (!is_accepted || has_runaway_multipliers()) newton_.estimate_multipliers(at_);
+    if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
+    report("newton");
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Solution solution(Status status) {
+    if (options_.verbose) fmt::print("{} iterations, {} linear systems\n", iterations_, newton_.factorisations());
+    Solution solution;
+    solution.status = status;
+    solution.message = message_;
+    solution.primal = std::move(at_.x);
+    solution.multipliers = std::move(at_.multipliers);
+    solution.major_iterations = iterations_;
+    solution.linear_systems = newton_.factorisations();
+    solution.linear_seconds = newton_.linear_seconds();
+    return solution;
+  }
+
+ private:
+  [[nodiscard]] std::optional<Status> reason_to_stop() const {
+    if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
+    if (options_.most_seconds > 0.0 && seconds_since(begin_) > options_.most_seconds) return Status::time_limit;
+    if (iterations_ >= options_.most_iterations) return Status::iteration_limit;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool has_converged(const OptimalityErrors& errors) const {
+    return errors.violation <= allowed_.violation() &&
+           errors.stationarity <= allowed_.stationarity(errors.mean_multiplier, largest_of(at_.multipliers)) &&
+           program_.bounds().complementarity(at_, 0.0) <= allowed_.complementarity(errors.mean_bound_multiplier);
+  }
+
+  void update_barrier_parameter(const OptimalityErrors& errors) {
+    if (!program_.has_bounds()) return;
+    const double smallest = options_.tolerance / (kappa_epsilon + 1.0);
+    const double without_mu = std::max(errors.stationarity / StopRule::scale(errors.mean_multiplier), errors.violation);
+    const auto error = [&] {
+      const double complementarity = program_.bounds().complementarity(at_, mu_);
+      return std::max(without_mu, complementarity / StopRule::scale(errors.mean_bound_multiplier));
+    };
+    while (mu_ > smallest && without_mu <= kappa_epsilon * mu_ && error() <= kappa_epsilon * mu_) {
+      mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));
+      values_.phi = program_.barrier_function(at_, mu_, values_.objective);
+      filter_.reset(theta_max_);
+    }
+  }
+
+  /// (8).
+  [[nodiscard]] double tau() const { return std::max(tau_min, 1.0 - mu_); }
+
+  /// (23).
+  [[nodiscard]] double smallest_length(double derivative) const {
+    constexpr double shortest = 1e-14;
+    double length = Filter::margin;
+    if (derivative < 0.0) {
+      length = std::min(length, -Filter::margin * values_.theta / derivative);
+      if (values_.theta <= theta_min_) {
+        length = std::min(length, delta * std::pow(values_.theta, s_theta) / std::pow(-derivative, s_phi));
+      }
+    }
+    return std::max(gamma_alpha * length, shortest);
+  }
+
+  /// A-5.2; false if a value is not finite.
+  [[nodiscard]] bool evaluate_trial(const Primal& step, double length) {
+    set_to_sum(trial_.x, at_.x, length, step.x);
+    if (at_.s.size() > 0) set_to_sum(trial_.s, at_.s, length, step.s);
+    return program_.evaluate(trial_, mu_, trial_values_) && std::isfinite(trial_values_.phi);
+  }
+
+  void accept_trial() {
+    at_.x.swap(trial_.x);
+    at_.s.swap(trial_.s);
+    std::swap(values_, trial_values_);
+  }
+
+  /// Accepts the point at `length` along a step if filter and decrease allow it, A-5.2 to A-5.4 and A-7. Differences
+  /// within rounding count as none. `derivative` and `reference_length` are those of the Newton step, also where its
+  /// correction is tried.
+  [[nodiscard]] bool try_step(const Primal& step, double length, double derivative, double reference_length) {
+    if (!evaluate_trial(step, length)) return false;
+    const double theta = trial_values_.theta;
+    constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
+    const double rounding = safety * std::sqrt(static_cast<double>(at_.x.size())) *
+                            std::numeric_limits<double>::epsilon() *
+                            (std::abs(values_.objective) + std::abs(values_.phi - values_.objective));
+    if (!filter_.accepts(theta - rounding_of_theta_, trial_values_.phi - rounding)) return false;
+    const double change = trial_values_.phi - values_.phi;
+    const bool is_nearer = theta <= (1.0 - Filter::margin) * values_.theta;  // (18a)
+    const bool is_rounding = theta <= rounding_of_theta_ && values_.theta <= rounding_of_theta_;
+    const bool is_descent = derivative < 0.0 && reference_length * std::pow(-derivative, s_phi) >
+                                                    delta * std::pow(values_.theta, s_theta);  // (19)
+    if (values_.theta <= theta_min_ && (is_descent || is_rounding)) {
+      // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
+      const bool is_decrease = change <= eta_phi * reference_length * derivative + rounding;  // (20)
+      if (!is_decrease && !(is_rounding && is_nearer)) return false;
+    } else {
+      const bool is_lower = change <= -Filter::margin * values_.theta + rounding;  // (18b)
+      if (!is_nearer && !is_lower) return false;
+      filter_.add(values_.theta, values_.phi);  // (22)
+    }
+    accept_trial();
+    return true;
+  }
+
+  /// Where the violation grows from the start of a step, by the constraints' curvature, their residuals at the trial
+  /// point join the right-hand side, A-5.5 to A-5.9. Where it grows a lot the step is too long for a correction.
+  [[nodiscard]] bool try_second_order_correction(double length, double derivative) {
+    double before = values_.theta;
+    if (!(trial_values_.theta >= before && trial_values_.theta <= correctable * before)) return false;
+    Eigen::VectorXd residuals = length * values_.constraints + trial_values_.constraints;  // (27)
+    Iterate corrected;
+    for (int p = 0; p < p_max; ++p) {
+      if (!residuals.allFinite() || !newton_.correct(at_, mu_, gradient_, residuals, corrected)) return false;
+      const double corrected_length = program_.bounds().fraction_to_boundary(at_, corrected, tau());
+      if (try_step(corrected, corrected_length, derivative, length)) return true;
+      if (!(trial_values_.theta <= kappa_soc * before)) return false;
+      before = trial_values_.theta;
+      residuals = corrected_length * residuals + trial_values_.constraints;
+    }
+    return false;
+  }
+
+  /// Steps towards feasibility alone, until the filter accepts the point. Unlike in section 3.3 they are steps of least
+  /// length to where the linearised constraints hold.
+  [[nodiscard]] std::optional<Status> restoration_phase() {
+    if (values_.theta <= options_.tolerance) {
+      message_ = "No step along the Newton direction is an improvement, though all rows hold.";
+      return Status::step_failed;
+    }
+    constexpr double kappa_resto = 0.9;
+    const double enough = kappa_resto * values_.theta;
+    filter_.add(values_.theta, values_.phi);
+    do {
+      if (const auto reason = reason_to_stop()) return reason;
+      if (!take_feasibility_step()) break;
+      ++iterations_;
+      report("rows");
+    } while (values_.theta > enough || !filter_.accepts(values_.theta, values_.phi));
+    if (values_.theta <= enough) return std::nullopt;
+    if (is_point_of_least_violation(uncounted_, at_.x)) return Status::infeasible;
+    message_ = "Neither the Newton step nor a step towards the rows is an improvement.";
+    return Status::step_failed;
+  }
+
+  /// False if no length of the step lets the violation shrink.
+  [[nodiscard]] bool take_feasibility_step() {
+    constexpr double shortest = 1e-10;
+    constexpr double sufficient = 1e-4;
+    const double mu = std::max(mu_, values_.constraints.lpNorm<Eigen::Infinity>());
+    program_.differentiate(at_.x);
+    if (!newton_.feasibility_step(at_, mu, values_.constraints, step_)) return false;
+    for (length_ = program_.bounds().fraction_to_boundary(at_, step_, tau_min); length_ > shortest; length_ *= 0.5) {
+      if (evaluate_trial(step_, length_) && trial_values_.theta <= (1.0 - sufficient * length_) * values_.theta) {
+        accept_trial();
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns
+  /// all else. Large ones that a long step leads to may be true.
+  [[nodiscard]] bool has_runaway_multipliers() const {
+    constexpr double short_step = 0.1;
+    constexpr double runaway = 1e8;
+    return length_ <= short_step && largest_of(at_.multipliers) > runaway;
+  }
+
+  /// Where they are large, at a point that was reached without them.
+  void reset_bound_multipliers() {
+    constexpr double largest = 1e3;
+    for (Eigen::VectorXd& z : at_.z) {
+      if (z.size() > 0 && z.maxCoeff() > largest) z.setOnes();
+    }
+  }
+
+  void report(const char* kind) {
+    if (!options_.verbose) return;
+    const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
+    fmt::print(
+        "{:4} {:>6}  cost {:.10e}  violation {:.1e}  stationarity {:.1e}  "
+        "complementarity {:.1e}  mu {:.1e}  shift {:.1e}  step {:.1e}\n",
+        iterations_, kind, values_.objective, errors.violation, errors.stationarity,
+        program_.bounds().complementarity(at_, 0.0), mu_, newton_.shift(), length_);
+  }
+
+  NonlinearProgram& uncounted_;
+  const SolverOptions& options_;
+  BarrierProgram program_;
+  NewtonStep newton_;
+  Filter filter_;
+  StopRule allowed_;
+  Iterate at_;
+  Evaluation values_;  // at the iterate
+  Primal gradient_;    // of the Lagrangian without bounds, there
+  Iterate step_;
+  Primal trial_;
+  Evaluation trial_values_;
+  double mu_ = 0.0;
+  double theta_min_ = 0.0;
+  double theta_max_ = 0.0;
+  double rounding_of_theta_ = 0.0;
+  double length_ = 0.0;  // of the last step
+  int iterations_ = 0;
+  std::string message_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+}  // namespace
+
+}  // namespace interior_point
 
 namespace {
 
@@ -24,17 +345,14 @@ using Factorisation = InteriorPointOptions::Factorisation;
 constexpr std::array<NamedChoice<Factorisation>, 2> factorisations{
     {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}}};
 
-using interior_point::KktSystem;
-
-/// The reason in a sentence where the program has no structure that intervals need.
-tl::expected<std::unique_ptr<KktSystem>, std::string> make_system(NonlinearProgram& program,
-                                                                  const interior_point::ProgramRuns& runs,
-                                                                  const InteriorPointOptions& choices) {
+/// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
+tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                                  const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  return interior_point::IntervalKkt::make(program, runs).map([&](auto kkt) -> std::unique_ptr<KktSystem> {
-    return std::make_unique<interior_point::RefinedKkt>(program, runs, std::move(kkt));
-  });
+  auto by_intervals = interior_point::IntervalKkt::make(program);
+  if (!by_intervals) return tl::unexpected(by_intervals.error());
+  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
 }
 
 }  // namespace
@@ -56,8 +374,7 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
     throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
                             program.constraint_count()));
   }
-  const interior_point::ProgramRuns runs(program);
-  const auto kkt = make_system(program, runs, choices_);
+  const auto kkt = make_system(program, choices_);
   if (!kkt) {
     Solution refused;
     refused.status = Status::invalid_program;
@@ -67,7 +384,10 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
         kkt.error());
     return refused;
   }
-  return interior_point::InteriorPointRun(program, runs, **kkt, start, options()).run();
+  interior_point::InteriorPointRun run(program, **kkt, options());
+  std::optional<Status> end = run.begin(start);
+  while (!end) end = run.iterate();
+  return run.solution(*end);
 }
 
 }  // namespace dmocbench

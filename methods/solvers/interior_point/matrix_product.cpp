@@ -16,10 +16,6 @@ PatternRun transpose_of(const PatternRun& run) {
   return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
 }
 
-bool is_on_diagonal(const PatternRun& run) {
-  return run.row == run.column && (run.length == 1 || run.row_step == run.column_step);
-}
-
 /// What a run adds to the entries `begin` .. `end` - 1 of the result.
 void add_part(const PatternRun& run, Eigen::Index begin, Eigen::Index end, const Eigen::VectorXd& values,
               const Eigen::VectorXd& vector, Eigen::VectorXd& result) {
@@ -58,9 +54,10 @@ MatrixProduct MatrixProduct::transposed(const std::vector<PatternRun>& runs) {
 
 MatrixProduct MatrixProduct::symmetric(const std::vector<PatternRun>& runs) {
   std::vector<PatternRun> terms;
-  for (const PatternRun& run : cut_at_diagonal(runs)) {
+  for (const PatternRun& run : runs) {
     terms.push_back(run);
-    if (!is_on_diagonal(run)) terms.push_back(transpose_of(run));
+    const bool is_on_diagonal = run.row == run.column;
+    if (!is_on_diagonal) terms.push_back(transpose_of(run));
   }
   return MatrixProduct(terms);
 }

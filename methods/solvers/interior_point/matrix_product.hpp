@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/interior_point/pattern_runs.hpp"
+#include "methods/program/block_pattern.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -16,10 +16,11 @@ class MatrixProduct {
   [[nodiscard]] static MatrixProduct plain(const std::vector<PatternRun>& runs) { return MatrixProduct(runs); }
   /// Jᵀ λ, from the runs of J.
   [[nodiscard]] static MatrixProduct transposed(const std::vector<PatternRun>& runs);
-  /// H x of a symmetric matrix, from the runs of its lower triangle.
+  /// H x of a symmetric matrix, from the runs of its lower triangle, of which each lies on the diagonal or does not
+  /// touch it.
   [[nodiscard]] static MatrixProduct symmetric(const std::vector<PatternRun>& runs);
 
-  /// result += matrix · vector; `values`: one per entry of the pattern that the runs were made from.
+  /// result += matrix · vector; `values`: one per entry of the runs.
   void add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const;
 
  private:

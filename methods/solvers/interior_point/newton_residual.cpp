@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "methods/runtime/long_vectors.hpp"
-#include "methods/solvers/interior_point/bound_list.hpp"
+#include "methods/solvers/interior_point/barrier_bounds.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -22,10 +22,10 @@ double ratio(double left, double allowed) { return left > 0.0 ? left / allowed :
 
 }  // namespace
 
-NewtonResidual::NewtonResidual(const NonlinearProgram& program, const ProgramRuns& runs)
-    : hessian_(MatrixProduct::symmetric(runs.hessian)),
-      jacobian_(MatrixProduct::plain(runs.jacobian)),
-      transposed_jacobian_(MatrixProduct::transposed(runs.jacobian)),
+NewtonResidual::NewtonResidual(const NonlinearProgram& program)
+    : hessian_(MatrixProduct::symmetric(program.hessian_structure().runs())),
+      jacobian_(MatrixProduct::plain(program.jacobian_structure().runs())),
+      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure().runs())),
       floor_(program.rounding_floor()),
       fixed_(fixed_entries(program.variable_lower(), program.variable_upper())) {}
 

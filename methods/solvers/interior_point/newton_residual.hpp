@@ -17,8 +17,7 @@ namespace dmocbench::interior_point {
 /// with zero for fixed variables, whose equation is δx = 0.
 class NewtonResidual {
  public:
-  explicit NewtonResidual(const NonlinearProgram& program) : NewtonResidual(program, ProgramRuns(program)) {}
-  NewtonResidual(const NonlinearProgram& program, const ProgramRuns& runs);
+  explicit NewtonResidual(const NonlinearProgram& program);
 
   void compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step);
 

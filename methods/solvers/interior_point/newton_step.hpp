@@ -7,25 +7,14 @@
 
 namespace dmocbench::interior_point {
 
-/// A step of all that moves.
-struct Direction {
-  Eigen::VectorXd x;
-  Eigen::VectorXd s;
-  Eigen::VectorXd multipliers;
-  Eigen::VectorXd x_lower;
-  Eigen::VectorXd x_upper;
-  Eigen::VectorXd s_lower;
-  Eigen::VectorXd s_upper;
-};
-
-/// How the Hessian is made positive definite where the equalities hold: by a multiple of the unit matrix that is raised
-/// until the inertia is right, starting from a third of what was last needed (Wächter and Biegler 2006, Algorithm IC).
-/// Where a third was too little the last time, the system without a shift is not tried first.
+/// The multiple δ_w of the unit matrix that makes the Hessian positive definite on the null space of the equalities:
+/// raised until the inertia is right, starting from a third of what was last needed (Algorithm IC of Wächter and
+/// Biegler). Unlike there, the system without a shift is not tried first where a third was too little the last time.
 class InertiaShift {
  public:
   /// Before a new system with the program's Hessian.
   void begin() noexcept;
-  /// Before one that needs no shift.
+  /// Before one without a shift.
   void clear() noexcept { shift_ = 0.0; }
   [[nodiscard]] double value() const noexcept { return shift_; }
   /// The next larger one; false beyond the largest.
@@ -41,28 +30,32 @@ class InertiaShift {
   bool grows_ = false;  // the last system needed more than a third of what the one before it needed
 };
 
-/// Newton's step for the conditions of the barrier problem, with slacks and multipliers of bounds eliminated.
+/// The linear systems of the method. All have the form (13) of Wächter and Biegler,
+///
+///   (H + Σ_x + δ_w I) dx + Jᵀ dλ = -gradient,   J dx - (Σ_s + δ_w I)⁻¹ dλ = -constraints
+///
+/// (the second term for inequalities only), where the steps of slacks and of multipliers of bounds are eliminated.
 class NewtonStep {
  public:
   NewtonStep(const BarrierProgram& program, KktSystem& kkt);
 
-  /// The step at a point, from the program's derivatives there, for the slope ∇φ + Jᵀλ (one entry per unknown) and the
-  /// residual of the rows (one per row). False if no shift of the Hessian gives a step.
-  [[nodiscard]] bool compute(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                             Direction& direction);
-  /// The same matrix and slope for another residual of the rows; false if it fails.
-  [[nodiscard]] bool correct(const Point& point, double mu, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                             Direction& direction);
-  /// The shortest step to where the linearised rows hold, in a norm in which a unit of length costs 1 + μ/d² at the
-  /// distance d from a bound.
-  [[nodiscard]] bool towards_rows(const Point& point, double mu, const Eigen::VectorXd& rows, Direction& direction);
-  /// Sets λ, one entry per row, to what balances the slope best in the sense of least squares; to zero if that has no
-  /// reasonable size.
-  void estimate_multipliers(Point& point);
+  /// Newton's step for the barrier problem, from the program's derivatives at the iterate, `gradient` of the Lagrangian
+  /// without bounds (`BarrierProgram::gradient_of_lagrangian`) and the residuals of the constraints. False if no shift
+  /// of the Hessian gives a step.
+  [[nodiscard]] bool compute(const Iterate& at, double mu, const Primal& gradient, const Eigen::VectorXd& constraints,
+                             Iterate& step);
+  /// The last step again for other residuals of the constraints: a second-order correction. False if it fails.
+  [[nodiscard]] bool correct(const Iterate& at, double mu, const Primal& gradient, const Eigen::VectorXd& constraints,
+                             Iterate& step);
+  /// The shortest step of x and s to where the linearised constraints hold, in a norm in which a unit of length costs
+  /// 1 + μ/d² at the distance d from a bound. False if it fails.
+  [[nodiscard]] bool feasibility_step(const Iterate& at, double mu, const Eigen::VectorXd& constraints, Iterate& step);
+  /// Sets λ to the least-squares multipliers, (36); to zero where they are larger than 1e3.
+  void estimate_multipliers(Iterate& at);
 
-  /// Derivative of the barrier function along a direction.
-  [[nodiscard]] double slope_along(const Point& point, double mu, const Direction& direction) const;
-  /// What the last step added to the Hessian's diagonal.
+  /// The derivative of φ_μ along a step.
+  [[nodiscard]] double directional_derivative(const Iterate& at, double mu, const Iterate& step) const;
+  /// δ_w of the last step.
   [[nodiscard]] double shift() const noexcept { return shift_.value(); }
   /// Systems solved so far.
   [[nodiscard]] int factorisations() const noexcept { return factorisations_; }
@@ -70,29 +63,26 @@ class NewtonStep {
   [[nodiscard]] double linear_seconds() const noexcept { return linear_seconds_; }
 
  private:
-  void fill_barrier(const Point& point, double mu, const Eigen::VectorXd& slope);
-  /// With Σ + `constant` on the diagonal, of unknowns and of slacks.
-  [[nodiscard]] FactorisationStatus solve(const Eigen::VectorXd& hessian, double constant, const Eigen::VectorXd& slope,
-                                          const Eigen::VectorXd& rows, Direction& direction);
-  [[nodiscard]] const Eigen::VectorXd& no_hessian();
-  void fill_diagonal(double constant);
-  void complete(const Point& point, double mu, Direction& direction) const;
+  [[nodiscard]] KktMatrix matrix_with(const Eigen::VectorXd& hessian) const;
+  [[nodiscard]] KktRightHandSide reduce(double shift, const Eigen::VectorXd& gradient,
+                                        const Eigen::VectorXd& constraints, Iterate& step);
+  [[nodiscard]] bool solve(const Eigen::VectorXd& hessian, double shift, const Eigen::VectorXd& gradient,
+                           const Eigen::VectorXd& constraints, Iterate& step);
+  [[nodiscard]] bool solve_least_squares(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints,
+                                         Iterate& step);
+  void set_eliminated_steps(const Iterate& at, double mu, Iterate& step) const;
 
   const BarrierProgram& program_;
   KktSystem& kkt_;
   InertiaShift shift_;
-  // Empty, with the slope and the rows as they come, where nothing has a bound, or no row a slack: vectors of a long
-  // horizon are fetched from memory.
-  Eigen::VectorXd sigma_;        // Σ of the unknowns
-  Eigen::VectorXd slack_sigma_;  // Σ of the slacks
-  Eigen::VectorXd compliance_;   // one per row
-  Eigen::VectorXd slope_;        // of the barrier function and the rows, with respect to the unknowns
-  Eigen::VectorXd slack_slope_;  // with respect to the slacks
-  Eigen::VectorXd right_rows_;
-
-  Eigen::VectorXd diagonal_;
-  double constant_ = 0.0;  // what fills the diagonal where nothing has a bound
-  Eigen::VectorXd no_hessian_;
+  // Parts that bounds or slacks have no use for stay empty: a pass over a long vector costs a fetch from memory.
+  Primal sigma_;                 // Σ
+  Primal gradient_;              // of the Lagrangian with the barrier
+  Eigen::VectorXd diagonal_;     // Σ_x + δ_w
+  double diagonal_shift_ = 0.0;  // δ_w in it
+  Eigen::VectorXd compliance_;   // (Σ_s + δ_w)⁻¹, one per constraint
+  Eigen::VectorXd constraints_;
+  Eigen::VectorXd no_hessian_;  // made when it is first needed
   int factorisations_ = 0;
   double linear_seconds_ = 0.0;
 };

@@ -22,9 +22,8 @@ constexpr int refusals_to_check = 4;
 
 }  // namespace
 
-RefinedKkt::RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs, std::unique_ptr<KktSystem> fast,
-                       double accuracy)
-    : program_(program), fast_(std::move(fast)), residual_(program, runs), accuracy_(accuracy) {}
+RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy)
+    : program_(program), fast_(std::move(fast)), residual_(program), accuracy_(accuracy) {}
 
 FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                       const KktStep& step) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -29,10 +28,7 @@ class RefinedKkt : public KktSystem {
 
   /// A step is accurate enough if its residual is at most `accuracy` times the right-hand side, or rounding
   /// (`NewtonResidual::excess`).
-  RefinedKkt(const NonlinearProgram& program, const ProgramRuns& runs, std::unique_ptr<KktSystem> fast,
-             double accuracy = usual_accuracy);
-  RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy)
-      : RefinedKkt(program, ProgramRuns(program), std::move(fast), accuracy) {}
+  RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy);
 
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;

@@ -14,21 +14,17 @@ SparseKkt::SparseKkt(const NonlinearProgram& program, Order order)
 Eigen::SparseMatrix<double> SparseKkt::lower_triangle(const KktMatrix& matrix) const {
   const auto n = static_cast<Eigen::Index>(program_.variable_count());
   const auto m = static_cast<Eigen::Index>(program_.constraint_count());
-  const SparsityPattern& hessian = program_.hessian_structure();
-  const SparsityPattern& jacobian = program_.jacobian_structure();
+  const BlockPattern& hessian = program_.hessian_structure();
+  const BlockPattern& jacobian = program_.jacobian_structure();
   const auto is_free = [&](int i) { return is_free_[static_cast<std::size_t>(i)]; };
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(hessian.size() + jacobian.size() + static_cast<std::size_t>(n + m));
-  for (std::size_t e = 0; e < hessian.size(); ++e) {
-    const double value = matrix.hessian[static_cast<Eigen::Index>(e)];
-    const bool stays = is_free(hessian.rows[e]) && is_free(hessian.columns[e]);
-    entries.emplace_back(hessian.rows[e], hessian.columns[e], stays ? value : 0.0);
-  }
-  for (std::size_t e = 0; e < jacobian.size(); ++e) {
-    const double value = matrix.jacobian[static_cast<Eigen::Index>(e)];
-    entries.emplace_back(static_cast<int>(n) + jacobian.rows[e], jacobian.columns[e],
-                         is_free(jacobian.columns[e]) ? value : 0.0);
-  }
+  hessian.for_each([&](Eigen::Index e, int row, int column) {
+    entries.emplace_back(row, column, is_free(row) && is_free(column) ? matrix.hessian[e] : 0.0);
+  });
+  jacobian.for_each([&](Eigen::Index e, int row, int column) {
+    entries.emplace_back(static_cast<int>(n) + row, column, is_free(column) ? matrix.jacobian[e] : 0.0);
+  });
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, is_free(i) ? matrix.diagonal[i] : 1.0);
   for (int i = 0; i < m; ++i) {
     entries.emplace_back(static_cast<int>(n) + i, static_cast<int>(n) + i, -matrix.compliance_of(i));

@@ -63,13 +63,13 @@ KktNumbers left_by(const Steps& steps, const NonlinearProgram& program, const Kk
   const LongVector multipliers = steps.multipliers.cast<long double>();
   LongVector slope = numbers.diagonal.cast<long double>().cwiseProduct(primal) + numbers.slope.cast<long double>();
   LongVector rows = numbers.rows.cast<long double>() - numbers.compliance.cast<long double>().cwiseProduct(multipliers);
-  const SparsityPattern& hessian = program.hessian_structure();
+  const SparsityPattern hessian = program.hessian_structure().expand();
   for (std::size_t e = 0; e < hessian.size(); ++e) {
     const auto value = static_cast<long double>(numbers.hessian[static_cast<Eigen::Index>(e)]);
     slope[hessian.rows[e]] += value * primal[hessian.columns[e]];
     if (hessian.rows[e] != hessian.columns[e]) slope[hessian.columns[e]] += value * primal[hessian.rows[e]];
   }
-  const SparsityPattern& jacobian = program.jacobian_structure();
+  const SparsityPattern jacobian = program.jacobian_structure().expand();
   for (std::size_t e = 0; e < jacobian.size(); ++e) {
     const auto value = static_cast<long double>(numbers.jacobian[static_cast<Eigen::Index>(e)]);
     rows[jacobian.rows[e]] += value * primal[jacobian.columns[e]];
@@ -91,7 +91,9 @@ void expect_nothing_to_correct(const Problem& problem, const tests::Scheme& sche
   std::vector<Steps> found;
   for (const std::size_t threads : {1U, 2U, 3U}) {
     const tests::Threads there(threads);
-    const auto kkt = IntervalKkt::make(*program).value();
+    auto made = IntervalKkt::make(*program);
+    ASSERT_TRUE(made) << made.error();
+    const auto& kkt = *made;
     found.emplace_back(numbers);
     ASSERT_EQ(found.back().solve_with(*kkt, numbers), FactorisationStatus::solved);
     EXPECT_TRUE(found.back() == found.front()) << threads << " threads";
@@ -132,8 +134,7 @@ Thing that_is_there(std::optional<Thing> thing) {
 class GroupSweeps {
  public:
   GroupSweeps(const Transcription& program, const KktNumbers& numbers) : numbers_(numbers) {
-    std::string why;
-    entries_ = that_is_there(interval_entries(program, ProgramRuns(program), why));
+    entries_ = interval_entries(program).value();
     padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
     const auto give = [&](Source source, const Eigen::VectorXd& values) {
       arrays_.arrays[static_cast<std::size_t>(source)] = values.data();
@@ -244,7 +245,8 @@ KktNumbers system_at_guess(Transcription& program, const Eigen::VectorXd& guess)
 
 /// What one elimination leaves of the gradient, relative to the terms Jᵀ δλ that cancel in it.
 double relative_rest_of_gradient(Transcription& program, const KktNumbers& numbers) {
-  const auto kkt = IntervalKkt::make(program).value();
+  const auto made = IntervalKkt::make(program);
+  const auto& kkt = made.value();
   Steps found(numbers);
   EXPECT_EQ(found.solve_with(*kkt, numbers), FactorisationStatus::solved);
   NewtonResidual residual(program);

@@ -24,136 +24,73 @@ using tests::RandomStructuredProgram;
 using tests::SystemChoice;
 
 /// A matrix of a pattern; `mirrored`: of which the lower triangle is there.
-Eigen::MatrixXd written_as_dense(const SparsityPattern& pattern, const Eigen::VectorXd& values, Eigen::Index rows,
+Eigen::MatrixXd written_as_dense(const BlockPattern& pattern, const Eigen::VectorXd& values, Eigen::Index rows,
                                  Eigen::Index columns, bool mirrored) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, columns);
-  for (std::size_t e = 0; e < pattern.size(); ++e) {
-    const double value = values[static_cast<Eigen::Index>(e)];
-    matrix(pattern.rows[e], pattern.columns[e]) = value;
-    if (mirrored) matrix(pattern.columns[e], pattern.rows[e]) = value;
-  }
+  pattern.for_each([&](Eigen::Index e, int row, int column) {
+    matrix(row, column) = values[e];
+    if (mirrored) matrix(column, row) = values[e];
+  });
   return matrix;
 }
 
-/// A lower triangle in which chance, or a full row, a full column or the diagonal, puts entries; by columns, by rows or
-/// shuffled.
-struct TriangleChoice {
-  int size = 1;
-  double density = 0.5;
-  int full_row = -1;
-  int full_column = -1;
-  bool has_diagonal = false;
-  bool by_rows = false;
-  bool shuffled = false;
-};
-
-SparsityPattern lower_triangle(const TriangleChoice& choice, RandomPoints& random) {
-  SparsityPattern pattern;
-  for (int outer = 0; outer < choice.size; ++outer) {
-    for (int inner = 0; inner < choice.size; ++inner) {
-      const int row = choice.by_rows ? outer : inner;
-      const int column = choice.by_rows ? inner : outer;
-      if (row < column) continue;
-      const bool is_full =
-          row == choice.full_row || column == choice.full_column || (choice.has_diagonal && row == column);
-      if (!is_full && random.number(0.0, 1.0) >= choice.density) continue;
-      pattern.rows.push_back(row);
-      pattern.columns.push_back(column);
+/// Runs in all directions, in the order of chance, with no position twice. `triangle`: on the diagonal, or below it.
+BlockPattern random_pattern(Eigen::Index rows, Eigen::Index columns, bool triangle, RandomPoints& random) {
+  BlockPattern pattern;
+  const auto up_to = [&](Eigen::Index end) {
+    return static_cast<Eigen::Index>(random.number(0.0, 1.0) * static_cast<double>(end));
+  };
+  const int tries = 4 + static_cast<int>(up_to(rows + columns));
+  for (int i = 0; i < tries; ++i) {
+    PatternRun run{.row = up_to(rows), .column = up_to(columns), .row_step = up_to(2), .column_step = up_to(2)};
+    run.length = run.row_step + run.column_step > 0 ? 1 + up_to(rows + columns) : 1;
+    const bool on_diagonal = run.row == run.column && run.row_step == run.column_step;
+    Eigen::Index length = 0;
+    for (; length < run.length; ++length) {
+      const Eigen::Index row = run.row + length * run.row_step;
+      const Eigen::Index column = run.column + length * run.column_step;
+      if (row >= rows || column >= columns) break;
+      if (triangle && (row < column || (row == column && !on_diagonal))) break;
+      if (pattern.find(static_cast<std::size_t>(row), static_cast<std::size_t>(column))) break;
     }
-  }
-  for (std::size_t e = pattern.size(); choice.shuffled && e > 1; --e) {
-    const auto other = static_cast<std::size_t>(random.number(0.0, 1.0) * static_cast<double>(e));
-    std::swap(pattern.rows[e - 1], pattern.rows[other]);
-    std::swap(pattern.columns[e - 1], pattern.columns[other]);
+    run.length = length;
+    if (length > 0) pattern.append(run);
   }
   return pattern;
 }
 
-bool is_cut_at_diagonal(const PatternRun& run) {
-  const bool is_on_diagonal = run.row == run.column && (run.length == 1 || run.row_step == run.column_step);
-  for (Eigen::Index i = 0; i < run.length && !is_on_diagonal; ++i) {
-    if (run.row + i * run.row_step == run.column + i * run.column_step) return false;
-  }
-  return true;
-}
-
-void expect_symmetric_product(const SparsityPattern& pattern, Eigen::Index size, RandomPoints& random) {
-  const Eigen::VectorXd values = random.vector(static_cast<Eigen::Index>(pattern.size()));
-  const Eigen::VectorXd x = random.vector(size);
-  const Eigen::VectorXd before = random.vector(size);
-  const auto runs = cut_at_diagonal(pattern_runs(pattern));
-  Eigen::Index entry = 0;
-  for (const PatternRun& run : runs) {
-    EXPECT_EQ(run.entry, entry) << "an entry is missing, or there twice";
-    EXPECT_GT(run.length, 0);
-    EXPECT_TRUE(is_cut_at_diagonal(run));
-    for (Eigen::Index i = 0; i < run.length; ++i, ++entry) {
-      EXPECT_EQ(run.row + i * run.row_step, pattern.rows[static_cast<std::size_t>(entry)]);
-      EXPECT_EQ(run.column + i * run.column_step, pattern.columns[static_cast<std::size_t>(entry)]);
-    }
-  }
-  EXPECT_EQ(entry, static_cast<Eigen::Index>(pattern.size()));
-  Eigen::VectorXd sum = before;
-  MatrixProduct::symmetric(pattern_runs(pattern)).add(values, x, sum);
-  const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, size, size, true) * x;
-  EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
-}
-
-TEST(SymmetricProducts, AreThoseOfDenseMatricesForAnyLowerTriangle) {
-  RandomPoints random;
-  for (int i = 0; i < 1000; ++i) {
-    TriangleChoice choice;
-    choice.size = 1 + i % 9;
-    choice.density = random.number(0.0, 1.0);
-    const auto some_line = [&] { return static_cast<int>(random.number(-1.0, 1.0) * choice.size); };
-    choice.full_row = some_line();
-    choice.full_column = some_line();
-    choice.has_diagonal = random.number() > 0.0;
-    choice.by_rows = random.number() > 0.0;
-    choice.shuffled = random.number() > 0.6;
-    SCOPED_TRACE("pattern " + std::to_string(i));
-    expect_symmetric_product(lower_triangle(choice, random), choice.size, random);
-  }
-}
-
-/// Runs that end on the diagonal (a row), begin there (a column), or are all of it.
-TEST(SymmetricProducts, AreThoseOfDenseMatricesForLinesThatTouchTheDiagonal) {
-  RandomPoints random;
-  constexpr int size = 7;
-  for (int line = 0; line < size; ++line) {
-    for (const bool has_diagonal : {false, true}) {
-      for (const bool by_rows : {false, true}) {
-        SCOPED_TRACE("line " + std::to_string(line));
-        const TriangleChoice of_row{size, 0.0, line, -1, has_diagonal, by_rows, false};
-        const TriangleChoice of_column{size, 0.0, -1, line, has_diagonal, by_rows, false};
-        const TriangleChoice of_both{size, 0.0, line, line, has_diagonal, by_rows, false};
-        for (const TriangleChoice& choice : {of_row, of_column, of_both}) {
-          expect_symmetric_product(lower_triangle(choice, random), size, random);
-        }
-      }
-    }
-  }
-}
-
 TEST(Products, AreThoseOfDenseMatrices) {
   RandomPoints random;
-  for (int i = 0; i < 300; ++i) {
-    const int rows = 1 + i % 7;
-    const int columns = 1 + i % 9;
-    SparsityPattern pattern;
-    for (int column = 0; column < columns; ++column) {
-      for (int row = 0; row < rows; ++row) {
-        if (random.number() < 0.0 && row != i % rows) continue;  // one row is full
-        pattern.rows.push_back(row);
-        pattern.columns.push_back(column);
-      }
-    }
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE("pattern " + std::to_string(i));
+    const Eigen::Index rows = 1 + i % 7;
+    const Eigen::Index columns = 1 + i % 9;
+    const BlockPattern pattern = random_pattern(rows, columns, false, random);
     const Eigen::VectorXd values = random.vector(static_cast<Eigen::Index>(pattern.size()));
+    const Eigen::MatrixXd matrix = written_as_dense(pattern, values, rows, columns, false);
     const Eigen::VectorXd x = random.vector(columns);
-    const Eigen::VectorXd before = random.vector(rows);
+    const Eigen::VectorXd multipliers = random.vector(rows);
+    Eigen::VectorXd product = multipliers;
+    MatrixProduct::plain(pattern.runs()).add(values, x, product);
+    EXPECT_LT((product - multipliers - matrix * x).lpNorm<Eigen::Infinity>(), 1e-13);
+    Eigen::VectorXd transposed = x;
+    MatrixProduct::transposed(pattern.runs()).add(values, multipliers, transposed);
+    EXPECT_LT((transposed - x - matrix.transpose() * multipliers).lpNorm<Eigen::Infinity>(), 1e-13);
+  }
+}
+
+TEST(Products, OfSymmetricMatricesAreThoseOfDenseOnes) {
+  RandomPoints random;
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE("pattern " + std::to_string(i));
+    const Eigen::Index size = 1 + i % 9;
+    const BlockPattern pattern = random_pattern(size, size, true, random);
+    const Eigen::VectorXd values = random.vector(static_cast<Eigen::Index>(pattern.size()));
+    const Eigen::VectorXd x = random.vector(size);
+    const Eigen::VectorXd before = random.vector(size);
     Eigen::VectorXd sum = before;
-    MatrixProduct::plain(pattern_runs(pattern)).add(values, x, sum);
-    const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, rows, columns, false) * x;
+    MatrixProduct::symmetric(pattern.runs()).add(values, x, sum);
+    const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, size, size, true) * x;
     EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
   }
 }

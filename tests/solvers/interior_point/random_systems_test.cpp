@@ -92,7 +92,9 @@ TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
     const RandomShape shape = choice.shape();
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    const auto kkt = IntervalKkt::make(program).value();
+    auto made = IntervalKkt::make(program);
+    ASSERT_TRUE(made) << made.error();
+    const auto& kkt = *made;
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     const DenseKkt dense(program, numbers);
     const DenseVerdict wanted = dense_verdict(dense, 1e-9);
@@ -132,7 +134,9 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
     const RandomShape shape = choice.shape();
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    auto fast = IntervalKkt::make(program).value();
+    auto made = IntervalKkt::make(program);
+    ASSERT_TRUE(made) << made.error();
+    auto fast = *std::move(made);
     RefinedKkt kkt(program, std::move(fast), accuracy);
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     const DenseKkt dense(program, numbers);
@@ -197,7 +201,9 @@ TEST(RandomSystems, AreSolvedOnceTheShiftOfTheHessianIsLargeEnough) {
     shape.hessian = RandomShape::Hessian::indefinite;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    const auto kkt = IntervalKkt::make(program).value();
+    auto made = IntervalKkt::make(program);
+    ASSERT_TRUE(made) << made.error();
+    const auto& kkt = *made;
     bool needs_shift = false;
     const int too_many = shifts_too_many(*kkt, program, choice.numbers(program, shape.hessian), needs_shift);
     // When no weight at the ends of segments has helped, the next failures are believed: then a system is refused that

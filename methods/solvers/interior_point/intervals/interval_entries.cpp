@@ -2,55 +2,58 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
-
-#include "methods/solvers/interior_point/intervals/columns.hpp"
+#include <utility>
 
 namespace dmocbench::interior_point {
 
 namespace {
 
-/// Thrown inside, returned as a sentence.
-struct Irregular {
-  std::string why;
+/// The first unknown, or row, of a run of `Places`; the others follow it node by node, interval by interval, or shared
+/// unknown by shared unknown.
+struct Member {
+  Place::Kind kind = Place::Kind::border;
+  std::size_t at = 0;  ///< node or interval
+  int column = -1;     ///< number among the quantities of its kind; -1 for what single nodes have, and border rows
+  bool is_inequality = false;  ///< rows only
 };
 
-class Sorter {
- public:
-  Sorter(const NonlinearProgram& program, const IntervalStructure& structure)
-      : program_(program),
-        structure_(structure),
-        variable_lower_(program.variable_lower()),
-        variable_upper_(program.variable_upper()),
-        constraint_lower_(program.constraint_lower()),
-        constraint_upper_(program.constraint_upper()),
-        unknowns_(structure.unknowns, structure.intervals),
-        rows_(structure.rows, structure.intervals) {}
+bool in_column(const Member& m, Place::Kind kind) { return m.kind == kind && m.column >= 0; }
 
-  IntervalEntries sort(const ProgramRuns& runs) {
+class EntryTable {
+ public:
+  EntryTable(const NonlinearProgram& program, const IntervalStructure& structure)
+      : program_(program), structure_(structure) {}
+
+  tl::expected<IntervalEntries, std::string> make() {
     result_.intervals = structure_.intervals;
-    find_unknowns();
-    find_rows();
+    place_unknowns();
+    place_rows();
     result_.shape = {.node = count(result_.node_unknowns),
                      .node_sums = count(result_.node_rows),
                      .global = count(result_.shared_unknowns),
                      .interval = count(result_.inner_unknowns),
                      .rows = count(result_.node_rows) + count(result_.interval_rows),
                      .inequalities = count(result_.inequality_rows)};
-    if (free_size(result_.shape) < 0) throw Irregular{"an interval has more equalities than unknowns"};
+    if (free_size(result_.shape) < 0) refuse("an interval has more equalities than unknowns");
     require_free_between_ends();
-    sort(Source::hessian, program_.hessian_structure(), runs.hessian,
-         [this](std::size_t i, std::size_t j) { return hessian_destination(i, j); });
-    sort(Source::jacobian, program_.jacobian_structure(), runs.jacobian,
-         [this](std::size_t i, std::size_t j) { return jacobian_destination(i, j); });
+    for (const PatternRun& run : program_.hessian_structure().runs()) {
+      place(Source::hessian, run, member_of(structure_.unknowns, unknowns_, run.row, run.row_step * (run.length - 1)));
+    }
+    for (const PatternRun& run : program_.jacobian_structure().runs()) {
+      place(Source::jacobian, run, member_of(structure_.rows, rows_, run.row, run.row_step * (run.length - 1)));
+    }
     append_columns();
     append_vectors();
+    if (!refusal_.empty()) return tl::unexpected(std::move(refusal_));
     return std::move(result_);
   }
 
  private:
   using Key = std::tuple<LocalEntry::Block, int, int>;
-  struct Run {
+  /// A block's entry over a stretch of intervals.
+  struct Stretch {
     std::size_t first = 0;
     std::size_t begin = 0;
     std::size_t length = 0;
@@ -59,70 +62,112 @@ class Sorter {
 
   static int count(const std::vector<std::size_t>& list) { return static_cast<int>(list.size()); }
 
-  void find_unknowns() {
-    const auto& places = structure_.unknowns;
-    result_.node_unknowns = unknowns_.nodes();
-    result_.inner_unknowns = unknowns_.inner();
-    for (const std::size_t i : unknowns_.singles()) {
-      if (places[i].kind == Place::Kind::border) {
-        result_.shared_unknowns.push_back(i);
+  /// The first reason counts.
+  void refuse(const char* why) {
+    if (refusal_.empty()) refusal_ = why;
+  }
+
+  [[nodiscard]] bool is_of_all(const PlaceRun& run, Place::Kind kind) const {
+    const std::size_t all = kind == Place::Kind::node ? structure_.intervals + 1 : structure_.intervals;
+    return run.kind == kind && run.index == 0 && run.count == all;
+  }
+
+  void place_unknowns() {
+    for (const PlaceRun& run : structure_.unknowns.runs()) {
+      Member member{.kind = run.kind, .at = run.index};
+      if (run.kind == Place::Kind::border) {
+        member.column = count(result_.shared_unknowns);
+        append_members(run, result_.shared_unknowns);
+      } else if (is_of_all(run, Place::Kind::node) || is_of_all(run, Place::Kind::interval)) {
+        auto& list = run.kind == Place::Kind::node ? result_.node_unknowns : result_.inner_unknowns;
+        member.column = count(list);
+        list.push_back(run.first);
+      } else if (is_of_an_end(run)) {
+        append_members(run, result_.single_unknowns[run.index == 0 ? 0 : 1]);
       } else {
-        result_.single_unknowns[end_of(places[i], "an unknown")].push_back(i);
+        refuse("an unknown between the ends belongs to no column of its kind");
       }
+      unknowns_.push_back(member);
     }
   }
 
-  /// 0 for the first node, 1 for the last.
-  [[nodiscard]] std::size_t end_of(const Place& place, const std::string& what) const {
-    const bool is_end = place.kind == Place::Kind::node && (place.index == 0 || place.index == result_.intervals);
-    if (!is_end) throw Irregular{what + " between the ends belongs to no column of its kind"};
-    return place.index == 0 ? 0 : 1;
-  }
-
-  void find_rows() {
-    const auto& places = structure_.rows;
-    result_.node_rows = rows_.nodes();
-    for (const std::size_t first : rows_.nodes()) {
-      for (std::size_t k = 0; k <= result_.intervals; ++k) {
-        if (is_inequality(first + k)) throw Irregular{"a row of a node is an inequality"};
+  void place_rows() {
+    for (const PlaceRun& run : structure_.rows.runs()) {
+      Member member{.kind = run.kind, .at = run.index};
+      if (is_of_all(run, Place::Kind::node)) {
+        member.column = count(result_.node_rows);
+        result_.node_rows.push_back(run.first);
+        if (inequalities_in(run) > 0) refuse("a row of a node is an inequality");
+      } else if (is_of_all(run, Place::Kind::interval)) {
+        const Eigen::Index inequalities = inequalities_in(run);
+        member.is_inequality = inequalities > 0;
+        auto& list = member.is_inequality ? result_.inequality_rows : result_.interval_rows;
+        member.column = count(list);
+        list.push_back(run.first);
+        if (member.is_inequality && inequalities < static_cast<Eigen::Index>(run.count)) {
+          refuse("a row is an equality in some intervals only");
+        }
+      } else {
+        if (run.kind != Place::Kind::border && !is_of_an_end(run)) {
+          refuse("a row between the ends belongs to no column of its kind");
+        }
+        append_members(run, result_.single_rows);
       }
-    }
-    for (const std::size_t first : rows_.inner()) {
-      const bool inequality = is_inequality(first);
-      auto& list = inequality ? result_.inequality_rows : result_.interval_rows;
-      for (std::size_t k = 0; k < result_.intervals; ++k) {
-        if (is_inequality(first + k) != inequality) throw Irregular{"a row is an equality in some intervals only"};
-      }
-      rows_.renumber(first, count(list), inequality);
-      list.push_back(first);
-    }
-    for (const std::size_t i : rows_.singles()) {
-      if (places[i].kind != Place::Kind::border) static_cast<void>(end_of(places[i], "a row"));
-      result_.single_rows.push_back(i);
+      rows_.push_back(member);
     }
   }
 
-  [[nodiscard]] bool is_inequality(std::size_t row) const {
-    const auto i = static_cast<Eigen::Index>(row);
-    return constraint_lower_[i] != constraint_upper_[i];
+  [[nodiscard]] bool is_of_an_end(const PlaceRun& run) const {
+    return run.kind == Place::Kind::node && run.count == 1 && (run.index == 0 || run.index == structure_.intervals);
   }
-  [[nodiscard]] bool is_fixed(std::size_t unknown) const {
-    const auto i = static_cast<Eigen::Index>(unknown);
-    return variable_lower_[i] == variable_upper_[i];
+  static void append_members(const PlaceRun& run, std::vector<std::size_t>& list) {
+    for (std::size_t i = 0; i < run.count; ++i) list.push_back(run.first + i);
+  }
+
+  [[nodiscard]] Eigen::Index inequalities_in(const PlaceRun& run) const {
+    return different(program_.constraint_lower(), program_.constraint_upper(), run.first, run.count);
+  }
+  [[nodiscard]] Eigen::Index fixed_in(std::size_t first, std::size_t length) const {
+    const auto free = different(program_.variable_lower(), program_.variable_upper(), first, length);
+    return static_cast<Eigen::Index>(length) - free;
+  }
+  static Eigen::Index different(const Eigen::VectorXd& a, const Eigen::VectorXd& b, std::size_t first,
+                                std::size_t length) {
+    const auto begin = static_cast<Eigen::Index>(first);
+    const auto size = static_cast<Eigen::Index>(length);
+    return (a.segment(begin, size).array() != b.segment(begin, size).array()).count();
   }
 
   void require_free_between_ends() {
     for (const std::size_t first : result_.node_unknowns) {
-      for (std::size_t k = 1; k < result_.intervals; ++k) {
-        if (is_fixed(first + k)) throw Irregular{"an unknown of a node between the ends is fixed"};
-      }
+      if (fixed_in(first + 1, result_.intervals - 1) > 0) refuse("an unknown of a node between the ends is fixed");
     }
     for (const std::size_t first : result_.inner_unknowns) {
-      result_.inner_is_fixed.push_back(is_fixed(first));
-      for (std::size_t k = 0; k < result_.intervals; ++k) {
-        if (is_fixed(first + k) != is_fixed(first)) throw Irregular{"an unknown is fixed in some intervals only"};
+      const Eigen::Index fixed = fixed_in(first, result_.intervals);
+      result_.inner_is_fixed.push_back(fixed > 0);
+      if (fixed > 0 && fixed < static_cast<Eigen::Index>(result_.intervals)) {
+        refuse("an unknown is fixed in some intervals only");
       }
     }
+  }
+
+  /// The row or column of a run's first entry; its last one is `way` numbers behind.
+  Member member_of(const Places& places, const std::vector<Member>& firsts, Eigen::Index number, Eigen::Index way) {
+    const auto first = static_cast<std::size_t>(number);
+    const std::size_t found = places.run_of(first);
+    const PlaceRun& run = places.runs()[found];
+    if (first + static_cast<std::size_t>(way) >= run.first + run.count) {
+      refuse("its derivatives are not stored interval by interval");
+    }
+    return moved(firsts[found], first - run.first);
+  }
+  static Member moved(Member member, std::size_t way) {
+    if (member.kind != Place::Kind::border) {
+      member.at += way;
+    } else if (member.column >= 0) {
+      member.column += static_cast<int>(way);
+    }
+    return member;
   }
 
   // Columns in the natural order of an interval's unknowns.
@@ -132,17 +177,6 @@ class Sorter {
   [[nodiscard]] int shared(const Member& m) const {
     return next_size(result_.shape) + result_.shape.node + result_.shape.node_sums + m.column;
   }
-
-  [[nodiscard]] Member unknown(std::size_t i) const {
-    Member m = unknowns_.member(i);
-    if (m.kind == Place::Kind::border) {
-      const auto& shared = result_.shared_unknowns;
-      m = {Place::Kind::border, 0, static_cast<int>(std::ranges::lower_bound(shared, i) - shared.begin()), false};
-    }
-    return m;
-  }
-
-  [[nodiscard]] static bool in_column(const Member& m, Place::Kind kind) { return m.kind == kind && m.column >= 0; }
 
   /// Where an unknown is seen from interval k; -1 if it does not belong to it.
   [[nodiscard]] int seen_from(const Member& m, std::size_t interval) const {
@@ -163,55 +197,43 @@ class Sorter {
 
   static Destination to_ends() { return {Destination::Where::ends, {}, 0}; }
 
-  void put(const Destination& to, Source source, std::size_t first_entry, std::size_t length) {
-    Run& run = runs_[to.key];
-    if (run.length == 0) run = {first_entry, to.interval, 0, source};
-    if (first_entry != run.first + run.length || to.interval != run.begin + run.length) {
-      throw Irregular{"its derivatives are not stored column by column"};
-    }
-    run.length += length;
-  }
-
-  /// Sorts the entries of a pattern run by run; only their first and last two are looked at where these tell that all
-  /// between go to the same block.
-  template <class DestinationOf>
-  void sort(Source source, const SparsityPattern& pattern, const std::vector<PatternRun>& runs,
-            const DestinationOf& destination_of) {
-    const auto at = [&](std::size_t e) {
-      return destination_of(static_cast<std::size_t>(pattern.rows[e]), static_cast<std::size_t>(pattern.columns[e]));
-    };
-    const auto sort_one = [&](std::size_t e) {
-      const Destination to = at(e);
-      if (to.where == Destination::Where::ends) {
-        result_.ends.push_back(
-            {source, e, static_cast<std::size_t>(pattern.rows[e]), static_cast<std::size_t>(pattern.columns[e])});
-      } else if (to.where == Destination::Where::interval) {
-        put(to, source, e, 1);
-      }
-    };
-    for (const PatternRun& run : runs) {
-      const auto first = static_cast<std::size_t>(run.entry);
-      const auto length = static_cast<std::size_t>(run.length);
-      constexpr std::size_t shortest = 4;
-      const Destination second = length > shortest ? at(first + 1) : Destination{};
-      const Destination last_but_one = length > shortest ? at(first + length - 2) : Destination{};
-      const bool is_column = length > shortest && second.where == Destination::Where::interval &&
-                             last_but_one.where == second.where && last_but_one.key == second.key &&
-                             last_but_one.interval == second.interval + length - 3;
-      sort_one(first);
-      if (is_column) {
-        put(second, source, first + 1, length - 2);
-      } else {
-        for (std::size_t e = 1; e + 1 < length; ++e) sort_one(first + e);
-      }
-      if (length > 1) sort_one(first + length - 1);
+  /// All entries of a run but the first and the last go to the same block, unless one of its lines is that of a single
+  /// node or interval.
+  void place(Source source, const PatternRun& run, const Member& row) {
+    const Member column = member_of(structure_.unknowns, unknowns_, run.column, run.column_step * (run.length - 1));
+    if (!refusal_.empty()) return;
+    const bool moves_together =
+        run.row_step == run.column_step || row.kind == Place::Kind::border || column.kind == Place::Kind::border;
+    for (Eigen::Index begin = 0; begin < run.length;) {
+      const Eigen::Index end = moves_together && begin == 1 ? std::max<Eigen::Index>(2, run.length - 1) : begin + 1;
+      const Member i = moved(row, static_cast<std::size_t>(begin * run.row_step));
+      const Member j = moved(column, static_cast<std::size_t>(begin * run.column_step));
+      put(source == Source::hessian ? hessian_destination(i, j) : jacobian_destination(i, j), source, run, begin, end);
+      begin = end;
     }
   }
 
-  [[nodiscard]] Destination hessian_destination(std::size_t i, std::size_t j) const {
-    if (is_fixed_inner(i) || is_fixed_inner(j)) return {};
-    const Member first = unknown(i);
-    const Member second = unknown(j);
+  /// Entries `begin` .. `end` - 1 of a run.
+  void put(const Destination& to, Source source, const PatternRun& run, Eigen::Index begin, Eigen::Index end) {
+    const auto number = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+    if (to.where == Destination::Where::ends) {
+      for (Eigen::Index i = begin; i < end; ++i) {
+        result_.ends.push_back({source, number(run.entry + i), number(run.row + i * run.row_step),
+                                number(run.column + i * run.column_step)});
+      }
+    } else if (to.where == Destination::Where::interval) {
+      const std::size_t first = number(run.entry + begin);
+      Stretch& stretch = stretches_[to.key];
+      if (stretch.length == 0) stretch = {first, to.interval, 0, source};
+      if (first != stretch.first + stretch.length || to.interval != stretch.begin + stretch.length) {
+        refuse("its derivatives are not stored interval by interval");
+      }
+      stretch.length += number(end - begin);
+    }
+  }
+
+  [[nodiscard]] Destination hessian_destination(const Member& first, const Member& second) const {
+    if (is_fixed_inner(first) || is_fixed_inner(second)) return {};
     const auto interval = interval_of(first, second);
     if (!interval) return to_ends();
     const int a = seen_from(first, *interval);
@@ -234,22 +256,19 @@ class Sorter {
     return latest - 1;
   }
 
-  [[nodiscard]] bool is_fixed_inner(std::size_t i) const {
-    const Member m = unknown(i);
+  [[nodiscard]] bool is_fixed_inner(const Member& m) const {
     return in_column(m, Place::Kind::interval) && result_.inner_is_fixed[static_cast<std::size_t>(m.column)];
   }
 
-  [[nodiscard]] Destination jacobian_destination(std::size_t i, std::size_t j) const {
-    const Member row = rows_.member(i);
-    if (is_fixed_inner(j)) return {};
+  [[nodiscard]] Destination jacobian_destination(const Member& row, const Member& of) {
+    if (is_fixed_inner(of)) return {};
     if (row.column < 0) return to_ends();
-    return row.kind == Place::Kind::interval ? interval_row_destination(row, unknown(j))
-                                             : node_row_destination(row, unknown(j));
+    return row.kind == Place::Kind::interval ? interval_row_destination(row, of) : node_row_destination(row, of);
   }
 
-  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) const {
+  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) {
     const int column = seen_from(of, row.at);
-    if (column < 0) throw Irregular{"a row of an interval reads unknowns of another one"};
+    if (column < 0) refuse("a row of an interval reads unknowns of another one");
     if (row.is_inequality)
       return {Destination::Where::interval, {LocalEntry::Block::inequality, row.column, column}, row.at};
     const int number = result_.shape.node_sums + row.column;
@@ -271,13 +290,13 @@ class Sorter {
   }
 
   void append_columns() {
-    for (const auto& [key, run] : runs_) {
+    for (const auto& [key, stretch] : stretches_) {
       const auto& [block, row, column] = key;
-      if (run.length == result_.intervals) {
-        result_.local.push_back({block, row, column, run.source, run.first});
+      if (stretch.length == result_.intervals) {
+        result_.local.push_back({block, row, column, stretch.source, stretch.first});
       } else {
         const std::size_t padded_first = result_.padded.size() * result_.intervals;
-        result_.padded.push_back({run.source, run.first, run.begin, run.length, padded_first});
+        result_.padded.push_back({stretch.source, stretch.first, stretch.begin, stretch.length, padded_first});
         result_.local.push_back({block, row, column, Source::padded, padded_first});
       }
     }
@@ -312,29 +331,20 @@ class Sorter {
 
   const NonlinearProgram& program_;
   const IntervalStructure& structure_;
-  const Eigen::VectorXd& variable_lower_;
-  const Eigen::VectorXd& variable_upper_;
-  const Eigen::VectorXd& constraint_lower_;
-  const Eigen::VectorXd& constraint_upper_;
   IntervalEntries result_;
-  Columns unknowns_;
-  Columns rows_;
-  std::map<Key, Run> runs_;
+  std::vector<Member> unknowns_;  // one per run of places
+  std::vector<Member> rows_;
+  std::map<Key, Stretch> stretches_;
+  std::string refusal_;
 };
 
 }  // namespace
 
-std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, const ProgramRuns& runs,
-                                                std::string& why) {
+tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program) {
   const IntervalStructure* const structure = program.interval_structure();
-  try {
-    if (structure == nullptr) throw Irregular{"it tells no interval structure"};
-    if (structure->intervals == 0) throw Irregular{"it has no intervals"};
-    return Sorter(program, *structure).sort(runs);
-  } catch (const Irregular& irregular) {
-    why = irregular.why;
-    return std::nullopt;
-  }
+  if (structure == nullptr) return tl::unexpected(std::string("it tells no interval structure"));
+  if (structure->intervals == 0) return tl::unexpected(std::string("it has no intervals"));
+  return EntryTable(program, *structure).make();
 }
 
 }  // namespace dmocbench::interior_point

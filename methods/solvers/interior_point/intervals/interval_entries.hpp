@@ -2,14 +2,14 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
 #include "methods/solvers/interior_point/intervals/shape.hpp"
-#include "methods/solvers/interior_point/pattern_runs.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -64,9 +64,8 @@ struct IntervalEntries {
   std::vector<EndEntry> ends;
 };
 
-/// Sorts a program's entries. None, with the reason in `why`, if the program has no interval structure, or one that is
-/// not the same in all intervals, or fixed unknowns between its ends.
-[[nodiscard]] std::optional<IntervalEntries> interval_entries(const NonlinearProgram& program, const ProgramRuns& runs,
-                                                              std::string& why);
+/// Looks up where a program's runs go. The reason instead if the program has no interval structure, or one that is not
+/// the same in all intervals, or fixed unknowns between its ends.
+[[nodiscard]] tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program);
 
 }  // namespace dmocbench::interior_point

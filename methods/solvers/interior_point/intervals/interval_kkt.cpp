@@ -17,11 +17,10 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, const ProgramRuns& runs,
-                                    SegmentKernelChoice choose) {
-  std::string why;
-  auto entries = interval_entries(program, runs, why);
-  if (!entries) return tl::unexpected(why);
+tl::expected<std::unique_ptr<IntervalKkt>, std::string> IntervalKkt::make(const NonlinearProgram& program,
+                                                                          SegmentKernelChoice choose) {
+  auto entries = interval_entries(program);
+  if (!entries) return tl::unexpected(std::move(entries).error());
   try {
     return std::make_unique<IntervalKkt>(program, std::move(*entries), choose);
   } catch (const Error& error) {
