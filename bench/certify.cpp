@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/agreement_of_routes.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
@@ -39,19 +39,125 @@ Scheme parse_scheme(const std::string& text) {
   return scheme;
 }
 
+/// What is known of a problem's least cost when all routes are there.
+struct Certificate {
+  std::string problem;
+  std::map<std::string, double> objectives;  ///< by route
+  std::optional<double> replay_objective;
+  std::optional<double> replay_error;
+  std::optional<double> indirect_objective;
+  std::optional<double> indirect_digits;
+  RouteAgreement agreement;
+  std::optional<ReferenceOptimum> reference;
+  std::string message;
+};
+
+/// The finest answer of every route, the best replay on the finest grid and the indirect method's cost, from the rows
+/// of one problem.
+Certificate certificate_of(const Problem& problem, const Table& table) {
+  Certificate result;
+  result.problem = problem.name();
+  std::map<std::string, double> finest;   // number of intervals by route
+  std::pair<double, double> best_replay;  // number of intervals, error
+  for (const Row& row : table.rows()) {
+    if (row.text("problem") != problem.name()) continue;
+    if (const auto cost = row.number("indirect_objective")) result.indirect_objective = cost;
+    if (const auto digits = row.number("indirect_digits")) result.indirect_digits = digits;
+    if (const std::string reason = row.text("indirect_message"); !reason.empty()) result.message = reason;
+    const auto objective = row.number("objective");
+    if (row.text("status") != "solved" || !objective) continue;
+    const double intervals = row.number("intervals").value_or(0.0);
+    const std::string route = row.text("tableau") + row.text("stages");
+    if (finest[route] <= intervals) {
+      finest[route] = intervals;
+      result.objectives[route] = *objective;
+    }
+    const auto error = row.number("replay_error");
+    if (!error) continue;
+    if (best_replay.first < intervals || (best_replay.first == intervals && *error < best_replay.second)) {
+      best_replay = {intervals, *error};
+      result.replay_objective = row.number("replay_objective");
+      result.replay_error = error;
+    }
+  }
+  std::vector<double> costs;
+  for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
+  if (result.replay_objective) costs.push_back(*result.replay_objective);
+  if (result.indirect_objective) costs.push_back(*result.indirect_objective);
+  result.reference = problem.reference_optimum();
+  result.agreement = agreement_of_routes(costs, result.reference);
+  return result;
+}
+
+Cell agreeing_digits(const Certificate& certificate) {
+  return certificate.agreement.routes > 1 ? Cell(certificate.agreement.digits) : Cell();
+}
+
+Cell reference_agreement(const Certificate& certificate) {
+  const bool is_known = certificate.reference && certificate.agreement.routes > 0;
+  return is_known ? Cell(certificate.agreement.reference_digits) : Cell();
+}
+
+Cell published(const Certificate& certificate) {
+  if (!certificate.reference) return {};
+  std::vector<std::string> values;
+  for (const PublishedOptimum& value : certificate.reference->published) {
+    values.push_back(fmt::format("{:.12g} ({})", value.objective, value.source));
+  }
+  return fmt::format("{}", fmt::join(values, "; "));
+}
+
+Columns<Certificate> certificate_columns(const std::vector<std::string>& routes) {
+  constexpr auto reference = &Certificate::reference;
+  Columns<Certificate> columns{{"problem", "", "name of the problem", from(&Certificate::problem)}};
+  for (const std::string& route : routes) {
+    columns.push_back({route + "_objective", "cost", "cost on the finest grid", [route](const Certificate& c) {
+                         const auto found = c.objectives.find(route);
+                         return found == c.objectives.end() ? Cell() : Cell(found->second);
+                       }});
+  }
+  return columns +
+         Columns<Certificate>{
+             {"replay_objective", "cost", "cost of the best replay", from(&Certificate::replay_objective)},
+             {"replay_error", "", "its distance from the final state", from(&Certificate::replay_error)},
+             {"indirect_objective", "cost", "cost by the indirect method", from(&Certificate::indirect_objective)},
+             {"indirect_digits", "", "digits of it that are certified", from(&Certificate::indirect_digits)},
+             {"agreeing_digits", "", "digits that all routes share", agreeing_digits},
+             {"reference", "cost", "cost that the problem states", from(reference, &ReferenceOptimum::objective)},
+             {"reference_digits", "", "digits of it that hold", from(reference, &ReferenceOptimum::digits)},
+             {"certificate", "", "how it is known", from(reference, &ReferenceOptimum::certificate)},
+             {"reference_agreement", "", "digits that all routes share with it", reference_agreement},
+             {"confirmed", "", "whether the routes confirm it",
+              from(&Certificate::agreement, &RouteAgreement::confirmed)},
+             {"published", "", "published values with their sources", published},
+             {"remark", "", "where those differ, and why", from(reference, &ReferenceOptimum::remark)},
+             {"message", "", "why there is no indirect solution", from(&Certificate::message)}};
+}
+
 class Certify final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "certify"; }
-  [[nodiscard]] std::string description() const override {
-    return "The least cost by routes that share as little as possible: two tableaus on two grids each, the finest "
-           "answer's control replayed, and the indirect method where it applies. NAME_references.csv has a row per "
-           "problem: the routes, how many digits they share, and whether they confirm the reference that the problem "
-           "states.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "64,128"; }
-  void set_defaults(ExperimentOptions& options) const override {
-    options.problems = {"all"};
-    options.methods = {"dmoc"};
+  // Digits are wanted that end where the solver's tolerance begins, so answers are polished.
+  Certify()
+      : Experiment(
+            {.name = "certify",
+             .description =
+                 "The least cost by routes that share as little as possible: two tableaus on two grids each, the "
+                 "finest answer's control replayed, and the indirect method where it applies. NAME_references.csv has "
+                 "a row per problem: the routes, how many digits they share, and whether they confirm the reference "
+                 "that the problem states.",
+             .options = {.problems = {"all"}, .methods = {"dmoc"}, .intervals = "64,128"},
+             .problems_are_independent = true,
+             .polishes = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return {
+        replay_error_column(measured_.replay),
+        {"replay_objective", "cost", "cost of the replayed motion", of(measured_.replay, &ReplayError::cost)},
+        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+        {"indirect_objective", "cost", "cost by the indirect method", of(measured_.indirect, &IndirectSolution::cost)},
+        {"indirect_digits", "", "digits of it that are certified",
+         of(measured_.indirect, &IndirectSolution::certified_digits)},
+        {"indirect_message", "", "why there is none", of(measured_.indirect_message)},
+    };
   }
   void add_options(CommandLine& line) override {
     line.option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
@@ -59,152 +165,68 @@ class Certify final : public Experiment {
         .shows_default();
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
-  [[nodiscard]] bool problems_are_independent() const override { return true; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"replay_error",       "replay_objective", "polish_steps",
-            "indirect_objective", "indirect_digits",  "indirect_message"};
-  }
-  /// Digits are wanted that end where the solver's tolerance begins.
-  [[nodiscard]] bool polishes() const override { return true; }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> cases;
     for (const std::string& route : route_names_) {
       const Scheme scheme = parse_scheme(route);
-      for (Case what : curve) {
-        what.tableau = scheme.tableau;
-        what.stages = scheme.stages;
-        cases.push_back(std::move(what));
+      for (Case each : curve) {
+        each.tableau = scheme.tableau;
+        each.stages = scheme.stages;
+        cases.push_back(std::move(each));
       }
     }
     return cases;
   }
 
   void check(const std::vector<Case>& cases) override {
-    for (const Case& what : cases) {
-      if (problems_.empty() || problems_.back().problem != what.problem) problems_.push_back({what.problem, 0, {}});
+    for (const Case& the_case : cases) {
+      if (problems_.empty() || problems_.back().problem != the_case.problem) problems_.push_back({the_case.problem});
       ++problems_.back().cases_left;
     }
   }
 
   /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
   void complete(SolvedCase& solved) override {
-    Subject& subject = subject_of(solved.what.problem);
+    measured_ = {};
+    CertifiedProblem& certified = *std::ranges::find(problems_, solved.the_case.problem, &CertifiedProblem::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
-      replay(solved);
-      const bool is_finer = !subject.finest || subject.finest->intervals() < solved.trajectory->intervals();
-      if (is_finer) subject.finest = *solved.trajectory;
+      measured_.replay = replay(solved);
+      const bool is_finer = !certified.finest || certified.finest->intervals() < solved.trajectory->intervals();
+      if (is_finer) certified.finest = *solved.trajectory;
     }
-    if (--subject.cases_left > 0 || !with_indirect_ || !subject.finest) return;
+    if (--certified.cases_left > 0 || !with_indirect_ || !certified.finest) return;
     try {
-      const IndirectSolution indirect = solve_indirect(*subject.problem, *subject.finest);
-      solved.row.set("indirect_objective", indirect.cost());
-      solved.row.set("indirect_digits", indirect.certified_digits());
+      measured_.indirect = solve_indirect(*certified.problem, *certified.finest);
     } catch (const Error& error) {  // says what of the problem it does not know
-      solved.row.set("indirect_message", error.what());
+      measured_.indirect_message = error.what();
     }
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
-    std::vector<std::string> columns{"problem"};
-    for (const std::string& route : route_names_) columns.push_back(route + "_objective");
-    for (const char* column :
-         {"replay_objective", "replay_error", "indirect_objective", "indirect_digits", "agreeing_digits", "reference",
-          "reference_digits", "certificate", "reference_agreement", "confirmed", "published", "remark", "message"}) {
-      columns.emplace_back(column);
+    std::vector<Certificate> certificates;
+    for (const CertifiedProblem& certified : problems_) {
+      const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
+      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, agreeing_digits(c).text(),
+                 c.agreement.confirmed);
     }
-    Table references(columns);
-    for (const Subject& subject : problems_) {
-      references.append(reference_row(*subject.problem, table));
-      const Row& row = references.rows().back();
-      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", row.text("problem"),
-                 row.text("agreeing_digits"), row.text("confirmed"));
-    }
-    write_file(prefix.string() + "_references.csv", references.csv());
+    write_file(prefix.string() + "_references.csv", table_of(certificate_columns(route_names_), certificates).csv());
   }
 
  private:
-  struct Subject {
+  struct CertifiedProblem {
     std::shared_ptr<const Problem> problem;
     std::size_t cases_left = 0;
-    std::optional<Trajectory> finest;  // the first answer on the finest grid so far
+    std::optional<Trajectory> finest = std::nullopt;  // the first answer on the finest grid so far
   };
-
-  Subject& subject_of(const std::shared_ptr<const Problem>& problem) {
-    return *std::find_if(problems_.begin(), problems_.end(),
-                         [&](const Subject& subject) { return subject.problem == problem; });
-  }
-
-  static void replay(SolvedCase& solved) {
-    try {
-      const ReplayError replayed = replay_error(*solved.what.problem, *solved.trajectory);
-      solved.row.set("replay_error", replayed.norm());
-      solved.row.set("replay_objective", replayed.cost);
-    } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
-    }
-  }
-
-  /// From the rows of one problem: the finest answer of every route, the best replay on the finest grid, the indirect
-  /// method's.
-  [[nodiscard]] Row reference_row(const Problem& problem, const Table& table) const {
-    Row row;
-    row.set("problem", problem.name());
-    std::map<std::string, const Row*> finest;  // by route
-    const Row* replayed = nullptr;
-    const auto intervals = [](const Row& solve) { return solve.number("intervals").value_or(0.0); };
-    const auto replay_of = [](const Row& solve) { return solve.number("replay_error").value_or(0.0); };
-    for (const Row& solve : table.rows()) {
-      if (solve.text("problem") != problem.name()) continue;
-      for (const char* column : {"indirect_objective", "indirect_digits"}) {
-        if (const auto value = solve.number(column)) row.set(column, value);
-      }
-      if (!solve.text("indirect_message").empty()) row.set("message", solve.text("indirect_message"));
-      if (solve.text("status") != "solved" || !solve.number("objective")) continue;
-      const Row*& best = finest[solve.text("tableau") + solve.text("stages")];
-      if (best == nullptr || intervals(*best) <= intervals(solve)) best = &solve;
-      if (!solve.number("replay_error")) continue;
-      const bool is_better = replayed == nullptr || intervals(*replayed) < intervals(solve) ||
-                             (intervals(*replayed) == intervals(solve) && replay_of(solve) < replay_of(*replayed));
-      if (is_better) replayed = &solve;
-    }
-    std::vector<double> objectives;
-    for (const auto& [route, solve] : finest) {
-      const double objective = solve->number("objective").value_or(0.0);
-      objectives.push_back(objective);
-      row.set(route + "_objective", objective);
-    }
-    if (replayed != nullptr) {
-      const double objective = replayed->number("replay_objective").value_or(0.0);
-      objectives.push_back(objective);
-      row.set("replay_objective", objective);
-      row.set("replay_error", replay_of(*replayed));
-    }
-    if (const auto indirect = row.number("indirect_objective")) objectives.push_back(*indirect);
-    judge(problem, objectives, row);
-    return row;
-  }
-
-  static void judge(const Problem& problem, const std::vector<double>& objectives, Row& row) {
-    const RouteAgreement agreement = agreement_of_routes(objectives, problem.reference_optimum());
-    if (agreement.routes > 1) row.set("agreeing_digits", static_cast<long long>(agreement.digits));
-    row.set("confirmed", agreement.confirmed);
-    const auto reference = problem.reference_optimum();
-    if (!reference) return;
-    row.set("reference", reference->objective);
-    row.set("reference_digits", static_cast<long long>(reference->digits));
-    row.set("certificate", reference->certificate);
-    if (agreement.routes > 0) row.set("reference_agreement", static_cast<long long>(agreement.reference_digits));
-    std::vector<std::string> published;
-    for (const PublishedOptimum& value : reference->published) {
-      published.push_back(fmt::format("{:.12g} ({})", value.objective, value.source));
-    }
-    row.set("published", fmt::format("{}", fmt::join(published, "; ")));
-    row.set("remark", reference->remark);
-  }
 
   std::vector<std::string> route_names_{"gauss3", "lobatto4"};
   bool with_indirect_ = true;
-  std::vector<Subject> problems_;  // in the order of the cases
+  std::vector<CertifiedProblem> problems_;  // in the order of the cases
+  struct {
+    std::optional<ReplayError> replay;
+    std::optional<IndirectSolution> indirect;
+    std::string indirect_message;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

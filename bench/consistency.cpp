@@ -1,4 +1,7 @@
 // Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b) of the paper.
+#include <optional>
+#include <utility>
+
 #include "bench/experiment/experiment.hpp"
 #include "methods/diagnostics/momentum_consistency.hpp"
 #include "methods/error.hpp"
@@ -10,29 +13,36 @@ namespace {
 
 class Consistency final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "consistency"; }
-  [[nodiscard]] std::string description() const override {
-    return "How well the change of momentum equals the work of the forces, interval by interval.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"momentum_defect_max", "momentum_defect_mean", "momentum_defect_total", "largest_force"};
+  Consistency()
+      : Experiment(
+            {.name = "consistency",
+             .description = "How well the change of momentum equals the work of the forces, interval by interval.",
+             .options = {.intervals = "16:1024"}}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    using Result = MomentumConsistency;
+    return {
+        {"momentum_defect_max", "momentum", "largest defect of an interval", of(result_, &Result::largest)},
+        {"momentum_defect_mean", "momentum", "mean magnitude of the defects", of(result_, &Result::mean)},
+        {"momentum_defect_total", "momentum", "magnitude of their sum", of(result_, &Result::total)},
+        {"largest_force", "force", "largest force along the symmetry", of(result_, &Result::largest_force)},
+    };
   }
   void check(const std::vector<Case>& cases) override {
-    for (const Case& what : cases) {
-      if (!TracedProblem(*what.problem).has_symmetry()) {
-        throw Error(what.problem->name() + " states no symmetry, so there is no momentum to watch");
+    const Problem* checked = nullptr;
+    for (const Case& the_case : cases) {
+      if (std::exchange(checked, the_case.problem.get()) == the_case.problem.get()) continue;
+      if (!TracedProblem(*the_case.problem).has_symmetry()) {
+        throw Error(the_case.problem->name() + " states no symmetry, so there is no momentum to watch");
       }
     }
   }
   void complete(SolvedCase& solved) override {
-    if (!solved.trajectory) return;
-    const MomentumConsistency result = momentum_consistency(*solved.what.problem, *solved.trajectory);
-    solved.row.set("momentum_defect_max", result.largest);
-    solved.row.set("momentum_defect_mean", result.mean);
-    solved.row.set("momentum_defect_total", result.total);
-    solved.row.set("largest_force", result.largest_force);
+    result_.reset();
+    if (solved.trajectory) result_ = momentum_consistency(*solved.the_case.problem, *solved.trajectory);
   }
+
+ private:
+  std::optional<MomentumConsistency> result_;
 };
 
 }  // namespace

@@ -11,11 +11,11 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/common_columns.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -74,25 +74,55 @@ std::vector<Tableau> all_tableaus() {
   return tableaus;
 }
 
-struct Tables {
-  Table errors{{"problem", "tableau", "stages", "order", "quantity", "h", "error"}};
-  Table slopes{
-      {"problem", "tableau", "stages", "order", "quantity", "slope", "standard_error", "finest", "coarsest", "points"}};
+/// Of what an error, or an order, is.
+struct Measured {
+  std::string problem;
+  std::string tableau;
+  Eigen::Index stages = 0;
+  int order = 0;
+  std::string quantity;
 };
 
-Row row_of(const Problem& problem, const Tableau& tableau, const Quantity& quantity) {
-  Row row;
-  row.set("problem", problem.name());
-  row.set("tableau", tableau.family);
-  row.set("stages", static_cast<long long>(tableau.stages()));
-  row.set("order", static_cast<long long>(tableau.order));
-  row.set("quantity", quantity.name);
-  return row;
+struct MeasuredError {
+  Measured measured;
+  double h = 0.0;
+  double error = 0.0;
+};
+
+struct MeasuredOrder {
+  Measured measured;
+  FittedOrder fit;
+};
+
+/// The columns that begin both tables.
+template <class Record>
+Columns<Record> first_columns() {
+  constexpr auto measured = &Record::measured;
+  return {{"problem", "", "name of the problem", from(measured, &Measured::problem)},
+          {"tableau", "", "family of Butcher tableaus", from(measured, &Measured::tableau)},
+          {"stages", "", "number of stages", from(measured, &Measured::stages)},
+          {"order", "", "the tableau's order", from(measured, &Measured::order)},
+          {"quantity", "", "what is compared with the exact one", from(measured, &Measured::quantity)}};
 }
 
+Columns<MeasuredError> error_columns() {
+  return first_columns<MeasuredError>() +
+         Columns<MeasuredError>{{"h", "", "step", &MeasuredError::h},
+                                {"error", "", "largest error over the initial conditions", &MeasuredError::error}};
+}
+
+Columns<MeasuredOrder> order_columns() {
+  return first_columns<MeasuredOrder>() + fitted_order_columns(&MeasuredOrder::fit);
+}
+
+struct Results {
+  std::vector<MeasuredError> errors;
+  std::vector<MeasuredOrder> orders;
+};
+
 /// A line through the finest six points that are clear of rounding. Errors below that are those of the tableau's
-/// coefficients, which are double; with six points, which
-/// span a factor of six in h, the coarse steps, where the next power of h still counts, are left out if possible.
+/// coefficients, which are double. Six points span a factor of six in h; more would take in coarse steps, where the
+/// next power of h still counts.
 std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   constexpr double rounding = 1e-15;
   constexpr std::ptrdiff_t fitted = 6;
@@ -103,7 +133,7 @@ std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
 }
 
 /// Steps T/N, coarsest first.
-void measure(const Problem& problem, const std::vector<long long>& intervals, Tables& tables) {
+void measure(const Problem& problem, const std::vector<long long>& intervals, Results& results) {
   const std::vector<Tableau> tableaus = all_tableaus();
   const ConsistencyOrder order(problem, smooth_control(problem), initial_conditions(problem));
   std::vector<std::vector<ConsistencyErrors>> errors;  // per step, per tableau
@@ -111,24 +141,14 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Ta
   for (std::size_t k = 0; k < intervals.size(); ++k) errors.push_back(order.errors(tableaus, step(k)));
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
     for (const Quantity& quantity : quantities) {
+      const Measured measured{problem.name(), tableaus[i].family, tableaus[i].stages(), tableaus[i].order,
+                              quantity.name};
       std::vector<GridError> points;
       for (std::size_t k = 0; k < intervals.size(); ++k) {
-        const double error = errors[k][i].*quantity.error;
-        Row row = row_of(problem, tableaus[i], quantity);
-        row.set("h", step(k));
-        row.set("error", error);
-        tables.errors.append(std::move(row));
-        points.push_back({step(k), error});
+        points.push_back({step(k), errors[k][i].*quantity.error});
+        results.errors.push_back({measured, points.back().step, points.back().error});
       }
-      const auto fitted = fit_finest(points);
-      if (!fitted) continue;
-      Row row = row_of(problem, tableaus[i], quantity);
-      row.set("slope", fitted->slope);
-      if (fitted->points > 2) row.set("standard_error", fitted->standard_error);
-      row.set("finest", fitted->finest);
-      row.set("coarsest", fitted->coarsest);
-      row.set("points", static_cast<long long>(fitted->points));
-      tables.slopes.append(std::move(row));
+      if (const auto fitted = fit_finest(points)) results.orders.push_back({measured, *fitted});
     }
   }
 }
@@ -141,8 +161,7 @@ int main(int argc, char** argv) try {
   using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
   CommandLine line(
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
-      "exact "
-      "ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
+      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
       "(consistency_order_slopes.csv).",
       "consistency_order");
   std::vector<std::string> problems;
@@ -157,13 +176,12 @@ int main(int argc, char** argv) try {
     const std::vector<long long> steps = parse_intervals("--intervals", intervals);
     const auto selected = selected_problems(problems, settings);
     prepare_folder(out);
-    Tables tables;
-    for (const auto& problem : selected) measure(*problem, steps, tables);
-    write_file(out / "consistency_order.csv", tables.errors.csv());
-    write_file(out / "consistency_order_slopes.csv", tables.slopes.csv());
+    Results results;
+    for (const auto& problem : selected) measure(*problem, steps, results);
+    write_file(out / "consistency_order.csv", table_of(error_columns(), results.errors).csv());
+    write_file(out / "consistency_order_slopes.csv", table_of(order_columns(), results.orders).csv());
     write_complete_run(out / "consistency_order.json", std::vector<std::string>(argv, argv + argc));
-    fmt::print("consistency_order: {} rows: {}\n", tables.errors.rows().size(),
-               (out / "consistency_order.csv").string());
+    fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
     return 0;
   });
 } catch (const std::exception& error) {  // what is set up before run_program can guard it

@@ -1,6 +1,5 @@
 // Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 
@@ -8,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/indirect_reference.hpp"
 #include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/equal_accuracy.hpp"
 #include "bench/summary/slopes.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/node_control_error.hpp"
@@ -26,46 +25,48 @@ namespace {
 long long parse_reference(const std::string& text) {
   if (text.empty()) return 0;
   if (text == "indirect") return exact_reference;
-  long long intervals = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), intervals);
-  if (failure != std::errc() || end != text.data() + text.size() || intervals <= 0) {
-    throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
-  }
-  return intervals;
+  const auto intervals = parsed<long long>(text);
+  if (intervals && *intervals > 0) return *intervals;
+  throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
 }
 
 class Convergence final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "convergence"; }
-  [[nodiscard]] std::string description() const override {
-    return "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
-           "indirect "
-           "solution (NAME_reference.csv, where stage values have errors too), with fitted slopes (NAME_slopes.csv) "
-           "and "
-           "the cost of equal accuracy (NAME_equal_accuracy.csv).";
+  Convergence()
+      : Experiment(
+            {.name = "convergence",
+             .description =
+                 "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
+                 "indirect solution (NAME_reference.csv, where stage values have errors too), with fitted slopes "
+                 "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).",
+             .options = {.intervals = "16:1024"},
+             .polishes = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    constexpr auto stages = &TrajectoryError::stages;
+    return {
+        {"state_error", "", "largest error of q over the nodes", of(measured_.error, &TrajectoryError::state)},
+        {"control_error", "", "largest error of u over the stages", of(measured_.error, &TrajectoryError::control)},
+        {"momentum_error", "", "largest error of p over the nodes", of(measured_.error, &TrajectoryError::momentum)},
+        {"costate_error", "", "largest error of psi over the nodes", of(measured_.error, &TrajectoryError::costate)},
+        {"objective_error", "cost", "error of the cost", of(measured_.error, &TrajectoryError::objective)},
+        replay_error_column(measured_.replay),
+        {"control_from_costate_error", "",
+         "largest error of the control recomputed from state and costate at the nodes",
+         of(measured_.control_from_costate_error)},
+        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+        {"stage_configuration_error", "", "largest error of Q_i",
+         of(measured_.error, stages, &StageError::configuration)},
+        {"stage_momentum_error", "", "largest error of P_i", of(measured_.error, stages, &StageError::momentum)},
+        {"stage_costate_q_error", "", "largest error of Psi^q_i", of(measured_.error, stages, &StageError::costate_q)},
+        {"stage_costate_p_error", "", "largest error of Psi^p_i", of(measured_.error, stages, &StageError::costate_p)},
+    };
   }
-  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"state_error",
-            "control_error",
-            "momentum_error",
-            "costate_error",
-            "objective_error",
-            "replay_error",
-            "control_from_costate_error",
-            "polish_steps",
-            "stage_configuration_error",
-            "stage_momentum_error",
-            "stage_costate_q_error",
-            "stage_costate_p_error"};
-  }
-  [[nodiscard]] bool polishes() const override { return polishes_; }
   void add_options(CommandLine& line) override {
     line.option("--reference", reference_text_,
                 "what errors are measured against: N of a grid of the same method (default: the finest one of each "
                 "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
                 "kept in the output folder");
-    line.flag("--polish,!--no-polish", polishes_,
+    line.flag("--polish,!--no-polish", card_.polishes,
               "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
     line.option(
         "--fit", fit_,
@@ -79,15 +80,11 @@ class Convergence final : public Experiment {
       const std::vector<long long> range = parse_intervals("--fit", fit_);
       fit_range_ = {range.front(), range.back()};
     }
+    if (reference_ == exact_reference) indirect_.emplace(card_.options.out);
     if (reference_ <= 0) return;
-    const bool present = std::any_of(cases.begin(), cases.end(), [&](const Case& what) {
-      return static_cast<long long>(what.intervals()) == reference_;
-    });
+    const bool present = std::ranges::any_of(
+        cases, [&](const Case& the_case) { return static_cast<long long>(the_case.intervals()) == reference_; });
     if (!present) throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
-  }
-
-  void prepare(const std::filesystem::path& folder) override {
-    if (reference_ == exact_reference) indirect_.emplace(folder);
   }
 
   [[nodiscard]] std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const override {
@@ -102,24 +99,27 @@ class Convergence final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    const bool is_first = !curve_ || !curve_->same_curve(solved.what);
+    const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
     if (is_first) {
-      curve_ = solved.what;
+      curve_ = solved.the_case;
       reference_trajectory_.reset();
     }
+    measured_ = {};
     if (!solved.trajectory) return;
+    measured_.replay = replay(solved);
+    if (!is_usable(solved)) return;
+    const Problem& problem = *solved.the_case.problem;
     try {
-      solved.row.set("replay_error", replay_error(*solved.what.problem, *solved.trajectory).norm());
-    } catch (const Error& error) {
-      solved.row.set("message", solved.row.text("message") + " " + error.what());
-    }
-    if (!is_usable(solved.row)) return;
-    if (indirect_) {
-      measure_against_indirect(*indirect_, *solved.what.problem, *solved.trajectory, solved.row);
-    } else if (is_first) {
-      reference_trajectory_ = *solved.trajectory;
-    } else if (reference_trajectory_) {
-      set_errors(*solved.what.problem, *solved.trajectory, *reference_trajectory_, solved.row);
+      if (indirect_) {
+        measure(problem, *solved.trajectory,
+                indirect_->near(problem, *solved.trajectory).sampled_like(*solved.trajectory));
+      } else if (is_first) {
+        reference_trajectory_ = *solved.trajectory;
+      } else if (reference_trajectory_) {
+        measure(problem, *solved.trajectory, *reference_trajectory_);
+      }
+    } catch (const Error& failure) {
+      solved.note(failure.what());
     }
   }
 
@@ -141,37 +141,12 @@ class Convergence final : public Experiment {
     fmt::print("convergence: {}\n", note);
   }
 
-  static void set_errors(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference, Row& row) {
-    const TrajectoryError error = trajectory_error(trajectory, reference);
-    row.set("state_error", error.state);
-    row.set("control_error", error.control);
-    row.set("momentum_error", error.momentum);
-    row.set("costate_error", error.costate);
-    row.set("objective_error", error.objective);
-    if (error.stages) {
-      row.set("stage_configuration_error", error.stages->configuration);
-      row.set("stage_momentum_error", error.stages->momentum);
-      row.set("stage_costate_q_error", error.stages->costate_q);
-      row.set("stage_costate_p_error", error.stages->costate_p);
-    }
-    if (!error.costate) return;
-    try {
-      row.set("control_from_costate_error", node_control_error(problem, trajectory, reference));
-    } catch (const Error& failure) {
-      row.set("message", row.text("message") + " " + failure.what());
-    }
+  void measure(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference) {
+    measured_.error = trajectory_error(trajectory, reference);
+    if (!measured_.error->costate) return;
+    measured_.control_from_costate_error = node_control_error(problem, trajectory, reference);
   }
 
-  static void measure_against_indirect(IndirectReference& reference, const Problem& problem,
-                                       const Trajectory& trajectory, Row& row) {
-    try {
-      set_errors(problem, trajectory, reference.near(problem, trajectory).sampled_like(trajectory), row);
-    } catch (const Error& error) {
-      row.set("message", row.text("message") + " " + error.what());
-    }
-  }
-
-  bool polishes_ = true;
   std::string reference_text_;
   long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
   std::optional<IndirectReference> indirect_;
@@ -179,6 +154,11 @@ class Convergence final : public Experiment {
   std::optional<FitRange> fit_range_;
   std::optional<Case> curve_;
   std::optional<Trajectory> reference_trajectory_;
+  struct {
+    std::optional<TrajectoryError> error;
+    std::optional<double> control_from_costate_error;
+    std::optional<ReplayError> replay;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

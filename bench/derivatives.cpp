@@ -1,9 +1,9 @@
 // What exact derivatives are worth: section 4.1, "Automatic Differentiation", of the paper.
 #include <algorithm>
+#include <optional>
 #include <random>
 
-#include "bench/derivatives/derivative_error.hpp"
-#include "bench/derivatives/evaluation_times.hpp"
+#include "bench/derivatives/measured_derivatives.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "methods/error.hpp"
 
@@ -13,8 +13,9 @@ namespace {
 
 const std::string limited_memory = "limited_memory";
 
-/// Solves without exact second derivatives may take this many times as long as the tape's on the same grid, but always
-/// the shortest limit; what has not arrived by then is a row that says so. The last holds where there is no such solve.
+/// Solves without exact second derivatives may take this many times as long as the tape's on the same grid, and at
+/// least the shortest limit; a solve that takes longer keeps its row with that status. The last limit holds where the
+/// tape has no solve.
 constexpr double longer_than_tape = 15.0;
 constexpr double shortest_limit = 0.2;  // [s]
 constexpr double limit_without_tape = 0.5;
@@ -24,35 +25,48 @@ constexpr int most_iterations = 150;
 bool is_exact(const std::string& derivatives) { return derivatives == "tape" || derivatives == "adolc"; }
 
 /// Multipliers around 1 of either sign, the same on every run.
-Eigen::VectorXd fixed_multipliers(std::size_t rows) {
+Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
   std::mt19937 engine(20090101U);
   constexpr double half_range = 2147483648.0;
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(rows),
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints),
                                       [&] { return static_cast<double>(engine()) / half_range - 1.0; });
 }
 
 class Derivatives final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "derivatives"; }
-  [[nodiscard]] std::string description() const override {
-    return "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
-           "residual, "
-           "and what a solve with them takes and reaches. Column hessian: exact is that of the back end, "
-           "limited_memory "
-           "Ipopt's quasi-Newton one, with first derivatives by tape and by forward differences. Solves but those by "
-           "tape and adolc end after 150 iterations, or 15 times the tape's time (at least 0.2 s).";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  void set_defaults(ExperimentOptions& options) const override { options.derivatives = derivative_back_end_names(); }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"hessian",
-            "jacobian_error",
-            "hessian_error",
-            "residual_seconds",
-            "gradient_over_residual",
-            "jacobian_over_residual",
-            "hessian_over_residual",
-            "answer_difference"};
+  Derivatives()
+      : Experiment(
+            {.name = "derivatives",
+             .description =
+                 "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
+                 "residual, and what a solve with them takes and reaches. Column hessian: exact is that of the back "
+                 "end, limited_memory Ipopt's quasi-Newton one, with first derivatives by tape and by forward "
+                 "differences. Solves but those by tape and adolc end after 150 iterations, or 15 times the tape's "
+                 "time (at least 0.2 s).",
+             .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"}}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    const auto over_residual = [this](double EvaluationTimes::*evaluation) {
+      return [this, evaluation](const SolvedCase& solved) {
+        const bool is_wanted = evaluation != &EvaluationTimes::hessian || solved.the_case.variant.empty();
+        const std::optional<EvaluationTimes>& seconds = measured_.seconds;
+        return seconds && is_wanted ? Cell((*seconds).*evaluation / seconds->residual) : Cell();
+      };
+    };
+    return {
+        {"hessian", "", "exact, or limited_memory",
+         [](const SolvedCase& s) { return s.the_case.variant.empty() ? "exact" : s.the_case.variant; }},
+        {"jacobian_error", "", "largest error of an entry, relative to the largest entry",
+         of(measured_.jacobian_error)},
+        {"hessian_error", "", "the same of the Hessian; empty where the solver was given none",
+         of(measured_.hessian_error)},
+        {"residual_seconds", "s", "one evaluation of all constraints",
+         of(measured_.seconds, &EvaluationTimes::residual)},
+        {"gradient_over_residual", "", "time of a gradient over that", over_residual(&EvaluationTimes::gradient)},
+        {"jacobian_over_residual", "", "time of a Jacobian over that", over_residual(&EvaluationTimes::jacobian)},
+        {"hessian_over_residual", "", "time of a Hessian over that", over_residual(&EvaluationTimes::hessian)},
+        {"answer_difference", "", "largest difference of q from the tape's answer, relative to its largest value",
+         of(measured_.answer_difference)},
+    };
   }
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
@@ -60,18 +74,18 @@ class Derivatives final : public Experiment {
     const Case& first = curve.front();
     const bool has_limited_memory =
         first.solver == "ipopt" && (first.derivatives == "tape" || first.derivatives == "forward_differences");
-    for (Case what : curve) {
+    for (Case each : curve) {
       if (!has_limited_memory) break;
-      what.variant = limited_memory;
-      all.push_back(std::move(what));
+      each.variant = limited_memory;
+      all.push_back(std::move(each));
     }
     return all;
   }
 
-  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) override {
-    if (what.variant == limited_memory) common.passed_on.emplace("hessian_approximation", "limited-memory");
-    if (is_exact(what.derivatives) && what.variant.empty()) return common;
-    const Answer* exact = partner_of(what);
+  [[nodiscard]] SolverOptions options_for(const Case& the_case, SolverOptions common) override {
+    if (the_case.variant == limited_memory) common.passed_on.emplace("hessian_approximation", "limited-memory");
+    if (is_exact(the_case.derivatives) && the_case.variant.empty()) return common;
+    const Answer* exact = partner_of(the_case);
     common.most_iterations = std::min(common.most_iterations, most_iterations);
     common.most_seconds =
         exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->seconds) : limit_without_tape;
@@ -79,65 +93,63 @@ class Derivatives final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    const Case& what = solved.what;
-    solved.row.set("hessian", what.variant.empty() ? "exact" : what.variant);
-    if (solved.trajectory && what.derivatives == "tape" && what.variant.empty() && is_usable(solved.row)) {
-      answers_.push_back({what, *solved.trajectory, solved.solution.seconds});
+    const Case& the_case = solved.the_case;
+    if (solved.trajectory && the_case.derivatives == "tape" && the_case.variant.empty() && is_usable(solved)) {
+      answers_.push_back({the_case, *solved.trajectory, solved.solution.seconds});
     }
+    measured_ = {};
     compare(solved);
-    if (solved.start.size() > 0) evaluate(solved);
+    evaluate(solved);
   }
 
  private:
   struct Answer {
-    Case what;
+    Case the_case;
     Trajectory trajectory;
     double seconds;
   };
 
   /// Errors and times at the start of the solve.
-  static void evaluate(SolvedCase& solved) {
-    const Case& what = solved.what;
-    Transcription program(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid,
-                          what.derivatives);
+  void evaluate(const SolvedCase& solved) {
+    if (!solved.program) return;
+    Transcription& program = *solved.program;
     const Eigen::VectorXd multipliers = fixed_multipliers(program.constraint_count());
     const DerivativeReference reference = reference_derivatives(program, solved.start, 1.0, multipliers);
     Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
     program.jacobian(solved.start, jacobian);
-    const EvaluationTimes seconds = measure_evaluations(program, solved.start, multipliers);
-    Row& row = solved.row;
-    row.set("jacobian_error", relative_error(jacobian, reference.jacobian));
-    row.set("residual_seconds", seconds.residual);
-    row.set("gradient_over_residual", seconds.gradient / seconds.residual);
-    row.set("jacobian_over_residual", seconds.jacobian / seconds.residual);
-    if (!what.variant.empty()) return;  // the solver was given no Hessian
+    measured_.jacobian_error = relative_error(jacobian, reference.jacobian);
+    measured_.seconds = measure_evaluations(program, solved.start, multipliers);
+    if (!solved.the_case.variant.empty()) return;  // the solver was given no Hessian
     Eigen::VectorXd hessian(static_cast<Eigen::Index>(program.hessian_structure().size()));
     program.hessian(solved.start, 1.0, multipliers, hessian);
-    row.set("hessian_error", relative_error(hessian, reference.hessian));
-    row.set("hessian_over_residual", seconds.hessian / seconds.residual);
+    measured_.hessian_error = relative_error(hessian, reference.hessian);
   }
 
   /// The tape's solve of the same program; null if there is none.
-  [[nodiscard]] const Answer* partner_of(const Case& what) const {
-    const auto found = std::find_if(answers_.begin(), answers_.end(), [&](const Answer& answer) {
-      const Case& other = answer.what;
-      return other.problem == what.problem && other.method == what.method && other.tableau == what.tableau &&
-             other.stages == what.stages && other.solver == what.solver &&
-             other.grid.relative_times() == what.grid.relative_times();
+  [[nodiscard]] const Answer* partner_of(const Case& the_case) const {
+    const auto found = std::ranges::find_if(answers_, [&](const Answer& answer) {
+      const Case& other = answer.the_case;
+      return other.problem == the_case.problem && other.method == the_case.method &&
+             other.tableau == the_case.tableau && other.stages == the_case.stages && other.solver == the_case.solver &&
+             other.grid.relative_times() == the_case.grid.relative_times();
     });
     return found == answers_.end() ? nullptr : &*found;
   }
 
-  /// Largest difference of q at the nodes from the tape's answer on the same grid, relative to its largest value.
-  void compare(SolvedCase& solved) const {
-    const Answer* exact = partner_of(solved.what);
+  void compare(const SolvedCase& solved) {
+    const Answer* exact = partner_of(solved.the_case);
     if (!solved.trajectory || exact == nullptr) return;
     const Eigen::MatrixXd& q = exact->trajectory.q;
-    solved.row.set("answer_difference",
-                   (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>());
+    measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
   }
 
   std::vector<Answer> answers_;
+  struct {
+    std::optional<double> jacobian_error;
+    std::optional<double> hessian_error;
+    std::optional<EvaluationTimes> seconds;
+    std::optional<double> answer_difference;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

@@ -1,6 +1,11 @@
 // DMOC and Hamiltonian collocation with the same tableau describe the same discrete solutions (th:equi): both are
 // solved separately from the common start and compared, tangent-space collocation beside them as the control. The
 // costates of each are put into the adjoint scheme (th:orderapp).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/slopes.hpp"
@@ -19,68 +24,111 @@ double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
 }
 
-/// What `trajectory` leaves in the rows of another method on the same grid.
-double foreign_violation(const Case& what, const std::string& other_method, const Trajectory& trajectory,
-                         double& rounding) {
-  Transcription other(*what.problem, *make_element(other_method), make_tableau(what.tableau, what.stages), what.grid);
-  // The floor is that of a momentum; collocation has rows of force, differences of momenta divided by the step, and its
-  // last slope is such a difference divided by its weight.
-  const bool has_rows_of_force = other.layout().node_state() != NodeState::configuration;
-  const double last_weight = other.tableau().b[other.tableau().stages() - 1];
-  const Eigen::VectorXd embedded = embed(*what.problem, other, trajectory);
-  rounding = other.rounding_floor() / (has_rows_of_force ? last_weight * other.steps(embedded).minCoeff() : 1.0);
-  return constraint_violation(other, embedded);
+/// What a trajectory leaves in a method's constraints on the same grid, and what of it is rounding.
+struct ForeignViolation {
+  double violation = 0.0;
+  double rounding = 0.0;
+};
+
+ForeignViolation violation_in(Case other, const std::string& method, const Trajectory& trajectory) {
+  other.method = method;
+  other.derivatives = "tape";
+  other.form = CostForm::bolza;
+  const auto program = other.transcribe();
+  // The floor is that of a momentum; collocation has constraints of force, differences of momenta divided by the step,
+  // and its last stage rate is such a difference divided by its weight.
+  const bool has_constraints_of_force = program->layout().node_state() != NodeState::configuration;
+  const double last_weight = program->tableau().b[program->tableau().stages() - 1];
+  const Eigen::VectorXd embedded = embed(*other.problem, *program, trajectory);
+  const double divisor = has_constraints_of_force ? last_weight * program->steps(embedded).minCoeff() : 1.0;
+  return {.violation = constraint_violation(*program, embedded), .rounding = program->rounding_floor() / divisor};
+}
+
+/// How far two answers are apart.
+struct Differences {
+  double configuration = 0.0;
+  double momentum = 0.0;
+  double control = 0.0;
+  std::optional<double> costate;
+  std::optional<double> stage_costate;
+  double objective = 0.0;
+  ForeignViolation in_dmoc;  ///< this method's answer in DMOC's constraints
+  ForeignViolation of_dmoc;  ///< DMOC's answer in this method's constraints
+};
+
+Differences differences(const Trajectory& dmoc, const Trajectory& here, const Case& the_case) {
+  Differences result{.configuration = relative_difference(here.q, dmoc.q),
+                     .momentum = relative_difference(here.p, dmoc.p),
+                     .control = relative_difference(here.stage_u, dmoc.stage_u),
+                     .costate = {},
+                     .stage_costate = {},
+                     .objective = std::abs(here.cost - dmoc.cost) / std::abs(dmoc.cost),
+                     .in_dmoc = violation_in(the_case, "dmoc", here),
+                     .of_dmoc = violation_in(the_case, the_case.method, dmoc)};
+  if (here.has_costates() && dmoc.has_costates()) {
+    result.costate = std::max(relative_difference(here.psi_q, dmoc.psi_q), relative_difference(here.psi_p, dmoc.psi_p));
+    result.stage_costate = std::max(relative_difference(here.stage_psi_q, dmoc.stage_psi_q),
+                                    relative_difference(here.stage_psi_p, dmoc.stage_psi_p));
+  }
+  return result;
 }
 
 class Equivalence final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "equivalence"; }
-  [[nodiscard]] std::string description() const override {
-    return "Solves every method separately and compares with DMOC on the same grid: largest differences relative to "
-           "each "
-           "quantity's largest value, what each answer leaves in the other's rows, and what costates leave in the "
-           "adjoint "
-           "Runge-Kutta scheme; slopes of the differences of tangent-space collocation (NAME_slopes.csv).";
+  Equivalence()
+      : Experiment({.name = "equivalence",
+                    .description =
+                        "Solves every method separately and compares with DMOC on the same grid: largest differences "
+                        "relative to each quantity's largest value, what each answer leaves in the other's rows, and "
+                        "what costates leave in the adjoint Runge-Kutta scheme; slopes of the differences of "
+                        "tangent-space collocation (NAME_slopes.csv).",
+                    .options = {.intervals = "16:1024"},
+                    .polishes = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    constexpr auto violation = &ForeignViolation::violation;
+    constexpr auto rounding = &ForeignViolation::rounding;
+    return {
+        {"configuration_difference", "", "largest difference of q from DMOC's",
+         of(measured_.differences, &Differences::configuration)},
+        {"momentum_difference", "", "of p", of(measured_.differences, &Differences::momentum)},
+        {"control_difference", "", "of the stage controls", of(measured_.differences, &Differences::control)},
+        {"costate_difference", "", "of psi", of(measured_.differences, &Differences::costate)},
+        {"objective_difference", "", "of the cost", of(measured_.differences, &Differences::objective)},
+        {"violation_in_rows_of_dmoc", "", "what the answer leaves in DMOC's constraints",
+         of(measured_.differences, &Differences::in_dmoc, violation)},
+        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there",
+         of(measured_.differences, &Differences::in_dmoc, rounding)},
+        {"violation_of_dmoc_here", "", "what DMOC's answer leaves in this method's constraints",
+         of(measured_.differences, &Differences::of_dmoc, violation)},
+        {"rounding_here", "", "what rounding may leave there",
+         of(measured_.differences, &Differences::of_dmoc, rounding)},
+        {"stage_costate_difference", "", "of Psi_i", of(measured_.differences, &Differences::stage_costate)},
+        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", of(measured_.adjoint_residual)},
+        {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
+         of(measured_.plain_residual)},
+        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+    };
   }
-  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"configuration_difference",
-            "momentum_difference",
-            "control_difference",
-            "costate_difference",
-            "objective_difference",
-            "violation_in_rows_of_dmoc",
-            "rounding_in_rows_of_dmoc",
-            "violation_of_dmoc_here",
-            "rounding_here",
-            "stage_costate_difference",
-            "adjoint_residual",
-            "adjoint_residual_by_plain_coefficients",
-            "polish_steps"};
-  }
-  [[nodiscard]] bool polishes() const override { return true; }
   void check(const std::vector<Case>& cases) override {
-    for (const Case& what : cases) {
-      if (what.method == "dmoc") return;
-    }
-    throw Error("equivalence compares with dmoc: add it to --method");
+    const auto is_dmoc = [](const Case& the_case) { return the_case.method == "dmoc"; };
+    if (!std::ranges::any_of(cases, is_dmoc)) throw Error("equivalence compares with dmoc: add it to --method");
   }
 
   void complete(SolvedCase& solved) override {
-    if (!solved.trajectory || !is_usable(solved.row)) return;
-    if (solved.trajectory->has_costates()) {
-      set_adjoint_residuals(*solved.what.problem, *solved.trajectory, solved.row);
-    }
-    if (solved.what.method == "dmoc") {
-      answers_.push_back({solved.what, *solved.trajectory});
+    measured_ = {};
+    if (!solved.trajectory || !is_usable(solved)) return;
+    const Case& here = solved.the_case;
+    const Trajectory& trajectory = *solved.trajectory;
+    if (trajectory.has_costates()) measure_adjoint_residuals(*here.problem, trajectory);
+    if (here.method == "dmoc") {
+      answers_.push_back({here, trajectory});
       return;
     }
-    for (const Answer& dmoc : answers_) {
-      const bool partner = dmoc.what.problem == solved.what.problem && dmoc.what.tableau == solved.what.tableau &&
-                           dmoc.what.stages == solved.what.stages && dmoc.what.solver == solved.what.solver &&
-                           dmoc.what.derivatives == solved.what.derivatives &&
-                           dmoc.trajectory.node_times == solved.trajectory->node_times;
-      if (partner) compare(dmoc.trajectory, *solved.trajectory, solved.what, solved.row);
+    for (const auto& [dmoc, answer] : answers_) {
+      const bool partner = dmoc.problem == here.problem && dmoc.tableau == here.tableau && dmoc.stages == here.stages &&
+                           dmoc.solver == here.solver && dmoc.derivatives == here.derivatives &&
+                           answer.node_times == trajectory.node_times;
+      if (partner) measured_.differences = differences(answer, trajectory, here);
     }
   }
 
@@ -89,39 +137,20 @@ class Equivalence final : public Experiment {
   }
 
  private:
-  struct Answer {
-    Case what;
-    Trajectory trajectory;
-  };
-
   /// By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
-  static void set_adjoint_residuals(const Problem& problem, const Trajectory& trajectory, Row& row) {
+  void measure_adjoint_residuals(const Problem& problem, const Trajectory& trajectory) {
     const Tableau& tableau = trajectory.tableau;
     const AdjointCoefficients plain{.a_q = tableau.a, .a_p = tableau.a_conjugate};
-    row.set("adjoint_residual", adjoint_residual(problem, trajectory, adjoint_coefficients(tableau)).largest());
-    row.set("adjoint_residual_by_plain_coefficients", adjoint_residual(problem, trajectory, plain).largest());
+    measured_.adjoint_residual = adjoint_residual(problem, trajectory, adjoint_coefficients(tableau)).largest();
+    measured_.plain_residual = adjoint_residual(problem, trajectory, plain).largest();
   }
 
-  static void compare(const Trajectory& dmoc, const Trajectory& here, const Case& what, Row& row) {
-    row.set("configuration_difference", relative_difference(here.q, dmoc.q));
-    row.set("momentum_difference", relative_difference(here.p, dmoc.p));
-    row.set("control_difference", relative_difference(here.stage_u, dmoc.stage_u));
-    if (here.has_costates() && dmoc.has_costates()) {
-      row.set("costate_difference",
-              std::max(relative_difference(here.psi_q, dmoc.psi_q), relative_difference(here.psi_p, dmoc.psi_p)));
-      row.set("stage_costate_difference", std::max(relative_difference(here.stage_psi_q, dmoc.stage_psi_q),
-                                                   relative_difference(here.stage_psi_p, dmoc.stage_psi_p)));
-    }
-    row.set("objective_difference", std::abs(here.cost - dmoc.cost) / std::abs(dmoc.cost));
-    double rounding_there = 0.0;
-    double rounding_here = 0.0;
-    row.set("violation_in_rows_of_dmoc", foreign_violation(what, "dmoc", here, rounding_there));
-    row.set("violation_of_dmoc_here", foreign_violation(what, what.method, dmoc, rounding_here));
-    row.set("rounding_in_rows_of_dmoc", rounding_there);
-    row.set("rounding_here", rounding_here);
-  }
-
-  std::vector<Answer> answers_;
+  std::vector<std::pair<Case, Trajectory>> answers_;  // of DMOC
+  struct {
+    std::optional<Differences> differences;
+    std::optional<double> adjoint_residual;
+    std::optional<double> plain_residual;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

@@ -1,14 +1,15 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -19,24 +20,26 @@ const std::vector<std::string> crash_names{"none", "basis"};
 
 class Iterations final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "iterations"; }
-  [[nodiscard]] std::string description() const override {
-    return "Major and minor iterations of the SQP method with the law that predicts them, and the same solves in other "
-           "currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free variables), seconds, entries of the "
-           "KKT "
-           "matrix and of its factor. NAME_ratios.csv sets collocation against DMOC. Default start: the problem's "
-           "guess.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "8:256"; }
-  void set_defaults(ExperimentOptions& options) const override {
-    options.solvers = {"sqp"};
-    options.start = "guess";
-    constexpr double tolerance_of_the_study = 1e-8;
-    options.tolerance = tolerance_of_the_study;
-  }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    return {"crash",        "phase1_minors",   "phase2_minors", "predicted_minors",
-            "kkt_nonzeros", "factor_nonzeros", "evaluations",   "replay_error"};
+  Iterations()
+      : Experiment({.name = "iterations",
+                    .description =
+                        "Major and minor iterations of the SQP method with the law that predicts them, and the same "
+                        "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free "
+                        "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
+                        "collocation against DMOC. Default start: the problem's guess.",
+                    .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8}}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    constexpr auto solution = &SolvedCase::solution;
+    return {
+        {"crash", "", "first basis of sqp: none or basis", from(&SolvedCase::the_case, &Case::variant)},
+        {"phase1_minors", "", "minor iterations of phase 1", from(solution, &Solution::phase_one_minor_iterations)},
+        {"phase2_minors", "", "minor iterations of phase 2", from(solution, &Solution::phase_two_minor_iterations)},
+        {"predicted_minors", "", "minor iterations by the law that counts variables and iterations", predicted},
+        {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", of(fill_, &KktFill::nonzeros)},
+        {"factor_nonzeros", "", "entries of its factor", of(fill_, &KktFill::factor_nonzeros)},
+        {"evaluations", "", "evaluations by the solver", from(solution, &Solution::total_evaluations)},
+        replay_error_column(replay_),
+    };
   }
   void add_options(CommandLine& line) override {
     line.option("--crash", crashes_,
@@ -50,21 +53,21 @@ class Iterations final : public Experiment {
     if (curve.front().solver != "sqp") return curve;
     std::vector<Case> all;
     for (const std::string& crash : crash_names) {
-      if (std::find(crashes_.begin(), crashes_.end(), crash) == crashes_.end()) continue;
-      for (Case what : curve) {
-        what.variant = crash;
-        all.push_back(std::move(what));
+      if (std::ranges::find(crashes_, crash) == crashes_.end()) continue;
+      for (Case each : curve) {
+        each.variant = crash;
+        all.push_back(std::move(each));
       }
     }
     return all;
   }
-  [[nodiscard]] SolverOptions options_for(const Case& what, SolverOptions common) override {
-    if (what.solver == "sqp") common.passed_on["crash"] = what.variant;
+  [[nodiscard]] SolverOptions options_for(const Case& the_case, SolverOptions common) override {
+    if (the_case.solver == "sqp") common.passed_on["crash"] = the_case.variant;
     return common;
   }
   void check(const std::vector<Case>& cases) override {
     for (const std::string& crash : crashes_) {
-      if (std::find(crash_names.begin(), crash_names.end(), crash) == crash_names.end()) {
+      if (std::ranges::find(crash_names, crash) == crash_names.end()) {
         throw Error(fmt::format("--crash takes {}, not {}", fmt::join(crash_names, " or "), crash));
       }
     }
@@ -75,24 +78,8 @@ class Iterations final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    const Case& what = solved.what;
-    const Solution& solution = solved.solution;
-    Row& row = solved.row;
-    row.set("crash", what.variant);
-    row.set("phase1_minors", solution.phase_one_minor_iterations);
-    row.set("phase2_minors", solution.phase_two_minor_iterations);
-    row.set("predicted_minors", predicted(solved));
-    row.set("evaluations", solution.total_evaluations());
-    const KktFill fill = kkt_fill(
-        Transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid));
-    row.set("kkt_nonzeros", static_cast<long long>(fill.nonzeros));
-    row.set("factor_nonzeros", static_cast<long long>(fill.factor_nonzeros));
-    if (!is_solved(solution.status) || !solved.trajectory) return;
-    try {
-      row.set("replay_error", replay_error(*what.problem, *solved.trajectory).norm());
-    } catch (const Error& error) {
-      row.set("message", row.text("message") + " " + error.what());
-    }
+    fill_ = kkt_fill(solved.program ? *solved.program : *solved.the_case.transcribe());
+    replay_ = is_solved(solved.solution.status) && solved.trajectory ? replay(solved) : std::nullopt;
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
@@ -103,28 +90,27 @@ class Iterations final : public Experiment {
   /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
   static constexpr std::size_t most_free_variables_for_slsqp = 200;
 
-  static std::vector<Case> small_grids(const std::vector<Case>& curve) {
-    std::vector<Case> small;
-    std::copy_if(curve.begin(), curve.end(), std::back_inserter(small), [](const Case& what) {
-      const Transcription program(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
-                                  what.grid);
-      return free_variable_count(program) <= most_free_variables_for_slsqp;
+  static std::vector<Case> small_grids(std::vector<Case> curve) {
+    std::erase_if(curve, [](const Case& the_case) {
+      return free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
     });
-    return small;
+    return curve;
   }
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.
-  static std::optional<long long> predicted(const SolvedCase& solved) {
-    if (!solved.solution.minor_iterations || !solved.solution.major_iterations) return std::nullopt;
-    const auto number = [&](const char* column) {
-      return static_cast<long long>(solved.row.number(column).value_or(0.0));
-    };
-    const long long first = number("free_variables") - (solved.what.variant == "basis" ? number("constraints") : 0);
-    return first + *solved.solution.major_iterations - 1;
+  static Cell predicted(const SolvedCase& solved) {
+    const Solution& solution = solved.solution;
+    if (!solution.minor_iterations || !solution.major_iterations) return {};
+    const auto free_variables = static_cast<long long>(free_variable_count(*solved.program));
+    const auto constraints = static_cast<long long>(solved.program->constraint_count());
+    const bool from_a_basis = solved.the_case.variant == "basis";
+    return free_variables - (from_a_basis ? constraints : 0) + *solution.major_iterations - 1;
   }
 
   std::vector<std::string> crashes_{"none"};
+  KktFill fill_;  // this and what follows: of the case that is completed
+  std::optional<ReplayError> replay_;
 };
 
 }  // namespace

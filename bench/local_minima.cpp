@@ -18,22 +18,20 @@ namespace {
 
 class LocalMinima final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "local_minima"; }
-  [[nodiscard]] std::string description() const override {
-    return "Solves every case from many perturbed guesses; the minima found and how often each method ends in which "
-           "(NAME_minima.csv), and how often it finds the best one, with a confidence interval (NAME_shares.csv).";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "64"; }
-  void set_defaults(ExperimentOptions& options) const override {
-    options.start = "guess";
-    options.jobs = 2;
-  }
-  [[nodiscard]] bool tells_branches() const override { return false; }
-  [[nodiscard]] bool problems_are_independent() const override { return true; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    std::vector<std::string> columns{"start"};
-    columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
-    return columns;
+  LocalMinima()
+      : Experiment(
+            {.name = "local_minima",
+             .description =
+                 "Solves every case from many perturbed guesses; the minima found and how often each method ends in "
+                 "which (NAME_minima.csv), and how often it finds the best one, with a confidence interval "
+                 "(NAME_shares.csv).",
+             .options = {.intervals = "64", .start = "guess", .jobs = 2},
+             .tells_branches = false,
+             .problems_are_independent = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return Columns<SolvedCase>{{"start", "", "number of the start; 0 is the guess itself",
+                                from(&SolvedCase::the_case, &Case::variant)}} +
+           columns_of(checks_);
   }
   void add_options(CommandLine& line) override {
     line.option("--starts", starts_, "starts per case: the guess, and perturbed ones")
@@ -48,22 +46,22 @@ class LocalMinima final : public Experiment {
   }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> all;
-    for (const Case& what : curve) {
+    for (const Case& each : curve) {
       for (long long start = 0; start < starts_; ++start) {
-        all.push_back(what);
+        all.push_back(each);
         all.back().variant = std::to_string(start);
       }
     }
     return all;
   }
   /// All methods and grids start from the same curves.
-  [[nodiscard]] Motion start_for(const Case& what, Motion chosen) const override {
-    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(what.variant)));
+  [[nodiscard]] Motion start_for(const Case& the_case, Motion chosen) const override {
+    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(the_case.variant)));
   }
 
   void complete(SolvedCase& solved) override {
-    solved.row.set("start", solved.what.variant);
-    if (is_solved(solved.solution.status) && solved.trajectory) check_independently(solved);
+    const bool is_checked = is_solved(solved.solution.status) && solved.trajectory;
+    checks_ = is_checked ? check_independently(solved) : IndependentChecks{};
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
@@ -91,6 +89,7 @@ class LocalMinima final : public Experiment {
   long long starts_ = 20;
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.5;
+  IndependentChecks checks_;  // of the case that is completed
 };
 
 }  // namespace

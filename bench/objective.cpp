@@ -7,13 +7,10 @@ namespace {
 
 class Objective final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "objective"; }
-  [[nodiscard]] std::string description() const override {
-    return "The optimal cost of each method over the number of intervals.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "16:1024"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override { return {}; }
-  void complete(SolvedCase& /*solved*/) override {}
+  Objective()
+      : Experiment({.name = "objective",
+                    .description = "The optimal cost of each method over the number of intervals.",
+                    .options = {.intervals = "16:1024"}}) {}
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Across the library: what every method solves from the problems' own guesses, how fast and how accurately.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,27 +18,31 @@ namespace {
 
 class Profile final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "profile"; }
-  [[nodiscard]] std::string description() const override {
-    return "Every problem by every method from the problem's own guess: performance profiles after Dolan and Moré "
-           "(NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual below the "
-           "tolerance and a cost within --objective-tolerance of the reference; all else counts as never. "
-           "NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the reference.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "32,64,128"; }
-  void set_defaults(ExperimentOptions& options) const override {
-    options.problems = {"all"};
-    options.start = "guess";
-    constexpr double tolerance_that_all_solvers_reach = 1e-8;
-    options.tolerance = tolerance_that_all_solvers_reach;
-  }
-  [[nodiscard]] bool problems_are_independent() const override { return true; }
-  [[nodiscard]] bool tells_branches() const override { return false; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override {
-    std::vector<std::string> columns{"success", "reference_objective", "reference_digits", "objective_error",
-                                     "evaluations"};
-    columns.insert(columns.end(), independent_check_columns().begin(), independent_check_columns().end());
-    return columns;
+  // All solvers reach this tolerance.
+  Profile()
+      : Experiment(
+            {.name = "profile",
+             .description =
+                 "Every problem by every method from the problem's own guess: performance profiles after Dolan and "
+                 "Moré (NAME_profiles.csv) and shifted geometric means (NAME_summary.csv). Success is a KKT residual "
+                 "below the tolerance and a cost within --objective-tolerance of the reference; all else counts as "
+                 "never. NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the "
+                 "reference.",
+             .options = {.problems = {"all"}, .intervals = "32,64,128", .start = "guess", .tolerance = 1e-8},
+             .tells_branches = false,
+             .problems_are_independent = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    const auto& reference = measured_.reference;
+    return Columns<SolvedCase>{
+               {"success", "", "yes or no", [this](const SolvedCase&) { return measured_.is_success ? "yes" : "no"; }},
+               {"reference_objective", "cost", "cost that the problem states",
+                of(reference, &ReferenceOptimum::objective)},
+               {"reference_digits", "", "digits of it that hold", of(reference, &ReferenceOptimum::digits)},
+               {"objective_error", "cost", "distance from it", of(measured_.error)},
+               {"evaluations", "", "evaluations by the solver",
+                from(&SolvedCase::solution, &Solution::total_evaluations)},
+           } +
+           columns_of(measured_.checks);
   }
   void add_options(CommandLine& line) override {
     line.option("--objective-tolerance", objective_tolerance_,
@@ -48,24 +53,20 @@ class Profile final : public Experiment {
         .range(0.0, longest_time)
         .shows_default();
   }
-  [[nodiscard]] SolverOptions options_for(const Case& /*what*/, SolverOptions common) override {
+  [[nodiscard]] SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) override {
     common.most_seconds = most_seconds_;
     return common;
   }
 
   void complete(SolvedCase& solved) override {
-    Row& row = solved.row;
-    row.set("success", "no");
-    row.set("evaluations", solved.solution.total_evaluations());
-    const auto reference = solved.what.problem->reference_optimum();
-    if (!reference) return;
-    row.set("reference_objective", reference->objective);
-    row.set("reference_digits", static_cast<long long>(reference->digits));
-    if (!is_solved(solved.solution.status) || !solved.trajectory) return;
+    measured_ = {};
+    measured_.reference = solved.the_case.problem->reference_optimum();
+    const auto& reference = measured_.reference;
+    if (!reference || !is_solved(solved.solution.status) || !solved.trajectory) return;
     const double error = std::abs(solved.trajectory->cost - reference->objective);
-    row.set("objective_error", error);
-    if (error <= objective_tolerance_ * std::abs(reference->objective)) row.set("success", "yes");
-    check_independently(solved);
+    measured_.error = error;
+    measured_.is_success = error <= objective_tolerance_ * std::abs(reference->objective);
+    measured_.checks = check_independently(solved);
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
@@ -86,6 +87,12 @@ class Profile final : public Experiment {
   static constexpr double longest_time = 1e6;
   double objective_tolerance_ = 0.02;
   double most_seconds_ = 20.0;
+  struct {
+    std::optional<ReferenceOptimum> reference;
+    std::optional<double> error;
+    bool is_success = false;
+    IndependentChecks checks;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

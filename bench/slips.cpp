@@ -54,10 +54,11 @@ Slip potential_without_sine() {
 /// The optimal transfer by DMOC: angular momentum at the nodes.
 Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
   constexpr long long intervals = 128;
-  const Case what{problem, "dmoc", "gauss", 1, "ipopt", "tape", Grid::uniform(intervals), ""};
+  const Case the_case{
+      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(intervals)};
   StartProvider starts("common", {});
-  SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
-  if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");
+  SolvedCase solved = solve_case(the_case, {starts.motion_for(the_case), starts.branch_for(the_case)}, {}, 1);
+  if (!solved.trajectory || !is_usable(solved)) throw Error("the orbital transfer could not be solved");
   return std::move(*solved.trajectory);
 }
 
@@ -96,24 +97,17 @@ Slip mayer_gradient(const Problem& problem, const Trajectory& motion) {
           .required = motion.p(last, 1) - motion.p(0, 1)};
 }
 
-Table slip_table(const std::vector<Slip>& slips) {
-  Table table({"problem", "slip", "where", "printed", "meant", "quantity", "value_as_printed", "value_as_meant",
-               "required_value"});
-  for (const Slip& slip : slips) {
-    Row row;
-    row.set("problem", slip.problem);
-    row.set("slip", slip.name);
-    row.set("where", slip.where);
-    row.set("printed", slip.printed);
-    row.set("meant", slip.meant);
-    row.set("quantity", slip.quantity);
-    row.set("value_as_printed", slip.as_printed);
-    row.set("value_as_meant", slip.as_meant);
-    row.set("required_value", slip.required);
-    table.append(std::move(row));
-  }
-  return table;
-}
+const Columns<Slip> columns{
+    {"problem", "", "name of the problem", &Slip::problem},
+    {"slip", "", "short name of the statement", &Slip::name},
+    {"where", "", "in the paper", &Slip::where},
+    {"printed", "", "what is printed", &Slip::printed},
+    {"meant", "", "what is meant", &Slip::meant},
+    {"quantity", "", "what tells both apart", &Slip::quantity},
+    {"value_as_printed", "", "its value as printed", &Slip::as_printed},
+    {"value_as_meant", "", "its value as meant", &Slip::as_meant},
+    {"required_value", "", "its value as it has to be", &Slip::required},
+};
 
 }  // namespace
 
@@ -131,7 +125,7 @@ int main(int argc, char** argv) try {
     const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
     const Trajectory motion = transfer(orbit);
     const Table table =
-        slip_table({potential_without_sine(), swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion)});
+        table_of(columns, {potential_without_sine(), swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion)});
     write_file(out / "slips.csv", table.csv());
     fmt::print("slips: {} rows: {}\n", table.rows().size(), (out / "slips.csv").string());
     return 0;

@@ -6,23 +6,46 @@
 #include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/trace_file.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
 namespace {
 
+/// A row per minor iteration. Columns of the quadratic program are named x3 (variable 3 of the program, from 0) or s5
+/// (the slack of constraint 5).
+Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variables) {
+  const auto named = [variables](const std::optional<Eigen::Index> MinorIteration::*column) {
+    return [variables, column](const MinorIteration& minor) -> Cell {
+      const std::optional<Eigen::Index>& index = minor.*column;
+      if (!index) return {};
+      return *index < variables ? fmt::format("x{}", *index) : fmt::format("s{}", *index - variables);
+    };
+  };
+  const Columns<MinorIteration> columns{
+      {"major", "", "major iteration", &MinorIteration::major},
+      {"phase", "", "1 or 2", [](const MinorIteration& minor) { return static_cast<int>(minor.phase); }},
+      {"entering", "", "column that enters", named(&MinorIteration::entering)},
+      {"leaving", "", "column that leaves", named(&MinorIteration::leaving)},
+      {"into_basis", "", "column that the basis takes up", named(&MinorIteration::into_basis)},
+      {"step", "", "length of the step", &MinorIteration::step},
+      {"infeasibility", "", "sum of infeasibilities", &MinorIteration::infeasibility},
+      {"objective", "", "that of the quadratic program, scaled", &MinorIteration::objective},
+      {"superbasics", "", "number of superbasic columns", &MinorIteration::superbasics},
+      {"basic_slacks", "", "number of slacks in the basis", &MinorIteration::basic_slacks},
+  };
+  return table_of(columns, trace);
+}
+
 class Solve final : public Experiment {
  public:
-  [[nodiscard]] std::string name() const override { return "solve"; }
-  [[nodiscard]] std::string description() const override {
-    return "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-           "NAME_picture.csv; "
-           "with several cases each NAME carries the case's label.";
-  }
-  [[nodiscard]] std::string default_intervals() const override { return "128"; }
-  [[nodiscard]] std::vector<std::string> own_columns() const override { return independent_check_columns(); }
+  Solve()
+      : Experiment({.name = "solve",
+                    .description =
+                        "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
+                        "NAME_picture.csv; with several cases each NAME carries the case's label.",
+                    .options = {.intervals = "128"}}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override { return columns_of(checks_); }
   void add_options(CommandLine& line) override {
     line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
   }
@@ -32,7 +55,7 @@ class Solve final : public Experiment {
       throw Error("--trace needs exactly one case, solved by --solver sqp");
     }
   }
-  [[nodiscard]] SolverOptions options_for(const Case& /*what*/, SolverOptions common) override {
+  [[nodiscard]] SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) override {
     if (trace_file_.empty()) return common;
     common.on_minor_iteration = [this](const MinorIteration& minor) {
       if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
@@ -42,36 +65,33 @@ class Solve final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    if (!trace_file_.empty()) {
-      const auto variables = static_cast<Eigen::Index>(solved.row.number("variables").value_or(0.0));
-      write_file(trace_file_, trace_table(trace_, variables).csv());
-    }
-    if (!solved.trajectory) return;
-    check_independently(solved);
-    if (!is_solved(solved.solution.status)) return;
-    motions_.push_back({solved.what, *solved.trajectory, solved.solution.multipliers_are_estimated});
+    const auto variables = static_cast<Eigen::Index>(solved.program ? solved.program->variable_count() : 0);
+    if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
+    checks_ = solved.trajectory ? check_independently(solved) : IndependentChecks{};
+    if (!solved.trajectory || !is_solved(solved.solution.status)) return;
+    motions_.push_back({solved.the_case, *solved.trajectory, solved.solution.multipliers_are_estimated});
   }
 
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    for (const auto& [what, trajectory, costates_are_estimated] : motions_) {
-      const std::string file = single_ ? prefix.string() : prefix.string() + "_" + what.file_label();
-      write_file(file + "_stages.csv", stage_table(*what.problem, trajectory).csv());
-      write_file(file + "_picture.csv", picture_table(*what.problem, trajectory).csv());
-      write_file(file + "_nodes.csv", node_table(*what.problem, trajectory).csv());
+    for (const auto& [the_case, trajectory, costates_are_estimated] : motions_) {
+      const std::string file = single_ ? prefix.string() : prefix.string() + "_" + the_case.file_label();
+      write_file(file + "_stages.csv", stage_table(*the_case.problem, trajectory).csv());
+      write_file(file + "_picture.csv", picture_table(*the_case.problem, trajectory).csv());
+      write_file(file + "_nodes.csv", node_table(*the_case.problem, trajectory).csv());
       metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
-                                     {"problem", what.problem->name()},
-                                     {"method", what.method},
-                                     {"tableau", what.tableau},
-                                     {"stages", what.stages},
-                                     {"intervals", what.intervals()},
+                                     {"problem", the_case.problem->name()},
+                                     {"method", the_case.method},
+                                     {"tableau", the_case.tableau},
+                                     {"stages", the_case.stages},
+                                     {"intervals", the_case.intervals()},
                                      {"costates_are_estimated", costates_are_estimated}});
-      fmt::print("solve: {}: {}_nodes.csv\n", what.label(), file);
+      fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);
     }
   }
 
  private:
   struct SolvedMotion {
-    Case what;
+    Case the_case;
     Trajectory trajectory;
     bool costates_are_estimated;  // by least squares, where the solver gave no multipliers
   };
@@ -79,6 +99,7 @@ class Solve final : public Experiment {
   std::string trace_file_;
   std::vector<MinorIteration> trace_;
   std::vector<SolvedMotion> motions_;
+  IndependentChecks checks_;  // of the case that is completed
 };
 
 }  // namespace

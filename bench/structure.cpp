@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/common_columns.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -12,7 +13,6 @@
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
-#include "methods/diagnostics/convergence_order.hpp"
 #include "methods/diagnostics/energy_balance.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/element.hpp"
@@ -22,116 +22,134 @@ namespace dmocbench {
 
 namespace {
 
-Row row_of(const LongTimeMethod& method, int steps_per_period) {
-  Row row;
-  row.set("problem", Kepler().name());
-  row.set("method", method.name);
-  row.set("tableau", method.tableau);
-  row.set("stages", static_cast<long long>(method.stages));
-  row.set("order", static_cast<long long>(method.order));
-  row.set("steps_per_period", static_cast<long long>(steps_per_period));
-  return row;
-}
-
-struct EnergyTables {
-  Table periods{{"problem", "method", "tableau", "stages", "order", "steps_per_period", "period", "energy_smallest",
-                 "energy_mean", "energy_largest"}};
-  Table behaviour{{"problem", "method", "tableau", "stages", "order", "steps_per_period", "periods", "oscillation",
-                   "range", "drift_per_period", "standard_error", "change"}};
-  Table slopes{{"problem", "method", "tableau", "stages", "quantity", "slope", "standard_error", "finest", "coarsest",
-                "points"}};
+struct EnergyOfPeriod {
+  Scheme scheme;
+  int order = 0;
+  int steps_per_period = 0;
+  PeriodEnergy energy;
 };
 
+struct EnergyOfPeriods {
+  Scheme scheme;
+  int order = 0;
+  int steps_per_period = 0;
+  long long periods = 0;
+  EnergyBehaviour behaviour;
+};
+
+struct EnergyOrder {
+  Scheme scheme;
+  const char* quantity = "";
+  FittedOrder fit;
+};
+
+struct TransferEnergy {
+  Scheme scheme;
+  long long intervals = 0;
+  double h = 0.0;
+  EnergyBalance balance;
+};
+
+/// The columns that begin the tables of the unforced ellipse.
+template <class Record>
+Columns<Record> ellipse_columns() {
+  return scheme_columns<Record>() +
+         Columns<Record>{{"order", "", "order of the method", &Record::order},
+                         {"steps_per_period", "", "steps per period", &Record::steps_per_period}};
+}
+
+Columns<EnergyOfPeriod> period_columns() {
+  constexpr auto energy = &EnergyOfPeriod::energy;
+  return ellipse_columns<EnergyOfPeriod>() +
+         Columns<EnergyOfPeriod>{
+             {"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period)},
+             {"energy_smallest", "", "smallest error of the energy", from(energy, &PeriodEnergy::smallest)},
+             {"energy_mean", "", "mean error over the period", from(energy, &PeriodEnergy::mean)},
+             {"energy_largest", "", "largest error of the energy", from(energy, &PeriodEnergy::largest)}};
+}
+
+Columns<EnergyOfPeriods> behaviour_columns() {
+  constexpr auto behaviour = &EnergyOfPeriods::behaviour;
+  return ellipse_columns<EnergyOfPeriods>() +
+         Columns<EnergyOfPeriods>{
+             {"periods", "", "number of periods", &EnergyOfPeriods::periods},
+             {"oscillation", "", "max - min over the first ten periods",
+              from(behaviour, &EnergyBehaviour::oscillation)},
+             {"range", "", "max - min over all watched periods", from(behaviour, &EnergyBehaviour::range)},
+             {"drift_per_period", "", "of the mean, by least squares",
+              from(behaviour, &EnergyBehaviour::drift_per_period)},
+             {"standard_error", "", "of the drift", from(behaviour, &EnergyBehaviour::standard_error)},
+             {"change", "", "last mean minus first mean", from(behaviour, &EnergyBehaviour::change)}};
+}
+
+Columns<EnergyOrder> order_columns() {
+  return scheme_columns<EnergyOrder>() +
+         Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
+         fitted_order_columns(&EnergyOrder::fit);
+}
+
+Columns<TransferEnergy> transfer_columns() {
+  constexpr auto balance = &TransferEnergy::balance;
+  return scheme_columns<TransferEnergy>() +
+         Columns<TransferEnergy>{
+             {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
+             {"h", "", "step", &TransferEnergy::h},
+             {"energy_change", "", "E(T) - E(0)", from(balance, &EnergyBalance::change)},
+             {"work", "", "work of the thrust", from(balance, &EnergyBalance::work)},
+             {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
+             {"largest_gap", "", "largest difference over the nodes", from(balance, &EnergyBalance::largest_gap)},
+             {"largest_work", "", "largest work over the nodes", from(balance, &EnergyBalance::largest_work)}};
+}
+
+struct EnergyResults {
+  std::vector<EnergyOfPeriod> periods;
+  std::vector<EnergyOfPeriods> behaviour;
+  std::vector<EnergyOrder> orders;
+  std::vector<TransferEnergy> transfer;
+};
+
+Scheme on_ellipse(const LongTimeMethod& method) { return {"kepler", method.name, method.tableau, method.stages}; }
+
 EnergyBehaviour follow(const LongTimeMethod& method, int steps_per_period, long long periods, bool with_periods,
-                       EnergyTables& tables) {
+                       EnergyResults& results) {
   const std::vector<PeriodEnergy> energies = long_time_energy(method, steps_per_period, periods);
   for (const PeriodEnergy& period : energies) {
-    if (!with_periods) break;
-    Row row = row_of(method, steps_per_period);
-    row.set("period", period.period);
-    row.set("energy_smallest", period.smallest);
-    row.set("energy_mean", period.mean);
-    row.set("energy_largest", period.largest);
-    tables.periods.append(std::move(row));
+    if (with_periods) results.periods.push_back({on_ellipse(method), method.order, steps_per_period, period});
   }
   const EnergyBehaviour behaviour = energy_behaviour(energies);
-  Row row = row_of(method, steps_per_period);
-  row.set("periods", periods);
-  row.set("oscillation", behaviour.oscillation);
-  row.set("range", behaviour.range);
-  row.set("drift_per_period", behaviour.drift_per_period);
-  row.set("standard_error", behaviour.standard_error);
-  row.set("change", behaviour.change);
-  tables.behaviour.append(std::move(row));
+  results.behaviour.push_back({on_ellipse(method), method.order, steps_per_period, periods, behaviour});
   return behaviour;
 }
 
-/// `curve` names problem, method, tableau and stages.
-void append_slope(Row curve, const char* quantity, const std::vector<GridError>& points, Table& slopes) {
-  const auto order = fit_order(points);
-  if (!order) return;
-  curve.set("quantity", quantity);
-  curve.set("slope", order->slope);
-  curve.set("standard_error", order->standard_error);
-  curve.set("finest", order->finest);
-  curve.set("coarsest", order->coarsest);
-  curve.set("points", static_cast<long long>(order->points));
-  slopes.append(std::move(curve));
-}
-
 /// How the oscillation shrinks with the step: a few periods on ever finer steps.
-void oscillation_over_step(const LongTimeMethod& method, EnergyTables& tables) {
+void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results) {
   constexpr long long few_periods = 20;
   std::vector<GridError> points;
   for (const int steps : {128, 192, 256, 384, 512}) {
-    points.push_back({Kepler::period / steps, follow(method, steps, few_periods, false, tables).oscillation});
+    points.push_back({Kepler::period / steps, follow(method, steps, few_periods, false, results).oscillation});
   }
-  append_slope(row_of(method, 0), "oscillation", points, tables.slopes);
+  if (const auto order = fit_order(points)) results.orders.push_back({on_ellipse(method), "oscillation", *order});
 }
 
-EnergyTables energy_tables(int steps_per_period, long long periods) {
-  EnergyTables tables;
-  for (const LongTimeMethod& method : long_time_methods()) {
-    follow(method, steps_per_period, periods, true, tables);
-    if (method.name == "dmoc") oscillation_over_step(method, tables);
-  }
-  return tables;
-}
-
-/// Energy change against the work of the thrust along the optimal transfer, for all methods; the slopes of their gap go
-/// to `slopes`.
-Table transfer_table(Table& slopes) {
-  Table table({"problem", "method", "tableau", "stages", "intervals", "h", "energy_change", "work", "gap",
-               "largest_gap", "largest_work"});
+/// Energy change against the work of the thrust along the optimal transfer, for all methods.
+void follow_transfer(EnergyResults& results) {
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
   StartProvider starts("common", {});
+  Case the_case{.problem = problem, .method = {}, .tableau = "gauss", .solver = "ipopt"};
   for (const std::string& method : element_names()) {
-    Row curve;
+    the_case.method = method;
+    const Scheme scheme{problem->name(), method, the_case.tableau, the_case.stages};
     std::vector<GridError> points;
     for (const long long intervals : {32, 64, 128, 256}) {
-      const Case what{problem, method, "gauss", 1, "ipopt", "tape", Grid::uniform(intervals), ""};
-      const SolvedCase solved = solve_case(what, {starts.motion_for(what), starts.branch_for(what)}, {}, 1);
-      if (!solved.trajectory || !is_usable(solved.row)) throw Error("the orbital transfer could not be solved");
-      const EnergyBalance balance = energy_balance(*problem, *solved.trajectory);
-      Row row;
-      row.set("problem", problem->name());
-      row.set("method", method);
-      row.set("tableau", what.tableau);
-      row.set("stages", static_cast<long long>(what.stages));
-      row.set("intervals", intervals);
-      row.set("h", problem->horizon() / static_cast<double>(intervals));
-      row.set("energy_change", balance.change);
-      row.set("work", balance.work);
-      row.set("gap", balance.change - balance.work);
-      row.set("largest_gap", balance.largest_gap);
-      row.set("largest_work", balance.largest_work);
-      curve = row;
-      points.push_back({problem->horizon() / static_cast<double>(intervals), balance.largest_gap});
-      table.append(std::move(row));
+      the_case.grid = Grid::uniform(intervals);
+      const SolvedCase solved = solve_case(the_case, {starts.motion_for(the_case), starts.branch_for(the_case)}, {}, 1);
+      if (!solved.trajectory || !is_usable(solved)) throw Error("the orbital transfer could not be solved");
+      const double h = problem->horizon() / static_cast<double>(intervals);
+      results.transfer.push_back({scheme, intervals, h, energy_balance(*problem, *solved.trajectory)});
+      points.push_back({h, results.transfer.back().balance.largest_gap});
     }
-    append_slope(std::move(curve), "transfer_gap", points, slopes);
+    if (const auto order = fit_order(points)) results.orders.push_back({scheme, "transfer_gap", *order});
   }
-  return table;
 }
 
 }  // namespace
@@ -162,11 +180,16 @@ int main(int argc, char** argv) try {
     };
     write("structure_momentum", noether_table(steps));
     write("structure_symplecticity", symplecticity_table());
-    EnergyTables energy = energy_tables(steps_per_period, periods);
-    write("structure_transfer", transfer_table(energy.slopes));
-    write("structure_energy", energy.periods);
-    write("structure_energy_behaviour", energy.behaviour);
-    write("structure_energy_slopes", energy.slopes);
+    EnergyResults results;
+    for (const LongTimeMethod& method : long_time_methods()) {
+      follow(method, steps_per_period, periods, true, results);
+      if (method.name == "dmoc") oscillation_over_step(method, results);
+    }
+    follow_transfer(results);
+    write("structure_transfer", table_of(transfer_columns(), results.transfer));
+    write("structure_energy", table_of(period_columns(), results.periods));
+    write("structure_energy_behaviour", table_of(behaviour_columns(), results.behaviour));
+    write("structure_energy_slopes", table_of(order_columns(), results.orders));
     write_complete_run(out / "structure.json", std::vector<std::string>(argv, argv + argc));
     return 0;
   });

@@ -4,6 +4,11 @@
 
 namespace dmocbench {
 
+std::unique_ptr<Transcription> Case::transcribe() const {
+  return std::make_unique<Transcription>(*problem, *make_element(method), make_tableau(tableau, stages), grid,
+                                         derivatives, form);
+}
+
 std::string Case::label() const {
   return fmt::format("{} {} {} {} {} {}{}{} N = {}", problem->name(), method, tableau, stages, solver, derivatives,
                      variant.empty() ? "" : " ", variant, intervals());

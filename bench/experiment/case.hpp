@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/grid.hpp"
@@ -16,13 +15,15 @@ struct Case {
   std::string method;
   std::string tableau;
   int stages = 1;
-  std::string solver;
+  std::string solver = {};
   std::string derivatives = "tape";  ///< the back end that the solver sees
   Grid grid = Grid::uniform(1);
-  std::string variant;  ///< what an experiment varies besides; empty in most
+  std::string variant = {};  ///< what an experiment varies besides; empty in most
   CostForm form = CostForm::bolza;
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
+  /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
+  [[nodiscard]] std::unique_ptr<Transcription> transcribe() const;
   /// "orbital_transfer dmoc gauss 1 ipopt tape N = 64".
   [[nodiscard]] std::string label() const;
   /// The same as part of a file's name: "orbital_transfer_dmoc_gauss1_64", with the derivatives behind if they

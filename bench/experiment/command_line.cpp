@@ -74,6 +74,8 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
   parser_->add_flag(names, value, help);
 }
 
+void CommandLine::footer(const std::string& text) { parser_->footer(text); }
+
 int run_program(CommandLine& line, int argc, char** argv, const std::function<int()>& body) {
   CLI::App& app = *line.parser_;
   try {

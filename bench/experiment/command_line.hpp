@@ -48,6 +48,8 @@ class CommandLine {
   Option option(const std::string& names, Value& value, const std::string& help);
   /// `names` as in "--polish,!--no-polish", where what follows an exclamation mark says no.
   void flag(const std::string& names, bool& value, const std::string& help);
+  /// What `--help` says behind the options.
+  void footer(const std::string& text);
 
  private:
   friend int run_program(CommandLine& line, int argc, char** argv, const std::function<int()>& body);

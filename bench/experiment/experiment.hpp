@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,19 @@
 
 namespace dmocbench {
 
-/// An experiment: many solves, a row for each, and what its author makes of them.
+/// What is fixed of an experiment, whatever its cases are.
+struct ExperimentCard {
+  std::string name;                       ///< of the binary, and of the table unless the user gives another
+  std::string description;                ///< what `--help` says
+  ExperimentOptions options;              ///< what is chosen unless the user chooses; then what is chosen
+  bool tells_branches = true;             ///< rows tell their branch; to know it takes the solves of a common start
+  bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
+  bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that what
+                             ///< else the machine does meets all of them alike
+  bool polishes = false;     ///< solved cases are tightened by Newton steps (polish.hpp)
+};
+
+/// An experiment: many solves, a row for each, and files made of all rows.
 ///
 /// `run_experiment` reads the command line, solves case after case and keeps the table on disk up to date; an
 /// experiment adds its own columns and files.
@@ -24,45 +37,38 @@ class Experiment {
   Experiment(Experiment&&) = delete;
   Experiment& operator=(Experiment&&) = delete;
 
-  /// The binary's name; the table's, unless the user gives another.
-  [[nodiscard]] virtual std::string name() const = 0;
-  /// What `--help` says.
-  [[nodiscard]] virtual std::string description() const = 0;
-  [[nodiscard]] virtual std::string default_intervals() const = 0;
-  /// Changes what else is chosen unless the user chooses.
-  virtual void set_defaults(ExperimentOptions& /*options*/) const {}
-  /// Columns behind the core ones.
-  [[nodiscard]] virtual std::vector<std::string> own_columns() const = 0;
+  [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }
+  [[nodiscard]] ExperimentOptions& options() noexcept { return card_.options; }
 
+  /// Columns behind the core ones; they are read when `complete` has returned.
+  [[nodiscard]] virtual Columns<SolvedCase> columns() const { return {}; }
   /// Options behind the common ones.
   virtual void add_options(CommandLine& /*line*/) {}
   /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
-  [[nodiscard]] virtual SolverOptions options_for(const Case& /*what*/, SolverOptions common) { return common; }
+  [[nodiscard]] virtual SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) { return common; }
+  /// The solver of a case with those options; by default the one of its name.
+  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) const {
+    return make_solver(the_case.solver, options);
+  }
   /// The motion that a case starts from; by default the one that --start names.
-  [[nodiscard]] virtual Motion start_for(const Case& /*what*/, Motion chosen) const { return chosen; }
-  /// Whether rows tell their branch; to know it takes the solves of a common start.
-  [[nodiscard]] virtual bool tells_branches() const { return true; }
-  /// Whether problems may be worked on at the same time (--jobs): rows of one need nothing of another's.
-  [[nodiscard]] virtual bool problems_are_independent() const { return false; }
-  /// Whether solved cases are tightened by Newton steps (polish.hpp).
-  [[nodiscard]] virtual bool polishes() const { return false; }
+  [[nodiscard]] virtual Motion start_for(const Case& /*the_case*/, Motion chosen) const { return chosen; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
-  /// Called when the output folder is there and before anything is solved.
-  virtual void prepare(const std::filesystem::path& /*folder*/) {}
   /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.
   [[nodiscard]] virtual std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const;
-  /// Fills in the own columns of a solved case. Called in the order of solving.
-  virtual void complete(SolvedCase& solved) = 0;
+  /// Measures what the own columns tell of a solved case. Called in the order of solving.
+  virtual void complete(SolvedCase& /*solved*/) {}
   /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
   /// table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
                       nlohmann::ordered_json& /*metadata*/) {}
 
  protected:
-  Experiment() = default;
+  explicit Experiment(ExperimentCard card) : card_(std::move(card)) { card_.options.name = card_.name; }
+
+  ExperimentCard card_;
 };
 
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it

@@ -1,32 +1,44 @@
 #include "bench/experiment/independent_checks.hpp"
 
 #include "methods/diagnostics/control_hamiltonian.hpp"
-#include "methods/diagnostics/replay_error.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
-const std::vector<std::string>& independent_check_columns() {
-  static const std::vector<std::string> columns{"replay_error", "replay_cost", "violation_between_nodes",
-                                                "free_horizon_residual"};
-  return columns;
+std::optional<ReplayError> replay(SolvedCase& solved) {
+  try {
+    return replay_error(*solved.the_case.problem, *solved.trajectory);
+  } catch (const Error& error) {
+    solved.note(error.what());
+    return std::nullopt;
+  }
 }
 
-void check_independently(SolvedCase& solved) {
-  const Problem& problem = *solved.what.problem;
+IndependentChecks check_independently(SolvedCase& solved) {
+  const Problem& problem = *solved.the_case.problem;
   const Trajectory& trajectory = *solved.trajectory;
-  try {
-    const ReplayError replay = replay_error(problem, trajectory);
-    solved.row.set("replay_error", replay.norm());
-    solved.row.set("replay_cost", replay.cost);
-  } catch (const Error& error) {
-    solved.row.set("message", solved.row.text("message") + " " + error.what());
-  }
-  solved.row.set("violation_between_nodes", violation_between_nodes(problem, trajectory));
+  IndependentChecks checks{.replay = replay(solved),
+                           .violation_between_nodes = violation_between_nodes(problem, trajectory),
+                           .free_horizon_residual = {}};
   if (problem.horizon_bounds().is_free() && trajectory.has_costates()) {
-    solved.row.set("free_horizon_residual", free_horizon_residual(problem, trajectory));
+    checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
   }
+  return checks;
+}
+
+Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay) {
+  return {"replay_error", "", "distance from the final state when the controls are replayed",
+          of(replay, &ReplayError::norm)};
+}
+
+Columns<SolvedCase> columns_of(const IndependentChecks& checks) {
+  return {replay_error_column(checks.replay),
+          {"replay_cost", "cost", "cost of the replayed motion", of(checks.replay, &ReplayError::cost)},
+          {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
+           of(checks.violation_between_nodes)},
+          {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",
+           of(checks.free_horizon_residual)}};
 }
 
 }  // namespace dmocbench

@@ -1,37 +1,24 @@
 #include "bench/experiment/indirect_reference.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/solve_case.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/shooting_defect.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const std::vector<std::string> common_columns{"problem",
-                                              "cost",
-                                              "certified_digits",
-                                              "state_agreement",
-                                              "costate_agreement",
-                                              "control_agreement",
-                                              "cost_agreement",
-                                              "hamiltonian_drift",
-                                              "shooting_defect",
-                                              "replay_error",
-                                              "stages",
-                                              "intervals",
-                                              "seconds"};
 
 Json parameters_of(const Problem& problem) {
   Json parameters = Json::object();
@@ -77,24 +64,36 @@ std::string written(const Problem& problem, const IndirectSolution& solution) {
   return file.dump() + "\n";
 }
 
-/// The same branch as in the column `branch`: no node further away than a tenth of the range.
 bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
-  constexpr double tenth = 0.1;
-  const Eigen::VectorXd range = direct.q.colwise().maxCoeff() - direct.q.colwise().minCoeff();
-  for (Eigen::Index k = 0; k < direct.node_times.size(); ++k) {
-    const Eigen::VectorXd distance = solution.at(direct.node_times[k]).q - direct.q.row(k).transpose();
-    if (distance.lpNorm<Eigen::Infinity>() > tenth * range.maxCoeff()) return false;
-  }
-  return true;
+  const auto at = [&solution](double t) {
+    IndirectPoint point = solution.at(t);
+    return MotionPoint{.q = std::move(point.q), .v = std::move(point.v), .u = std::move(point.u)};
+  };
+  return is_on_branch(direct, {at, solution.extremal().horizon});
 }
-
-double number_in(const Row& row, const std::string& column) { return row.number(column).value_or(0.0); }
 
 void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
   if (is_near(solution, direct)) return;
   throw Error("the indirect solution of " + problem.name() +
               " is on another branch than this row, which has no errors therefore; run its method alone, on finer "
               "grids");
+}
+
+IndirectSolution solution_in(const Json& file, const Problem& problem) {
+  CollocatedExtremal extremal;
+  extremal.stages = file.at("stages").get<int>();
+  extremal.horizon = file.at("horizon").get<double>();
+  extremal.cost = file.at("scaled_cost").get<double>();
+  extremal.nodes = matrix_of(file.at("nodes"));
+  extremal.slopes = matrix_of(file.at("slopes"));
+  extremal.algebraic = matrix_of(file.at("algebraic"));
+  const Json& agreement = file.at("agreement");
+  return {problem,
+          std::move(extremal),
+          {.state = agreement.at("state").get<double>(),
+           .costate = agreement.at("costate").get<double>(),
+           .control = agreement.at("control").get<double>(),
+           .cost = agreement.at("cost").get<double>()}};
 }
 
 /// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
@@ -105,19 +104,7 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   try {
     const Json file = Json::parse(read_file(path));
     if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
-    CollocatedExtremal extremal;
-    extremal.stages = file.at("stages").get<int>();
-    extremal.horizon = file.at("horizon").get<double>();
-    extremal.cost = file.at("scaled_cost").get<double>();
-    extremal.nodes = matrix_of(file.at("nodes"));
-    extremal.slopes = matrix_of(file.at("slopes"));
-    extremal.algebraic = matrix_of(file.at("algebraic"));
-    const Json& agreement = file.at("agreement");
-    IndirectSolution solution(problem, std::move(extremal),
-                              {.state = agreement.at("state").get<double>(),
-                               .costate = agreement.at("costate").get<double>(),
-                               .control = agreement.at("control").get<double>(),
-                               .cost = agreement.at("cost").get<double>()});
+    IndirectSolution solution = solution_in(file, problem);
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
   } catch (const nlohmann::json::exception&) {
@@ -129,77 +116,92 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
 
 }  // namespace
 
-const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
-  const auto known = entries_.find(problem.name());
-  if (known != entries_.end()) {
-    require_near(problem, known->second.solution, direct);
-    return known->second.solution;
-  }
+const Columns<IndirectReference::Entry>& IndirectReference::columns() {
+  constexpr auto solution = &Entry::solution;
+  constexpr auto agreement = &IndirectSolution::agreement;
+  constexpr auto extremal = &IndirectSolution::extremal;
+  static const Columns<Entry> columns{
+      {"problem", "", "name of the problem", from(&Entry::problem)},
+      {"cost", "cost", "optimal cost", from(solution, &IndirectSolution::cost)},
+      {"certified_digits", "", "digits that two runs of different order and grid share",
+       from(solution, &IndirectSolution::certified_digits)},
+      {"state_agreement", "", "relative difference of their states",
+       from(solution, agreement, &IndirectAgreement::state)},
+      {"costate_agreement", "", "of their costates", from(solution, agreement, &IndirectAgreement::costate)},
+      {"control_agreement", "", "of their controls", from(solution, agreement, &IndirectAgreement::control)},
+      {"cost_agreement", "", "of their costs", from(solution, agreement, &IndirectAgreement::cost)},
+      {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
+       from(solution, &IndirectSolution::hamiltonian_drift)},
+      {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
+      {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
+      {"stages", "", "Gauss points per interval", from(solution, extremal, &CollocatedExtremal::stages)},
+      {"intervals", "", "number of intervals", from(solution, extremal, &CollocatedExtremal::intervals)},
+      {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
+  };
+  return columns;
+}
 
+IndirectReference::Entry IndirectReference::find(const Problem& problem, const Trajectory& direct) const {
   const std::filesystem::path path = folder_ / (problem.name() + "_indirect.json");
   std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
   std::optional<double> seconds;
   if (!solution) {
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = Clock::now();
     solution = solve_indirect(problem, direct);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds = seconds_since(begin);
     require_near(problem, *solution, direct);
     write_file(path, written(problem, *solution));
   }
-
-  Row row;
-  row.set("problem", problem.name());
-  row.set("cost", solution->cost());
-  row.set("certified_digits", solution->certified_digits());
-  row.set("state_agreement", solution->agreement().state);
-  row.set("costate_agreement", solution->agreement().costate);
-  row.set("control_agreement", solution->agreement().control);
-  row.set("cost_agreement", solution->agreement().cost);
-  row.set("hamiltonian_drift", solution->hamiltonian_drift());
   constexpr double replay_tolerance = 1e-13;
-  row.set("replay_error", replay_error(problem, solution->trajectory(), replay_tolerance).norm());
-  row.set("shooting_defect", shooting_defect(problem, *solution));
-  row.set("stages", static_cast<long long>(solution->extremal().stages));
-  row.set("intervals", static_cast<long long>(solution->extremal().intervals()));
-  row.set("seconds", seconds);
-  std::vector<std::string> costate_columns;
-  const IndirectPoint start = solution->at(0.0);
+  Entry entry{.problem = problem.name(), .solution = *std::move(solution), .seconds = seconds, .initial_costate = {}};
+  entry.replay_error = replay_error(problem, entry.solution.trajectory(), replay_tolerance).norm();
+  entry.shooting_defect = shooting_defect(problem, entry.solution);
+  const IndirectPoint start = entry.solution.at(0.0);
   const auto add_costate = [&](const std::string& prefix, const Eigen::VectorXd& values) {
     Eigen::Index i = 0;
     for (const std::string& name : problem.configuration_names()) {
-      costate_columns.push_back(prefix + name);
-      row.set(costate_columns.back(), values[i++]);
+      entry.initial_costate.emplace_back(prefix + name, values[i++]);
     }
   };
   add_costate("psi_q_", start.psi_q);
   add_costate("psi_p_", start.psi_p);
-  return entries_.emplace(problem.name(), Entry{*std::move(solution), std::move(row), std::move(costate_columns)})
-      .first->second.solution;
+  return entry;
+}
+
+const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
+  auto known = entries_.find(problem.name());
+  if (known == entries_.end()) {
+    known = entries_.emplace(problem.name(), find(problem, direct)).first;
+  } else {
+    require_near(problem, known->second.solution, direct);
+  }
+  return known->second.solution;
 }
 
 Table IndirectReference::table() const {
-  std::vector<std::string> columns = common_columns;
-  for (const auto& [name, entry] : entries_) {
-    for (const std::string& column : entry.costate_columns) {
-      if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+  std::vector<std::string> names = names_of(columns());
+  std::vector<Row> rows;
+  for (const auto& [problem, entry] : entries_) {
+    rows.push_back(row_of(columns(), entry));
+    for (const auto& [name, value] : entry.initial_costate) {
+      rows.back().set(name, value);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
-  Table table(columns);
-  for (const auto& [name, entry] : entries_) table.append(entry.row);
+  Table table(names);
+  for (Row& row : rows) table.append(std::move(row));
   return table;
 }
 
 nlohmann::ordered_json IndirectReference::metadata() const {
   Json references = Json::array();
-  for (const auto& [name, entry] : entries_) {
-    Json reference = Json::object();
-    reference["problem"] = name;
-    for (const std::string column : {"cost", "certified_digits", "shooting_defect", "replay_error"}) {
-      reference[column] = number_in(entry.row, column);
-    }
-    for (const std::string& column : entry.costate_columns)
-      reference["initial_costate"][column] = number_in(entry.row, column);
-    references.push_back(std::move(reference));
+  for (const auto& [problem, entry] : entries_) {
+    references.push_back({{"problem", problem},
+                          {"cost", entry.solution.cost()},
+                          {"certified_digits", entry.solution.certified_digits()},
+                          {"shooting_defect", entry.shooting_defect},
+                          {"replay_error", entry.replay_error}});
+    for (const auto& [name, value] : entry.initial_costate) references.back()["initial_costate"][name] = value;
   }
   return references;
 }
@@ -207,13 +209,13 @@ nlohmann::ordered_json IndirectReference::metadata() const {
 std::vector<std::string> IndirectReference::notes() const {
   constexpr double wanted_digits = 11.0;
   std::vector<std::string> notes;
-  for (const auto& [name, entry] : entries_) {
+  for (const auto& [problem, entry] : entries_) {
     const double digits = entry.solution.certified_digits();
     if (digits >= wanted_digits) continue;
     notes.push_back(
         fmt::format("{}: the indirect reference is certified to {:.1f} digits only; smaller relative "
                     "errors say nothing",
-                    name, digits));
+                    problem, digits));
   }
   return notes;
 }

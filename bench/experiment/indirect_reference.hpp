@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/experiment/table.hpp"
+#include "bench/experiment/column.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/trajectory.hpp"
@@ -21,17 +23,15 @@ namespace dmocbench {
 /// direct solution; otherwise the problem is solved anew and the file written whole.
 class IndirectReference {
  public:
-  /// `folder` is where the files are; it exists.
+  /// `folder` is where the files are; it exists when `near` is called.
   explicit IndirectReference(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// The solution near a direct one. Throws `Error` if there is none (see `solve_indirect`) or the problem's reference
   /// is on another branch.
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
-  /// A row per problem that was asked for: problem,cost,certified_digits,state_agreement,costate_agreement,
-  /// control_agreement,cost_agreement,hamiltonian_drift,shooting_defect,replay_error,stages,intervals,seconds, then
-  /// the costate at t = 0, psi_q_NAME and psi_p_NAME of every configuration. Agreements, drift and defect are relative;
-  /// seconds are empty where a file was used.
+  /// A row per problem that was asked for: the columns of `columns`, then the costate at t = 0, psi_q_NAME and
+  /// psi_p_NAME of every configuration.
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.
   [[nodiscard]] nlohmann::ordered_json metadata() const;
@@ -39,11 +39,18 @@ class IndirectReference {
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
+  /// A problem's solution and what is said of it.
   struct Entry {
+    std::string problem;
     IndirectSolution solution;
-    Row row;
-    std::vector<std::string> costate_columns;
+    std::optional<double> seconds;  ///< none where a file was used
+    double replay_error = 0.0;
+    double shooting_defect = 0.0;
+    std::vector<std::pair<std::string, double>> initial_costate;  ///< with the names of their columns
   };
+
+  [[nodiscard]] static const Columns<Entry>& columns();
+  [[nodiscard]] Entry find(const Problem& problem, const Trajectory& direct) const;
 
   std::filesystem::path folder_;
   std::map<std::string, Entry> entries_;

@@ -1,6 +1,5 @@
 #include "bench/experiment/interval_list.hpp"
 
-#include <charconv>
 #include <set>
 #include <string>
 
@@ -14,14 +13,11 @@ namespace dmocbench {
 namespace {
 
 long long parse_count(std::string_view option, std::string_view text) {
-  long long count = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, count);
-  const bool is_whole_number = error == std::errc() && stop == end;
-  if (!is_whole_number || count < 1 || count > Grid::most_intervals) {
+  const auto count = parsed<long long>(text);
+  if (!count || *count < 1 || *count > Grid::most_intervals) {
     throw Error(fmt::format("{}: \"{}\" is not a whole number between 1 and {}", option, text, Grid::most_intervals));
   }
-  return count;
+  return *count;
 }
 
 /// Cuts off what stands before the separator and moves `rest` behind it.
@@ -70,12 +66,10 @@ std::pair<std::string_view, std::string_view> parse_assignment(std::string_view 
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-double parse_number(std::string_view what, std::string_view text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) throw Error(fmt::format("{}: \"{}\" is not a number", what, text));
-  return value;
+double parse_number(std::string_view wanted_for, std::string_view text) {
+  const auto value = parsed<double>(text);
+  if (!value) throw Error(fmt::format("{}: \"{}\" is not a number", wanted_for, text));
+  return *value;
 }
 
 }  // namespace dmocbench

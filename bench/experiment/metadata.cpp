@@ -61,7 +61,11 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
   description["utc_time"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   description["commit"] = commit();
   description["dmocbench"] = DMOCBENCH_VERSION;
+#ifdef __clang__
+  description["compiler"] = __VERSION__;  // begins with a name
+#else
   description["compiler"] = "g++ " __VERSION__;
+#endif
   description["flags"] = DMOCBENCH_FLAGS;
   description["instruction_set"] = std::string(name_of(preferred_instruction_set()));
   description["processor"] = processor();

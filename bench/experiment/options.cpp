@@ -11,19 +11,17 @@
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/tableau.hpp"
-#include "methods/transcription/transcription.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench {
 
 namespace {
 
 /// The chosen names in the order of `known`, each once; all if none is chosen. Throws `Error` on one that is not known.
-std::vector<std::string> in_order(const char* what, const std::vector<std::string>& chosen,
+std::vector<std::string> in_order(const char* kind, const std::vector<std::string>& chosen,
                                   const std::vector<std::string>& known) {
   for (const std::string& name : chosen) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw Error(fmt::format("there is no {} \"{}\"; choose one of {}", what, name, fmt::join(known, ", ")));
+      throw Error(fmt::format("there is no {} \"{}\"; choose one of {}", kind, name, fmt::join(known, ", ")));
     }
   }
   std::vector<std::string> result;
@@ -84,6 +82,15 @@ std::vector<int> sorted_stages(std::vector<int> stages, const std::string& table
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
   std::erase_if(stages, [&](int s) { return !is_offered(tableau, s); });
   return stages;
+}
+
+/// Throws `Error` if a problem is not well posed or the coarsest grid too coarse. All methods have as many degrees of
+/// freedom on a grid, and more stages have more, so that one transcription per tableau tells.
+void require_enough_intervals(const std::shared_ptr<const Problem>& problem, const std::string& method,
+                              const std::string& tableau, int stages, const Grid& coarsest, CostForm form) {
+  static_cast<void>(
+      Case{.problem = problem, .method = method, .tableau = tableau, .stages = stages, .grid = coarsest, .form = form}
+          .transcribe());
 }
 
 }  // namespace
@@ -178,12 +185,14 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
+    for (const std::string& tableau : tableaus) {
+      const std::vector<int> stages = sorted_stages(options.stages, tableau);
+      if (!stages.empty())
+        require_enough_intervals(problem, methods.front(), tableau, stages.front(), grids.front(), form);
+    }
     for (const std::string& method : methods) {
       for (const std::string& tableau : tableaus) {
         for (const int stages : sorted_stages(options.stages, tableau)) {
-          // The coarsest grid tells whether there are enough intervals.
-          static_cast<void>(Transcription(*problem, *make_element(method), make_tableau(tableau, stages), grids.front(),
-                                          "tape", cost_form_named(options.form)));
           for (const std::string& solver : solvers) {
             for (const std::string& derivatives : back_ends) {
               for (const Grid& grid : grids) {

@@ -14,25 +14,25 @@ namespace dmocbench {
 /// What every experiment lets its user choose.
 struct ExperimentOptions {
   std::vector<std::string> problems = paper_problem_names();  ///< "all" alone: every problem there is
-  std::vector<std::string> methods;                           ///< empty: all
+  std::vector<std::string> methods = {};                      ///< empty: all
   std::vector<std::string> tableaus{"gauss"};
   std::string controls = "stage";  ///< stage, or shared: one control where two intervals meet
   std::vector<int> stages{1};
   std::vector<std::string> solvers{"ipopt"};
   std::vector<std::string> derivatives{"tape"};
-  std::string intervals;
-  std::string grid_file;               ///< relative node times; replaces `intervals`
-  std::vector<std::string> settings;   ///< "parameter=value"
-  std::vector<std::string> passed_on;  ///< "option=value" for the solver
-  std::string form = "bolza";          ///< bolza or mayer
-  std::string start = "common";        ///< common, guess or a file X_nodes.csv
+  std::string intervals = {};
+  std::string grid_file = {};               ///< relative node times; replaces `intervals`
+  std::vector<std::string> settings = {};   ///< "parameter=value"
+  std::vector<std::string> passed_on = {};  ///< "option=value" for the solver
+  std::string form = "bolza";               ///< bolza or mayer
+  std::string start = "common";             ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
   int most_iterations = SolverOptions{}.most_iterations;
   int jobs = 1;     ///< problems worked on at the same time, where an experiment allows it
   int repeats = 1;  ///< solves per row; times are their medians
   bool verbose = false;
   std::filesystem::path out = "results";
-  std::string name;
+  std::string name = {};
 };
 
 /// Registers the options with their help.

@@ -15,6 +15,17 @@ namespace dmocbench {
 
 namespace {
 
+/// False, with errno set, if not all could be written.
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 /// An open file that is closed, and removed unless kept, at the end of its scope.
 class TemporaryFile {
  public:
@@ -32,14 +43,8 @@ class TemporaryFile {
 
   /// False, with errno set, if anything went wrong.
   [[nodiscard]] bool write(std::string_view content) const {
-    if (descriptor_ < 0) return false;
-    while (!content.empty()) {
-      const ssize_t written = ::write(descriptor_, content.data(), content.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) return false;
-      content.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return ::fsync(descriptor_) == 0;  // a full disk may show itself only here
+    // A full disk may show itself only when the content is forced out.
+    return descriptor_ >= 0 && write_all(descriptor_, content) && ::fsync(descriptor_) == 0;
   }
 
   [[nodiscard]] bool rename_to(const std::filesystem::path& target) {
@@ -74,6 +79,19 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   if (!file.write(content) || !file.rename_to(path)) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), reason()));
   }
+}
+
+void append_to_file(const std::filesystem::path& path, std::string_view line) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open is one
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const bool is_whole = descriptor >= 0 && write_all(descriptor, line);
+  const std::string failure = is_whole ? "" : reason();
+  if (descriptor >= 0) ::close(descriptor);
+  if (is_whole) return;
+  if (descriptor >= 0) std::filesystem::resize_file(path, size, ignored);
+  throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -1,9 +1,12 @@
 #include "bench/experiment/solve_case.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <iterator>
+#include <vector>
 
 #include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/describe_violation.hpp"
@@ -14,145 +17,144 @@ namespace dmocbench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 /// Solves several times from the same start; the answer is the first one's, the times are medians.
-Solution solve_repeatedly(Transcription& transcription, const Eigen::VectorXd& start, const Solver& solver,
-                          int repeats) {
-  Solution solution = solver.solve(transcription, start);
-  std::vector<double> seconds{solution.seconds};
-  std::vector<double> evaluation_seconds{solution.evaluation_seconds};
-  std::vector<double> linear_seconds{solution.linear_seconds.value_or(0.0)};
-  for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
-    const Solution again = solver.solve(transcription, start);
-    if (again.status == Status::interrupted) break;
-    seconds.push_back(again.seconds);
-    evaluation_seconds.push_back(again.evaluation_seconds);
-    linear_seconds.push_back(again.linear_seconds.value_or(0.0));
+void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
+  std::vector<Solution> solutions{solver.solve(*solved.program, solved.start)};
+  solved.solution = solutions.front();
+  for (int i = 1; i < repeats && is_solved(solved.solution.status); ++i) {
+    solutions.push_back(solver.solve(*solved.program, solved.start));
+    if (solutions.back().status != Status::interrupted) continue;
+    solutions.pop_back();
+    break;
   }
-  solution.seconds = median(seconds);
-  solution.evaluation_seconds = median(evaluation_seconds);
-  if (solution.linear_seconds) solution.linear_seconds = median(linear_seconds);
-  return solution;
+  set_median_times(solved, solutions);
 }
 
-/// Judges a solution again by exact derivatives. The solver's own word counts once more where its derivatives denied
-/// it.
-void judge_exactly(const Case& what, double tolerance, Solution& solution) {
-  Transcription exact(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages), what.grid,
-                      "tape", what.form);
+/// Judges a solution again by exact derivatives. Where the solver's derivatives denied its own word, that word counts
+/// again.
+void judge_exactly(Case the_case, double tolerance, Solution& solution) {
+  the_case.derivatives = "tape";
   if (solution.status == Status::not_confirmed) solution.status = Status::solved;
-  confirm(exact, tolerance, solution);
+  confirm(*the_case.transcribe(), tolerance, solution);
 }
 
-/// "same" if no node is farther from the wanted motion than a tenth of the range of q, else "other".
-const char* branch_of(const Trajectory& trajectory, const Motion& wanted) {
-  constexpr double share = 0.1;
-  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
-  const double stretch = wanted.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
-  double distance = 0.0;
-  for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd difference =
-        trajectory.q.row(k).transpose() - wanted.at(trajectory.node_times[k] * stretch).q;
-    distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
-  }
-  return distance < share * range.maxCoeff() ? "same" : "other";
+/// A number of the program's.
+auto count(std::size_t (*of_program)(const Transcription&)) {
+  return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(*solved.program)) : Cell(); };
 }
 
-/// What is known of a row without solving, and how the solve ended.
-void describe(SolvedCase& solved) {
-  Row& row = solved.row;
-  row.set("problem", solved.what.problem->name());
-  row.set("method", solved.what.method);
-  row.set("tableau", solved.what.tableau);
-  row.set("stages", static_cast<long long>(solved.what.stages));
-  row.set("solver", solved.what.solver);
-  row.set("derivatives", solved.what.derivatives);
-  row.set("intervals", static_cast<long long>(solved.what.intervals()));
-  row.set("status", std::string(name_of(solved.solution.status)));
-  row.set("message", solved.solution.message);
+/// A number of seconds; no case that could not start has any.
+auto seconds(double Solution::*member) {
+  return [=](const SolvedCase& solved) { return solved.program ? Cell(solved.solution.*member) : Cell(); };
+}
+
+Cell largest_step(const SolvedCase& solved) {
+  if (!solved.program) return {};
+  return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->time_unit().factor;
 }
 
 }  // namespace
 
-const std::vector<std::string>& core_columns() {
-  static const std::vector<std::string> columns = {
-      "problem",          "method",
-      "tableau",          "stages",
-      "solver",           "derivatives",
-      "intervals",        "step",
-      "variables",        "free_variables",
-      "constraints",      "jacobian_nonzeros",
-      "hessian_nonzeros", "status",
-      "branch",           "objective",
-      "kkt_residual",     "constraint_violation",
-      "major_iterations", "minor_iterations",
-      "setup_seconds",    "evaluation_seconds",
-      "seconds",          "message",
+const Columns<SolvedCase>& core_columns() {
+  using P = const Transcription&;
+  static const Columns<SolvedCase> columns{
+      {"problem", "", "name of the problem", [](const SolvedCase& s) { return s.the_case.problem->name(); }},
+      {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method)},
+      {"tableau", "", "family of Butcher tableaus", from(&SolvedCase::the_case, &Case::tableau)},
+      {"stages", "", "number of stages s", from(&SolvedCase::the_case, &Case::stages)},
+      {"solver", "", "who solved the program", from(&SolvedCase::the_case, &Case::solver)},
+      {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives)},
+      {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals)},
+      {"step", "time", "largest step of the start, in the problem's unit of time", largest_step},
+      {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
+      {"free_variables", "", "those not fixed by their bounds", count([](P p) { return free_variable_count(p); })},
+      {"constraints", "", "constraints of the program", count([](P p) { return p.constraint_count(); })},
+      {"jacobian_nonzeros", "", "entries of the Jacobian", count([](P p) { return p.jacobian_structure().size(); })},
+      {"hessian_nonzeros", "", "entries of the Hessian's lower triangle",
+       count([](P p) { return p.hessian_structure().size(); })},
+      {"status", "", "how the solve ended, as our own residuals confirm it",
+       [](const SolvedCase& s) { return name_of(s.solution.status); }},
+      {"branch", "", "same or other than that of the start", from(&SolvedCase::branch)},
+      {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
+      {"kkt_residual", "", "scaled KKT residual", from(&SolvedCase::solution, &Solution::kkt_residual)},
+      {"constraint_violation", "", "largest violation of a constraint",
+       from(&SolvedCase::solution, &Solution::constraint_violation)},
+      {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
+      {"minor_iterations", "", "those of its quadratic programs",
+       from(&SolvedCase::solution, &Solution::minor_iterations)},
+      {"setup_seconds", "s", "transcription: tracing, differentiation, structure", from(&SolvedCase::setup_seconds)},
+      {"evaluation_seconds", "s", "part of the solve spent in evaluations", seconds(&Solution::evaluation_seconds)},
+      {"seconds", "s", "wall clock of the solve", seconds(&Solution::seconds)},
+      {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
   };
   return columns;
 }
 
-SolvedCase unsolved_case(const Case& what, const std::string& reason) {
-  SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
+SolvedCase unsolved_case(const Case& the_case, const std::string& reason) {
+  SolvedCase result{.the_case = the_case};
   result.solution.message = reason;
-  describe(result);
   return result;
 }
 
-SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats, bool polishes,
-                      const SolverMaker& make) {
-  SolvedCase result{.what = what, .solution = {}, .start = {}, .trajectory = {}, .row = {}};
+void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
+  const auto times = [&](const auto& time_of) {
+    std::vector<double> seconds;
+    std::ranges::transform(repeats, std::back_inserter(seconds), time_of);
+    return seconds;
+  };
+  const std::vector<double> seconds = times([](const Solution& s) { return s.seconds; });
+  solved.solution.seconds = median(seconds);
+  solved.smallest_seconds = std::ranges::min(seconds);
+  solved.solution.evaluation_seconds = median(times([](const Solution& s) { return s.evaluation_seconds; }));
+  if (!solved.solution.linear_seconds) return;
+  solved.solution.linear_seconds = median(times([](const Solution& s) { return s.linear_seconds.value_or(0.0); }));
+}
+
+SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
+                      bool polishes) {
+  return solve_case(the_case, start, *make_solver(the_case.solver, options), options.tolerance, repeats, polishes);
+}
+
+SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
+                      bool polishes) {
+  SolvedCase result{.the_case = the_case};
   const auto setup_start = Clock::now();
-  Transcription transcription(*what.problem, *make_element(what.method), make_tableau(what.tableau, what.stages),
-                              what.grid, what.derivatives, what.form);
-  const double setup_seconds = seconds_since(setup_start);
-  result.start = sample(transcription, start.motion);
-  const auto solver = make ? make(what, options) : make_solver(what.solver, options);
-  result.solution = solve_repeatedly(transcription, result.start, *solver, repeats);
+  result.program = the_case.transcribe();
+  result.setup_seconds = seconds_since(setup_start);
+  Transcription& program = *result.program;
+  result.start = sample(program, start.motion);
+  solve_repeatedly(result, solver, repeats);
   Solution& solution = result.solution;
-  if (what.derivatives != "tape") judge_exactly(what, options.tolerance, solution);
-  if (polishes) result.row.set("polish_steps", static_cast<long long>(polish(transcription, solution)));
+  if (the_case.derivatives != "tape") judge_exactly(the_case, tolerance, solution);
+  if (polishes) result.polish_steps = polish(program, solution);
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
     try {
-      result.trajectory = read_trajectory(transcription, solution.primal, solution.multipliers);
+      result.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
+      if (start.branch) result.branch = is_on_branch(*result.trajectory, *start.branch) ? "same" : "other";
     } catch (const Error& error) {
-      solution.message += std::string(" Its trajectory cannot be read: ") + error.what() + ".";
+      result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
-
-  const std::string missed = describe_violation(*what.problem, transcription, solution, options.tolerance);
-  if (!missed.empty()) solution.message += " " + missed;
-  describe(result);
-  Row& row = result.row;
-  row.set("step", transcription.steps(result.start).maxCoeff() * what.problem->time_unit().factor);
-  row.set("variables", static_cast<long long>(transcription.variable_count()));
-  row.set("free_variables", static_cast<long long>(free_variable_count(transcription)));
-  row.set("constraints", static_cast<long long>(transcription.constraint_count()));
-  row.set("jacobian_nonzeros", static_cast<long long>(transcription.jacobian_structure().size()));
-  row.set("hessian_nonzeros", static_cast<long long>(transcription.hessian_structure().size()));
-  row.set("kkt_residual", solution.kkt_residual);
-  row.set("constraint_violation", solution.constraint_violation);
-  row.set("major_iterations", solution.major_iterations);
-  row.set("minor_iterations", solution.minor_iterations);
-  row.set("setup_seconds", setup_seconds);
-  row.set("evaluation_seconds", solution.evaluation_seconds);
-  row.set("seconds", solution.seconds);
-  if (result.trajectory) {
-    if (start.branch) row.set("branch", branch_of(*result.trajectory, *start.branch));
-    row.set("objective", result.trajectory->cost);
-  }
+  const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
+  if (!missed.empty()) result.note(missed);
   return result;
 }
+
+bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
+  constexpr double share = 0.1;
+  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  const double stretch = branch.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
+  double distance = 0.0;
+  for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
+    const Eigen::VectorXd difference =
+        trajectory.q.row(k).transpose() - branch.at(trajectory.node_times[k] * stretch).q;
+    distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
+  }
+  return distance < share * range.maxCoeff();
+}
+
+bool is_usable(const SolvedCase& solved) { return solved.solution.status == Status::solved && solved.branch == "same"; }
 
 bool is_usable(const Row& row) { return row.text("status") == "solved" && row.text("branch") == "same"; }
 

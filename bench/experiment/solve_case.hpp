@@ -1,13 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/experiment/case.hpp"
-#include "bench/experiment/table.hpp"
+#include "bench/experiment/column.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/interpolation.hpp"
@@ -17,15 +16,22 @@ namespace dmocbench {
 
 /// Everything an experiment may want to know of one solve.
 struct SolvedCase {
-  Case what;
-  Solution solution;
-  Eigen::VectorXd start;                 ///< the point it began at; empty if there was none
-  std::optional<Trajectory> trajectory;  ///< none if the solver gave no point, or one where momenta make no sense
-  Row row;                               ///< the core columns
+  Case the_case;
+  std::shared_ptr<Transcription> program = nullptr;  ///< null if the case could not start
+  Solution solution = {};
+  Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
+  std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
+  std::string branch = {};  ///< "same" or "other" than that of the start; empty if nobody can tell
+  std::optional<double> setup_seconds = std::nullopt;
+  std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
+  std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
+
+  /// Adds a sentence to the message of the row.
+  void note(const std::string& sentence) { solution.message += " " + sentence; }
 };
 
-/// The columns that begin every experiment's table, in this order.
-[[nodiscard]] const std::vector<std::string>& core_columns();
+/// The columns that begin every experiment's table.
+[[nodiscard]] const Columns<SolvedCase>& core_columns();
 
 /// Where a solve starts, and the motion that tells whether its answer is on the wanted branch; without
 /// one the branch is left open.
@@ -34,21 +40,27 @@ struct Start {
   std::optional<Motion> branch;
 };
 
-/// Makes the solver of a case.
-using SolverMaker = std::function<std::unique_ptr<Solver>(const Case& of, const SolverOptions& options)>;
-
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
 /// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
 /// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
-/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps (column polish_steps; no time
-/// counts them). `make`: instead of `make_solver` by the case's name of a solver.
-[[nodiscard]] SolvedCase solve_case(const Case& what, const Start& start, const SolverOptions& options, int repeats,
-                                    bool polishes = false, const SolverMaker& make = {});
+/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
+[[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
+                                    bool polishes = false);
+/// The same by another solver than the one of the case's name.
+[[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
+                                    int repeats, bool polishes);
 
-/// The row of a case that could not even start, with status "not run" and the reason as its message.
-[[nodiscard]] SolvedCase unsolved_case(const Case& what, const std::string& reason);
+/// Replaces the times of a solve by the medians of several.
+void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 
-/// The rows of solves that were answered on the wanted branch: what curves, slopes and claims are made of.
+/// A case that could not start: status "not run", the reason as its message.
+[[nodiscard]] SolvedCase unsolved_case(const Case& the_case, const std::string& reason);
+
+/// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
+[[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
+
+/// True of solves that were answered on the wanted branch: what curves, orders and claims are made of.
+[[nodiscard]] bool is_usable(const SolvedCase& solved);
 [[nodiscard]] bool is_usable(const Row& row);
 
 }  // namespace dmocbench

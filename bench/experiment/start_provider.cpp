@@ -23,14 +23,12 @@ namespace {
 constexpr long long final_intervals = 144;
 constexpr std::array guess_intervals{48LL, 96LL, 144LL};
 
-/// Solves one method on a uniform grid; none if it does not converge.
-std::optional<Trajectory> solve(const Case& base, const std::string& method, long long intervals, const Motion& start,
-                                const SolverOptions& options) {
-  Transcription transcription(*base.problem, *make_element(method), make_tableau(base.tableau, base.stages),
-                              Grid::uniform(intervals));
-  const Solution solution = make_solver("ipopt", options)->solve(transcription, sample(transcription, start));
+/// Solves a case from a motion; none if it does not converge.
+std::optional<Trajectory> solve(const Case& the_case, const Motion& start, const SolverOptions& options) {
+  const auto program = the_case.transcribe();
+  const Solution solution = make_solver(the_case.solver, options)->solve(*program, sample(*program, start));
   if (!is_solved(solution.status)) return std::nullopt;
-  return read_trajectory(transcription, solution.primal, solution.multipliers);
+  return read_trajectory(*program, solution.primal, solution.multipliers);
 }
 
 /// A replay that leaves the set where the equations make sense has no error to speak of: infinity.
@@ -49,25 +47,6 @@ bool falls_as_predicted(double coarse, double fine, int order) {
   return fine < solver_floor || fine <= coarse * std::pow(2.0, 0.5 - order);
 }
 
-/// The method that a node file is the answer of and on which grid, as the metadata beside it tells; none if it does
-/// not.
-bool is_own_answer(const std::filesystem::path& nodes_file, const Case& solved_case) {
-  const std::string name = nodes_file.filename().string();
-  for (const auto& entry : std::filesystem::directory_iterator(
-           nodes_file.has_parent_path() ? nodes_file.parent_path() : std::filesystem::path("."))) {
-    if (entry.path().extension() != ".json") continue;
-    const auto metadata = nlohmann::json::parse(read_file(entry.path()), nullptr, false);
-    if (!metadata.is_object() || !metadata.contains("motions")) continue;
-    for (const auto& motion : metadata["motions"]) {
-      if (motion.value("nodes", "") != name) continue;
-      return motion.value("method", "") == solved_case.method && motion.value("tableau", "") == solved_case.tableau &&
-             motion.value("stages", 0) == solved_case.stages &&
-             motion.value("intervals", 0LL) == static_cast<long long>(solved_case.intervals());
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 StartProvider::StartProvider(std::string kind, SolverOptions options)
@@ -78,84 +57,115 @@ StartProvider::StartProvider(std::string kind, SolverOptions options)
   options_.most_iterations = SolverOptions{}.most_iterations;
 }
 
-void StartProvider::check(const std::vector<Case>& cases) const {
+void StartProvider::check(const std::vector<Case>& cases) {
   if (kind_ == "common" || kind_ == "guess") return;
-  const Problem* checked = nullptr;
-  for (const Case& what : cases) {
-    if (what.problem.get() != checked) static_cast<void>(read_motion(*what.problem, kind_));
-    checked = what.problem.get();
-  }
+  for (const Case& the_case : cases) static_cast<void>(motion_in_file(*the_case.problem));
 }
 
-Motion StartProvider::motion_for(const Case& solved_case) {
-  if (kind_ == "guess") return guessed_motion(*solved_case.problem);
-  if (kind_ != "common") {
-    if (is_own_answer(kind_, solved_case)) {
-      throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
-                                kind_, solved_case.label()));
+const Motion& StartProvider::motion_in_file(const Problem& problem) {
+  if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
+  if (files_.empty()) origin_ = origin_of(kind_);
+  return files_.emplace(problem.name(), read_motion(problem, kind_)).first->second;
+}
+
+std::optional<StartProvider::Origin> StartProvider::origin_of(const std::filesystem::path& nodes_file) {
+  if (!std::filesystem::exists(nodes_file)) return std::nullopt;
+  const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const auto metadata = nlohmann::json::parse(read_file(entry.path()), nullptr, false);
+    if (!metadata.is_object() || !metadata.contains("motions")) continue;
+    for (const auto& motion : metadata["motions"]) {
+      if (motion.value("nodes", "") != nodes_file.filename().string()) continue;
+      return Origin{.method = motion.value("method", ""),
+                    .tableau = motion.value("tableau", ""),
+                    .stages = motion.value("stages", 0),
+                    .intervals = motion.value("intervals", std::size_t{0})};
     }
-    return read_motion(*solved_case.problem, kind_);
   }
-  const CommonStart& start = common_start(solved_case);
-  const bool own = start.method == solved_case.method && solved_case.intervals() == final_intervals;
+  return std::nullopt;
+}
+
+Motion StartProvider::motion_for(const Case& the_case) {
+  if (kind_ == "guess") return guessed_motion(*the_case.problem);
+  if (kind_ != "common") {
+    const Motion& motion = motion_in_file(*the_case.problem);
+    const bool own = origin_ && origin_->method == the_case.method && origin_->tableau == the_case.tableau &&
+                     origin_->stages == the_case.stages && origin_->intervals == the_case.intervals();
+    if (!own) return motion;
+    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
+                              kind_, the_case.label()));
+  }
+  const CommonStart& start = common_start(the_case);
+  const bool own = start.method == the_case.method && the_case.intervals() == final_intervals;
   return own ? start.finer : start.motion;
 }
 
-std::optional<Motion> StartProvider::branch_for(const Case& solved_case) {
-  if (kind_ != "guess") return motion_for(solved_case);
+std::optional<Motion> StartProvider::branch_for(const Case& the_case) {
+  if (kind_ != "guess") return motion_for(the_case);
   try {
-    return common_start(solved_case).motion;
+    return common_start(the_case).motion;
   } catch (const NoStart&) {
     return std::nullopt;
   }
 }
 
-const StartProvider::CommonStart& StartProvider::common_start(const Case& solved_case) {
-  const Key key{solved_case.problem->name(), solved_case.tableau, solved_case.stages};
+const StartProvider::CommonStart& StartProvider::common_start(const Case& the_case) {
+  const Key key{the_case.problem->name(), the_case.tableau, the_case.stages};
   const auto found = common_.find(key);
   if (found != common_.end()) return found->second;
   if (const auto none = without_.find(key); none != without_.end()) throw NoStart(none->second);
   try {
-    return common_.emplace(key, find_common_start(solved_case)).first->second;
+    return common_.emplace(key, find_common_start(the_case)).first->second;
   } catch (const NoStart& reason) {
     without_.emplace(key, reason.what());  // to look again would take as long and find as little
     throw;
   }
 }
 
-StartProvider::CommonStart StartProvider::find_common_start(const Case& solved_case) const {
+StartProvider::CommonStart StartProvider::find_common_start(const Case& the_case) const {
   struct Candidate {
     std::string method;
     Trajectory trajectory;
   };
-  const Problem& problem = *solved_case.problem;
+  const Problem& problem = *the_case.problem;
   const Motion guess = guessed_motion(problem);
-  const auto stopped = [&] { return options_.stop_requested && options_.stop_requested(); };
+  const auto require_time = [&] {
+    if (options_.stop_requested && options_.stop_requested()) throw NoStart("interrupted");
+  };
+  const auto solve_on = [&](const std::string& method, long long intervals, const Motion& start) {
+    const Case candidate{.problem = the_case.problem,
+                         .method = method,
+                         .tableau = the_case.tableau,
+                         .stages = the_case.stages,
+                         .solver = "ipopt",
+                         .grid = Grid::uniform(intervals)};
+    return solve(candidate, start, options_);
+  };
   std::vector<Candidate> candidates;
   for (const std::string& method : element_names()) {
     for (const long long intervals : guess_intervals) {
-      if (stopped()) throw NoStart("interrupted");
+      require_time();
       if (on_progress) {
-        on_progress(fmt::format("{} {} {}: common start, {} on {} intervals", problem.name(), solved_case.tableau,
-                                solved_case.stages, method, intervals));
+        on_progress(fmt::format("{} {} {}: common start, {} on {} intervals", problem.name(), the_case.tableau,
+                                the_case.stages, method, intervals));
       }
-      auto trajectory = solve(solved_case, method, intervals, guess, options_);
+      auto trajectory = solve_on(method, intervals, guess);
       if (trajectory && intervals != final_intervals) {
-        trajectory = solve(solved_case, method, final_intervals, smooth_motion(*trajectory), options_);
+        trajectory = solve_on(method, final_intervals, smooth_motion(*trajectory));
       }
       if (trajectory) candidates.push_back({method, std::move(*trajectory)});
     }
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.trajectory.cost < b.trajectory.cost; });
+  std::ranges::sort(candidates, {}, [](const Candidate& candidate) { return candidate.trajectory.cost; });
   for (const Candidate& candidate : candidates) {
-    if (stopped()) throw NoStart("interrupted");
-    const auto finer =
-        solve(solved_case, candidate.method, 2 * final_intervals, smooth_motion(candidate.trajectory), options_);
+    require_time();
+    Motion motion = smooth_motion(candidate.trajectory);
+    const auto finer = solve_on(candidate.method, 2 * final_intervals, motion);
     if (!finer) continue;
     if (falls_as_predicted(replayed(problem, candidate.trajectory), replayed(problem, *finer),
                            candidate.trajectory.tableau.order)) {
-      return {candidate.method, smooth_motion(candidate.trajectory), smooth_motion(*finer)};
+      return {candidate.method, std::move(motion), smooth_motion(*finer)};
     }
   }
   throw NoStart(

@@ -32,19 +32,19 @@ class StartProvider {
   /// `kind` is "common", "guess" or the name of a node file.
   StartProvider(std::string kind, SolverOptions options);
 
-  /// Throws `Error` if a file does not fit one of the problems.
-  void check(const std::vector<Case>& cases) const;
+  /// Reads the file, if a file is the start. Throws `Error` if it does not fit one of the problems.
+  void check(const std::vector<Case>& cases);
 
   /// The motion to start this case from. No case starts at its own answer: where the common start is the case's own
   /// method on the same grid, the same branch on the finer grid serves; a file that is the case's own answer is
   /// refused. Throws `NoStart` then, and if no common start can be found.
-  [[nodiscard]] Motion motion_for(const Case& solved_case);
+  [[nodiscard]] Motion motion_for(const Case& the_case);
 
   /// The motion whose branch a case should be on: the one it starts from, but the common start where cases start from
   /// the problem's guess, which is on no branch. None if there is no common start.
-  [[nodiscard]] std::optional<Motion> branch_for(const Case& solved_case);
+  [[nodiscard]] std::optional<Motion> branch_for(const Case& the_case);
 
-  /// Solves needed until the common start of this case is known; tells progress.
+  /// Told what is being solved on the way to a common start.
   std::function<void(const std::string&)> on_progress;
 
  private:
@@ -54,14 +54,25 @@ class StartProvider {
     Motion finer;   // the same branch on twice as many
   };
   using Key = std::tuple<std::string, std::string, int>;
+  /// The solve that wrote a node file, as the metadata beside it tells.
+  struct Origin {
+    std::string method;
+    std::string tableau;
+    int stages = 0;
+    std::size_t intervals = 0;
+  };
 
-  [[nodiscard]] const CommonStart& common_start(const Case& solved_case);
-  [[nodiscard]] CommonStart find_common_start(const Case& solved_case) const;
+  [[nodiscard]] const CommonStart& common_start(const Case& the_case);
+  [[nodiscard]] CommonStart find_common_start(const Case& the_case) const;
+  [[nodiscard]] static std::optional<Origin> origin_of(const std::filesystem::path& nodes_file);
+  [[nodiscard]] const Motion& motion_in_file(const Problem& problem);
 
   std::string kind_;
   SolverOptions options_;
   std::map<Key, CommonStart> common_;
-  std::map<Key, std::string> without_;  // and why
+  std::map<Key, std::string> without_;   // and why
+  std::map<std::string, Motion> files_;  // the file's motion, by the problem it was read for
+  std::optional<Origin> origin_;         // of the file
 };
 
 }  // namespace dmocbench

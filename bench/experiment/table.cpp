@@ -1,24 +1,13 @@
 #include "bench/experiment/table.hpp"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
+#include "bench/experiment/interval_list.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-std::string written(const Cell& cell) {
-  struct Writer {
-    std::string operator()(std::monostate /*empty*/) const { return {}; }
-    std::string operator()(long long value) const { return fmt::format("{}", value); }
-    std::string operator()(double value) const { return fmt::format("{:.17g}", value); }
-    std::string operator()(const std::string& value) const { return value; }
-  };
-  return std::visit(Writer{}, cell);
-}
 
 std::string quoted(const std::string& field) {
   if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
@@ -63,28 +52,26 @@ std::vector<std::string> take_record(std::string_view& rest) {
 
 }  // namespace
 
+Cell::Cell(double number) : text_(fmt::format("{:.17g}", number)) {}
+
 std::string Row::text(std::string_view column) const {
   const auto found = cells_.find(column);
-  return found == cells_.end() ? std::string() : written(found->second);
+  return found == cells_.end() ? std::string() : found->second.text();
 }
 
-std::optional<double> Row::number(std::string_view column) const {
-  const std::string field = text(column);
-  double value = 0.0;
-  const char* end = field.data() + field.size();
-  const auto [stop, error] = std::from_chars(field.data(), end, value);
-  if (error != std::errc() || stop != end || field.empty()) return std::nullopt;
-  return value;
+std::optional<double> Row::number(std::string_view column) const { return parsed<double>(text(column)); }
+
+std::string Row::csv(const std::vector<std::string>& columns) const {
+  std::string line;
+  for (const std::string& column : columns) line += (&column == columns.data() ? "" : ",") + quoted(text(column));
+  return line + '\n';
 }
 
 std::string Table::csv() const {
   std::string text;
-  for (std::size_t i = 0; i < columns_.size(); ++i) text += (i == 0 ? "" : ",") + quoted(columns_[i]);
+  for (const std::string& column : columns_) text += (&column == columns_.data() ? "" : ",") + quoted(column);
   text += '\n';
-  for (const Row& row : rows_) {
-    for (std::size_t i = 0; i < columns_.size(); ++i) text += (i == 0 ? "" : ",") + quoted(row.text(columns_[i]));
-    text += '\n';
-  }
+  for (const Row& row : rows_) text += row.csv(columns_);
   return text;
 }
 
@@ -98,7 +85,7 @@ Table Table::from_csv(std::string_view text) {
     }
     Row row;
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (!fields[i].empty()) row.set(table.columns_[i], Cell(fields[i]));
+      if (!fields[i].empty()) row.set(table.columns_[i], fields[i]);
     }
     table.append(std::move(row));
   }

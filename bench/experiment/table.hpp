@@ -1,39 +1,51 @@
 #pragma once
 
-#include <cstddef>
+#include <concepts>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <utility>
 #include <vector>
 
 namespace dmocbench {
 
-/// A field of a table: nothing, a whole number, a number or a text.
-using Cell = std::variant<std::monostate, long long, double, std::string>;
+/// A field of a table as it is written: a number with all its digits (%.17g), a text, or nothing.
+class Cell {
+ public:
+  Cell() = default;
+  Cell(std::string text) : text_(std::move(text)) {}
+  Cell(std::string_view text) : text_(text) {}
+  Cell(const char* text) : text_(text) {}
+  Cell(double number);
+  template <std::integral Number>
+  Cell(Number number) : text_(std::to_string(number)) {}
+  /// Nothing where there is no value.
+  template <class Value>
+  Cell(const std::optional<Value>& value) : Cell(value ? Cell(*value) : Cell()) {}
+
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+ private:
+  std::string text_;
+};
 
 /// A row: fields by the names of their columns.
 class Row {
  public:
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
-  void set(std::string_view column, const char* value) { set(column, Cell(std::string(value))); }
-  template <class Number>
-  void set(std::string_view column, const std::optional<Number>& value) {
-    if (value)
-      set(column, Cell(static_cast<std::conditional_t<std::is_integral_v<Number>, long long, double>>(*value)));
-  }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] std::string text(std::string_view column) const;
   /// The field as a number; none if it is empty or no number.
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
+  /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).
+  [[nodiscard]] std::string csv(const std::vector<std::string>& columns) const;
 
  private:
   std::map<std::string, Cell, std::less<>> cells_;
 };
 
-/// A table with named columns. Numbers are written with all their digits (%.17g); what does not exist is an empty
-/// field.
+/// A table with named columns. What does not exist is an empty field.
 class Table {
  public:
   Table() = default;
@@ -44,7 +56,7 @@ class Table {
   void append(Row row) { rows_.push_back(std::move(row)); }
   void clear() { rows_.clear(); }
 
-  /// Comma-separated values with one header line (RFC 4180 quoting, lines end with \n).
+  /// A header line, then a line per row (`Row::csv`).
   [[nodiscard]] std::string csv() const;
   /// Reads what `csv` writes. Throws `Error` that names the line if a row has another number of fields than the header.
   [[nodiscard]] static Table from_csv(std::string_view text);

@@ -19,7 +19,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-/// Watched whatever the number of periods is.
+/// These are watched whatever the number of periods is.
 constexpr long long first_periods = 10;
 
 /// Moves (q, v) by one step; p = v, because the mass of `Kepler` is the identity.

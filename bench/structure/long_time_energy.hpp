@@ -36,8 +36,8 @@ struct PeriodEnergy {
 struct EnergyBehaviour {
   double oscillation = 0.0;       ///< max - min over the watched periods among the first ten
   double range = 0.0;             ///< max - min over all watched periods: the oscillation again, unless energy drifts
-  double drift_per_period = 0.0;  ///< least-squares slope of the mean over the periods
-  double standard_error = 0.0;    ///< of that slope
+  double drift_per_period = 0.0;  ///< of the mean over the periods, by least squares
+  double standard_error = 0.0;    ///< of the drift
   double change = 0.0;            ///< last mean minus first mean
 };
 

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "bench/experiment/common_columns.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
@@ -57,23 +60,17 @@ Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step
   return controls;
 }
 
+/// Every method with every tableau.
 template <class Visit>
-void for_all_tableaus(const Visit& visit) {
-  for (const std::string& family : tableau_names()) {
-    for (const int stages : tableau_stages(family)) {
-      const Tableau tableau = make_tableau(family, stages);
-      if (!tableau.shares_controls) visit(tableau);  // each step is simulated with controls of its own
+void for_all_maps(const Visit& visit) {
+  for (const std::string& method : element_names()) {
+    for (const std::string& family : tableau_names()) {
+      for (const int stages : tableau_stages(family)) {
+        const Tableau tableau = make_tableau(family, stages);
+        if (!tableau.shares_controls) visit(*make_element(method), tableau);  // each step has controls of its own
+      }
     }
   }
-}
-
-Row row_of(const Problem& problem, const Element& element, const Tableau& tableau) {
-  Row row;
-  row.set("problem", problem.name());
-  row.set("method", element.name());
-  row.set("tableau", tableau.family);
-  row.set("stages", static_cast<long long>(tableau.stages()));
-  return row;
 }
 
 bool is_discrete_mechanics(const Element& element) { return element.node_state() == NodeState::configuration; }
@@ -82,7 +79,7 @@ bool is_discrete_mechanics(const Element& element) { return element.node_state()
 struct MomentumBalance {
   double change = 0.0;
   double work = 0.0;
-  double work_of_discrete_forces = 0.0;
+  std::optional<double> work_of_discrete_forces;  ///< of DMOC
   double defect = 0.0;
 };
 
@@ -120,28 +117,41 @@ MomentumBalance simulate(const Invariant& system, const Element& element, const 
     work += step.impulse.dot(xi);
     defect = std::max(defect, std::abs(p.dot(xi) - first - work));
   }
-  return {.change = static_cast<double>(p.dot(xi) - first),
-          .work = static_cast<double>(work),
-          .work_of_discrete_forces = static_cast<double>(work_of_discrete_forces),
-          .defect = static_cast<double>(defect)};
+  MomentumBalance balance{.change = static_cast<double>(p.dot(xi) - first),
+                          .work = static_cast<double>(work),
+                          .work_of_discrete_forces = {},
+                          .defect = static_cast<double>(defect)};
+  if (is_discrete_mechanics(element)) balance.work_of_discrete_forces = static_cast<double>(work_of_discrete_forces);
+  return balance;
 }
 
-Row forced(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
-  const auto balance = simulate<double>(system, element, tableau, steps);
-  Row row = row_of(*system.problem, element, tableau);
-  row.set("force", system.orthogonal ? "orthogonal" : "along");
-  row.set("steps", static_cast<long long>(steps));
-  row.set("h", system.step);
-  row.set("momentum_change", balance.change);
-  row.set("work", balance.work);
-  if (is_discrete_mechanics(element)) row.set("work_of_discrete_forces", balance.work_of_discrete_forces);
-  row.set("defect", balance.defect);
-  row.set("defect_in_long_double", simulate<long double>(system, element, tableau, steps).defect);
-  return row;
+struct Forced {
+  Scheme scheme;
+  const char* force = "";
+  int steps = 0;
+  double h = 0.0;
+  MomentumBalance balance;
+  double defect_in_long_double = 0.0;
+};
+
+struct Unforced {
+  Scheme scheme;
+  double h = 0.0;
+  double defect = 0.0;
+  double rounding = 0.0;
+};
+
+Forced forced(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+  return {.scheme = {system.problem->name(), element.name(), tableau.family, tableau.stages()},
+          .force = system.orthogonal ? "orthogonal" : "along",
+          .steps = steps,
+          .h = system.step,
+          .balance = simulate<double>(system, element, tableau, steps),
+          .defect_in_long_double = simulate<long double>(system, element, tableau, steps).defect};
 }
 
-Row unforced(const Problem& problem, const BoundaryState& start, double h, const Element& element,
-             const Tableau& tableau) {
+Unforced unforced(const Problem& problem, const BoundaryState& start, double h, const Element& element,
+                  const Tableau& tableau) {
   constexpr int states = 8;
   const TracedProblem traced(problem);
   const Map map(traced, element, tableau);
@@ -160,41 +170,53 @@ Row unforced(const Problem& problem, const BoundaryState& start, double h, const
     defect = std::max(defect, symplecticity_defect(d));
     rounding = std::max(rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
   }
-  Row row = row_of(problem, element, tableau);
-  row.set("h", h);
-  row.set("defect", defect);
-  row.set("rounding", rounding);
-  return row;
+  return {.scheme = {problem.name(), element.name(), tableau.family, tableau.stages()},
+          .h = h,
+          .defect = defect,
+          .rounding = rounding};
 }
 
 }  // namespace
 
 Table noether_table(int steps) {
-  Table table({"problem", "method", "tableau", "stages", "force", "steps", "h", "momentum_change", "work",
-               "work_of_discrete_forces", "defect", "defect_in_long_double"});
+  std::vector<Forced> rows;
   for (const Invariant& system : invariant_systems()) {
-    for (const std::string& method : element_names()) {
-      for_all_tableaus(
-          [&](const Tableau& tableau) { table.append(forced(system, *make_element(method), tableau, steps)); });
-    }
+    for_all_maps([&](const Element& element, const Tableau& tableau) {
+      rows.push_back(forced(system, element, tableau, steps));
+    });
   }
-  return table;
+  constexpr auto balance = &Forced::balance;
+  const Columns<Forced> columns{
+      {"force", "", "orthogonal to the group action, or along it", &Forced::force},
+      {"steps", "", "number of steps", &Forced::steps},
+      {"h", "", "step", &Forced::h},
+      {"momentum_change", "", "J_N - J_0", from(balance, &MomentumBalance::change)},
+      {"work", "", "sum of h b_i f·xi", from(balance, &MomentumBalance::work)},
+      {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
+       from(balance, &MomentumBalance::work_of_discrete_forces)},
+      {"defect", "", "max over k of |J_k - J_0 - work|", from(balance, &MomentumBalance::defect)},
+      {"defect_in_long_double", "", "the same with 64 bits of mantissa: rounding shrinks, discretisation stays",
+       &Forced::defect_in_long_double},
+  };
+  return table_of(scheme_columns<Forced>() + columns, rows);
 }
 
 Table symplecticity_table() {
-  Table table({"problem", "method", "tableau", "stages", "h", "defect", "rounding"});
-  const BoundaryState eccentric = RadialThrust().initial_state();
-  const BoundaryState swinging{Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)};
-  const auto add = [&table](const Problem& problem, const BoundaryState& start, double h) {
-    for (const std::string& method : element_names()) {
-      for_all_tableaus(
-          [&](const Tableau& tableau) { table.append(unforced(problem, start, h, *make_element(method), tableau)); });
-    }
+  std::vector<Unforced> rows;
+  const auto add = [&rows](const Problem& problem, const BoundaryState& start, double h) {
+    for_all_maps([&](const Element& element, const Tableau& tableau) {
+      rows.push_back(unforced(problem, start, h, element, tableau));
+    });
   };
   add(Kepler(), Kepler().initial_state(), 0.1);
-  add(*make_problem("orbital_transfer"), eccentric, 0.2);
-  add(*make_problem("two_link_manipulator"), swinging, 0.1);
-  return table;
+  add(*make_problem("orbital_transfer"), RadialThrust().initial_state(), 0.2);
+  add(*make_problem("two_link_manipulator"), {Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)}, 0.1);
+  const Columns<Unforced> columns{
+      {"h", "", "step", &Unforced::h},
+      {"defect", "", "largest entry of D^T Omega D - Omega over some states", &Unforced::defect},
+      {"rounding", "", "machine epsilon times the largest square of an entry of D", &Unforced::rounding},
+  };
+  return table_of(scheme_columns<Unforced>() + columns, rows);
 }
 
 }  // namespace dmocbench

@@ -32,7 +32,7 @@ Row solved_row(const std::string& method, long long intervals) {
 ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
   ResultTables result;
   const auto finish = [&](const std::string& name, std::vector<Row> rows) {
-    Table table(core_columns());
+    Table table(names_of(core_columns()));
     for (Row& row : rows) {
       if (name == doctored) change(row);
       table.append(std::move(row));

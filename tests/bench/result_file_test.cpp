@@ -71,6 +71,25 @@ TEST_F(ResultFile, OnAFullDiskTheOlderOneStaysAndNothingElse) {
   EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(ResultFile, GrowsByWholeLines) {
+  write_file(folder() / "table.csv", "a,b\n");
+  append_to_file(folder() / "table.csv", "1,2\n");
+  append_to_file(folder() / "table.csv", "3,4\n");
+  EXPECT_EQ(read_file(folder() / "table.csv"), "a,b\n1,2\n3,4\n");
+  expect_error_naming({"cannot write", "none.csv"}, [&] { append_to_file(folder() / "none.csv", "1,2\n"); });
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(ResultFile, OnAFullDiskALineIsWrittenWholeOrNotAtAll) {
+  write_file(folder() / "table.csv", "a,b\n");
+  {
+    const FullDisk disk(10);
+    expect_error_naming({"cannot write", "table.csv"},
+                        [&] { append_to_file(folder() / "table.csv", "a long line,2\n"); });
+  }
+  EXPECT_EQ(read_file(folder() / "table.csv"), "a,b\n");
+}
+
 TEST_F(ResultFile, InAFolderThatIsNotThereIsRefused) {
   expect_error_naming({"cannot write", "table.csv"}, [&] { write_file(folder() / "none" / "table.csv", "a\n"); });
   EXPECT_EQ(entries(), 0);

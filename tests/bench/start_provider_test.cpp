@@ -15,9 +15,8 @@ TEST(StartProvider, LooksOnceForACommonStartThatThereIsNot) {
   int solves = 0;
   source.on_progress = [&](const std::string&) { ++solves; };
   for (const char* method : {"dmoc", "tangent"}) {
-    const Case what{
-        .problem = out_of_reach, .method = method, .tableau = "gauss", .stages = 1, .solver = "ipopt", .variant = {}};
-    EXPECT_THROW(static_cast<void>(source.motion_for(what)), NoStart);
+    const Case the_case{.problem = out_of_reach, .method = method, .tableau = "gauss", .stages = 1, .solver = "ipopt"};
+    EXPECT_THROW(static_cast<void>(source.motion_for(the_case)), NoStart);
     EXPECT_EQ(solves, 9) << "three methods on three grids";
   }
 }

@@ -1,6 +1,6 @@
 // The reference in long double against the tape and against an error that was put in.
 
-#include "bench/derivatives/derivative_error.hpp"
+#include "bench/derivatives/measured_derivatives.hpp"
 
 #include <cmath>
 

@@ -1,12 +1,16 @@
-#include "bench/derivatives/derivative_error.hpp"
+#include "bench/derivatives/measured_derivatives.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <span>
 #include <utility>
 
 #include "methods/expression/replay.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
@@ -31,6 +35,17 @@ class SparseSum {
   std::map<Position, std::size_t> entry_at_;
   std::vector<long double> values_;
 };
+
+constexpr int rounds = 5;
+constexpr int rounds_of_long_evaluations = 3;
+constexpr double long_evaluation = 1e-3;
+constexpr double shortest_round = 3e-5;  // [s]; the clock tells some 3e-8
+
+double seconds_of(const std::function<void()>& evaluation, int calls) {
+  const auto start = Clock::now();
+  for (int i = 0; i < calls; ++i) evaluation();
+  return seconds_since(start);
+}
 
 }  // namespace
 
@@ -83,6 +98,39 @@ double relative_error(const Eigen::VectorXd& values, const std::vector<long doub
     difference = std::max(difference, std::abs(value - reference[e]));
   }
   return static_cast<double>(difference / largest);
+}
+
+EvaluationTimes measure_evaluations(NonlinearProgram& program, const Eigen::VectorXd& x,
+                                    const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd gradient(x.size());
+  Eigen::VectorXd residual(multipliers.size());
+  Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  Eigen::VectorXd hessian(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  const std::array<std::function<void()>, 4> evaluations{
+      [&] { program.constraints(x, residual); }, [&] { program.gradient(x, gradient); },
+      [&] { program.jacobian(x, jacobian); }, [&] { program.hessian(x, 1.0, multipliers, hessian); }};
+
+  std::array<int, evaluations.size()> calls{};
+  std::array<bool, evaluations.size()> is_long{};
+  calls.fill(1);
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    const double first = seconds_of(evaluations[i], 1);
+    is_long[i] = first > long_evaluation;
+    if (is_long[i]) continue;
+    // The first call is not like the others.
+    calls[i] = std::max(1, static_cast<int>(std::ceil(shortest_round / seconds_of(evaluations[i], 1))));
+  }
+  std::array<std::vector<double>, evaluations.size()> seconds;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < evaluations.size(); ++i) {
+      if (is_long[i] && round >= rounds_of_long_evaluations) continue;
+      seconds[i].push_back(seconds_of(evaluations[i], calls[i]) / calls[i]);
+    }
+  }
+  return {.residual = median(seconds[0]),
+          .gradient = median(seconds[1]),
+          .jacobian = median(seconds[2]),
+          .hessian = median(seconds[3])};
 }
 
 }  // namespace dmocbench

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench {
+
+/// A column of a table that has a row per `Record`.
+template <class Record>
+struct Column {
+  std::string name;
+  std::string unit;  ///< empty for texts, counts and numbers without unit
+  std::string meaning;
+  std::function<Cell(const Record&)> cell;  ///< the record's field
+};
+
+template <class Record>
+using Columns = std::vector<Column<Record>>;
+
+template <class Record>
+[[nodiscard]] Row row_of(const Columns<Record>& columns, const Record& record) {
+  Row row;
+  for (const Column<Record>& column : columns) row.set(column.name, column.cell(record));
+  return row;
+}
+
+template <class Record>
+[[nodiscard]] std::vector<std::string> names_of(const Columns<Record>& columns) {
+  std::vector<std::string> names;
+  for (const Column<Record>& column : columns) names.push_back(column.name);
+  return names;
+}
+
+template <class Record>
+[[nodiscard]] Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
+  Table table(names_of(columns));
+  for (const Record& record : records) table.append(row_of(columns, record));
+  return table;
+}
+
+/// A line per column: "NAME [UNIT]: MEANING".
+template <class Record>
+[[nodiscard]] std::string describe(const Columns<Record>& columns) {
+  std::string text;
+  for (const Column<Record>& column : columns) {
+    text +=
+        fmt::format("  {}{}: {}\n", column.name, column.unit.empty() ? "" : " [" + column.unit + "]", column.meaning);
+  }
+  return text;
+}
+
+/// Columns side by side.
+template <class Record>
+[[nodiscard]] Columns<Record> operator+(Columns<Record> left, const Columns<Record>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+/// The member of a member ... of an object; nothing where an optional or a pointer on the way is empty.
+template <class Object>
+[[nodiscard]] Cell member(const Object& object) {
+  return object;
+}
+template <class Object, class First, class... Rest>
+[[nodiscard]] Cell member(const Object& object, First first, Rest... rest) {
+  if constexpr (requires { *object; }) {  // an optional or a pointer; std::invoke would not ask whether it is empty
+    return object ? member(*object, first, rest...) : Cell();
+  } else {
+    return member(std::invoke(first, object), rest...);
+  }
+}
+
+/// Reads a field from the record: `from(&SolvedCase::solution, &Solution::seconds)`.
+template <class... Members>
+[[nodiscard]] auto from(Members... members) {
+  return [=](const auto& record) { return member(record, members...); };
+}
+
+/// Reads a field from an object that belongs to the record being written, whatever the record is:
+/// `of(error_, &TrajectoryError::state)`. The object is read when the row is made.
+template <class Object, class... Members>
+[[nodiscard]] auto of(const Object& object, Members... members) {
+  return [&object, members...](const auto& /*record*/) { return member(object, members...); };
+}
+
+}  // namespace dmocbench

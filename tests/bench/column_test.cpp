@@ -1,0 +1,60 @@
+#include "bench/experiment/column.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "bench/experiment/solve_case.hpp"
+
+namespace dmocbench {
+namespace {
+
+struct Wheel {
+  double radius = 0.0;
+  std::optional<int> spokes;
+  [[nodiscard]] double diameter() const { return 2.0 * radius; }
+};
+
+struct Cart {
+  std::string name;
+  Wheel front;
+  std::optional<Wheel> spare;
+  std::shared_ptr<Wheel> drawn;
+};
+
+const Columns<Cart> columns{
+    {"name", "", "what it is called", &Cart::name},
+    {"radius", "m", "of the front wheel", from(&Cart::front, &Wheel::radius)},
+    {"diameter", "m", "of the front wheel", from(&Cart::front, &Wheel::diameter)},
+    {"spokes", "", "of the front wheel", from(&Cart::front, &Wheel::spokes)},
+    {"spare", "m", "radius of the spare wheel", from(&Cart::spare, &Wheel::radius)},
+    {"drawn", "m", "radius of the drawn wheel", from(&Cart::drawn, &Wheel::radius)},
+};
+
+TEST(Column, HeaderAndFieldsComeFromOneDeclaration) {
+  const Cart cart{.name = "a, b", .front = {0.5, 12}, .spare = Wheel{.radius = 0.25, .spokes = {}}, .drawn = {}};
+  EXPECT_EQ(table_of(columns, {cart}).csv(), "name,radius,diameter,spokes,spare,drawn\n\"a, b\",0.5,1,12,0.25,\n");
+}
+
+TEST(Column, OfNothingIsAnEmptyField) { EXPECT_EQ(row_of(columns, Cart{}).csv(names_of(columns)), ",0,0,,,\n"); }
+
+TEST(Column, ReadsAnObjectWhenTheRowIsMade) {
+  std::optional<Wheel> wheel;
+  const Columns<Cart> late{{"radius", "m", "of a wheel elsewhere", of(wheel, &Wheel::radius)}};
+  EXPECT_EQ(row_of(late, Cart{}).text("radius"), "");
+  wheel = Wheel{.radius = 2.0, .spokes = {}};
+  EXPECT_EQ(row_of(late, Cart{}).text("radius"), "2");
+}
+
+TEST(Column, IsDescribedWithItsUnit) {
+  const std::string text = describe(columns);
+  EXPECT_NE(text.find("  name: what it is called\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  radius [m]: of the front wheel\n"), std::string::npos) << text;
+}
+
+TEST(CoreColumns, EachSaysWhatItMeans) {
+  for (const auto& column : core_columns()) EXPECT_FALSE(column.meaning.empty()) << column.name;
+}
+
+}  // namespace
+}  // namespace dmocbench
