@@ -39,7 +39,7 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program)
       fixed_(fixed_entries(program.variable_lower(), program.variable_upper())),
       bounds_({program.variable_lower(), program.constraint_lower()(inequalities_)},
               {program.variable_upper(), program.constraint_upper()(inequalities_)}),
-      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure().runs())) {
+      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())) {
   resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
   resize_unwritten(jacobian_, static_cast<Eigen::Index>(program.jacobian_structure().size()));
   resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));

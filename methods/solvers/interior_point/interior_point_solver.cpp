@@ -345,14 +345,16 @@ using Factorisation = InteriorPointOptions::Factorisation;
 constexpr std::array<NamedChoice<Factorisation>, 2> factorisations{
     {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}}};
 
-/// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
-tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
-                                                                                  const InteriorPointOptions& choices) {
+using interior_point::KktSystem;
+
+/// The reason in a sentence where the program has no structure that intervals need.
+tl::expected<std::unique_ptr<KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                  const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  auto by_intervals = interior_point::IntervalKkt::make(program);
-  if (!by_intervals) return tl::unexpected(by_intervals.error());
-  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
+  return interior_point::IntervalKkt::make(program).map([&](auto kkt) -> std::unique_ptr<KktSystem> {
+    return std::make_unique<interior_point::RefinedKkt>(program, std::move(kkt));
+  });
 }
 
 }  // namespace

@@ -46,15 +46,15 @@ MatrixProduct::MatrixProduct(const std::vector<PatternRun>& terms) {
   for (const PatternRun& run : terms) (run.row_step == 1 ? along_ : into_).push_back(run);
 }
 
-MatrixProduct MatrixProduct::transposed(const std::vector<PatternRun>& runs) {
+MatrixProduct MatrixProduct::transposed(const BlockPattern& jacobian) {
   std::vector<PatternRun> terms;
-  std::ranges::transform(runs, std::back_inserter(terms), transpose_of);
+  std::ranges::transform(jacobian.runs(), std::back_inserter(terms), transpose_of);
   return MatrixProduct(terms);
 }
 
-MatrixProduct MatrixProduct::symmetric(const std::vector<PatternRun>& runs) {
+MatrixProduct MatrixProduct::symmetric(const BlockPattern& lower_triangle) {
   std::vector<PatternRun> terms;
-  for (const PatternRun& run : runs) {
+  for (const PatternRun& run : lower_triangle.runs()) {
     terms.push_back(run);
     const bool is_on_diagonal = run.row == run.column;
     if (!is_on_diagonal) terms.push_back(transpose_of(run));

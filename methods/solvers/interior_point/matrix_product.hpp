@@ -12,15 +12,14 @@ namespace dmocbench::interior_point {
 /// runs of the matrix that reach them are added.
 class MatrixProduct {
  public:
-  /// J x, from the runs of J.
-  [[nodiscard]] static MatrixProduct plain(const std::vector<PatternRun>& runs) { return MatrixProduct(runs); }
-  /// Jᵀ λ, from the runs of J.
-  [[nodiscard]] static MatrixProduct transposed(const std::vector<PatternRun>& runs);
-  /// H x of a symmetric matrix, from the runs of its lower triangle, of which each lies on the diagonal or does not
-  /// touch it.
-  [[nodiscard]] static MatrixProduct symmetric(const std::vector<PatternRun>& runs);
+  /// J x.
+  [[nodiscard]] static MatrixProduct plain(const BlockPattern& jacobian) { return MatrixProduct(jacobian.runs()); }
+  /// Jᵀ λ.
+  [[nodiscard]] static MatrixProduct transposed(const BlockPattern& jacobian);
+  /// H x of a symmetric matrix, from its lower triangle, whose runs lie on the diagonal or do not touch it.
+  [[nodiscard]] static MatrixProduct symmetric(const BlockPattern& lower_triangle);
 
-  /// result += matrix · vector; `values`: one per entry of the runs.
+  /// result += matrix · vector; `values`: one per entry of the pattern.
   void add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const;
 
  private:

@@ -23,9 +23,9 @@ double ratio(double left, double allowed) { return left > 0.0 ? left / allowed :
 }  // namespace
 
 NewtonResidual::NewtonResidual(const NonlinearProgram& program)
-    : hessian_(MatrixProduct::symmetric(program.hessian_structure().runs())),
-      jacobian_(MatrixProduct::plain(program.jacobian_structure().runs())),
-      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure().runs())),
+    : hessian_(MatrixProduct::symmetric(program.hessian_structure())),
+      jacobian_(MatrixProduct::plain(program.jacobian_structure())),
+      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())),
       floor_(program.rounding_floor()),
       fixed_(fixed_entries(program.variable_lower(), program.variable_upper())) {}
 

@@ -51,9 +51,7 @@ void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   std::mt19937 generator(static_cast<unsigned>(std::hash<std::string>()(label)));
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals), "tape",
                         form);
-  auto made = IntervalKkt::make(program);
-  ASSERT_TRUE(made) << made.error();
-  const auto& kkt = *made;
+  const auto kkt = IntervalKkt::make(program).value();
   const Eigen::VectorXd x =
       sample(program, guessed_motion(problem)) + random_vector(program.variable_count(), 1e-2, generator);
   const KktNumbers numbers = numbers_at(program, x, 1e-2, 10.0, generator);

@@ -71,10 +71,10 @@ TEST(Products, AreThoseOfDenseMatrices) {
     const Eigen::VectorXd x = random.vector(columns);
     const Eigen::VectorXd multipliers = random.vector(rows);
     Eigen::VectorXd product = multipliers;
-    MatrixProduct::plain(pattern.runs()).add(values, x, product);
+    MatrixProduct::plain(pattern).add(values, x, product);
     EXPECT_LT((product - multipliers - matrix * x).lpNorm<Eigen::Infinity>(), 1e-13);
     Eigen::VectorXd transposed = x;
-    MatrixProduct::transposed(pattern.runs()).add(values, multipliers, transposed);
+    MatrixProduct::transposed(pattern).add(values, multipliers, transposed);
     EXPECT_LT((transposed - x - matrix.transpose() * multipliers).lpNorm<Eigen::Infinity>(), 1e-13);
   }
 }
@@ -89,7 +89,7 @@ TEST(Products, OfSymmetricMatricesAreThoseOfDenseOnes) {
     const Eigen::VectorXd x = random.vector(size);
     const Eigen::VectorXd before = random.vector(size);
     Eigen::VectorXd sum = before;
-    MatrixProduct::symmetric(pattern.runs()).add(values, x, sum);
+    MatrixProduct::symmetric(pattern).add(values, x, sum);
     const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, size, size, true) * x;
     EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
   }

@@ -92,9 +92,7 @@ TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
     const RandomShape shape = choice.shape();
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    auto made = IntervalKkt::make(program);
-    ASSERT_TRUE(made) << made.error();
-    const auto& kkt = *made;
+    const auto kkt = IntervalKkt::make(program).value();
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     const DenseKkt dense(program, numbers);
     const DenseVerdict wanted = dense_verdict(dense, 1e-9);
@@ -134,9 +132,7 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
     const RandomShape shape = choice.shape();
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    auto made = IntervalKkt::make(program);
-    ASSERT_TRUE(made) << made.error();
-    auto fast = *std::move(made);
+    auto fast = IntervalKkt::make(program).value();
     RefinedKkt kkt(program, std::move(fast), accuracy);
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     const DenseKkt dense(program, numbers);
@@ -201,9 +197,7 @@ TEST(RandomSystems, AreSolvedOnceTheShiftOfTheHessianIsLargeEnough) {
     shape.hessian = RandomShape::Hessian::indefinite;
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + shape.label());
     RandomStructuredProgram program(shape, seed);
-    auto made = IntervalKkt::make(program);
-    ASSERT_TRUE(made) << made.error();
-    const auto& kkt = *made;
+    const auto kkt = IntervalKkt::make(program).value();
     bool needs_shift = false;
     const int too_many = shifts_too_many(*kkt, program, choice.numbers(program, shape.hessian), needs_shift);
     // When no weight at the ends of segments has helped, the next failures are believed: then a system is refused that

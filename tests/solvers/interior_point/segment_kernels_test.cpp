@@ -20,9 +20,7 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
   const tests::KktNumbers numbers = tests::shifted_system(program, sample(program, guessed_motion(problem)));
   Eigen::VectorXd baseline;
   for (const InstructionSet set : available_instruction_sets()) {
-    auto made = IntervalKkt::make(program, segment_kernels_of(set));
-    ASSERT_TRUE(made) << made.error();
-    const auto& kkt = *made;
+    const auto kkt = IntervalKkt::make(program, segment_kernels_of(set)).value();
     Eigen::VectorXd primal(numbers.slope.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),

@@ -38,11 +38,9 @@ class EntryTable {
                      .inequalities = count(result_.inequality_rows)};
     if (free_size(result_.shape) < 0) refuse("an interval has more equalities than unknowns");
     require_free_between_ends();
-    for (const PatternRun& run : program_.hessian_structure().runs()) {
-      place(Source::hessian, run, member_of(structure_.unknowns, unknowns_, run.row, run.row_step * (run.length - 1)));
-    }
-    for (const PatternRun& run : program_.jacobian_structure().runs()) {
-      place(Source::jacobian, run, member_of(structure_.rows, rows_, run.row, run.row_step * (run.length - 1)));
+    if (refusal_.empty()) {
+      for (const PatternRun& run : program_.hessian_structure().runs()) place(Source::hessian, run);
+      for (const PatternRun& run : program_.jacobian_structure().runs()) place(Source::jacobian, run);
     }
     append_columns();
     append_vectors();
@@ -151,17 +149,12 @@ class EntryTable {
     }
   }
 
-  /// The row or column of a run's first entry; its last one is `way` numbers behind.
-  Member member_of(const Places& places, const std::vector<Member>& firsts, Eigen::Index number, Eigen::Index way) {
-    const auto first = static_cast<std::size_t>(number);
-    const std::size_t found = places.run_of(first);
-    const PlaceRun& run = places.runs()[found];
-    if (first + static_cast<std::size_t>(way) >= run.first + run.count) {
-      refuse("its derivatives are not stored interval by interval");
-    }
-    return moved(firsts[found], first - run.first);
-  }
-  static Member moved(Member member, std::size_t way) {
+  [[nodiscard]] Member unknown(Eigen::Index number) const { return member_of(structure_.unknowns, unknowns_, number); }
+  [[nodiscard]] Member row(Eigen::Index number) const { return member_of(structure_.rows, rows_, number); }
+  static Member member_of(const Places& places, const std::vector<Member>& firsts, Eigen::Index number) {
+    const std::size_t run = places.run_of(static_cast<std::size_t>(number));
+    const std::size_t way = static_cast<std::size_t>(number) - places.runs()[run].first;
+    Member member = firsts[run];
     if (member.kind != Place::Kind::border) {
       member.at += way;
     } else if (member.column >= 0) {
@@ -187,28 +180,39 @@ class EntryTable {
     return m.at == interval ? this_node(m) : -1;
   }
 
-  /// Where an entry of a matrix goes: to a block of an interval, to the ends, or nowhere (fixed unknowns).
-  struct Destination {
-    enum class Where : unsigned char { interval, ends, nowhere };
-    Where where = Where::nowhere;
-    Key key{};
-    std::size_t interval = 0;
+  /// The block of an interval that an entry of a matrix goes to; none if it goes to the ends.
+  struct Target {
+    Key key;
+    std::size_t interval;
   };
+  using Destination = std::optional<Target>;
 
-  static Destination to_ends() { return {Destination::Where::ends, {}, 0}; }
+  /// True if all entries of a run but the first and the last go to the same block: if it does not leave the quantities
+  /// that it begins in, and moves through both of them, or through one beside something of the whole horizon.
+  [[nodiscard]] bool is_of_one_block(const PatternRun& run, const Places& places_of_rows) const {
+    const auto stays = [&](const Places& places, Eigen::Index first, Eigen::Index step) {
+      const auto last = static_cast<std::size_t>(first + step * (run.length - 1));
+      return places.run_of(static_cast<std::size_t>(first)) == places.run_of(last);
+    };
+    const auto is_of_horizon = [](const Places& places, Eigen::Index number) {
+      return places.runs()[places.run_of(static_cast<std::size_t>(number))].kind == Place::Kind::border;
+    };
+    return stays(places_of_rows, run.row, run.row_step) && stays(structure_.unknowns, run.column, run.column_step) &&
+           (run.row_step == run.column_step || is_of_horizon(places_of_rows, run.row) ||
+            is_of_horizon(structure_.unknowns, run.column));
+  }
 
-  /// All entries of a run but the first and the last go to the same block, unless one of its lines is that of a single
-  /// node or interval.
-  void place(Source source, const PatternRun& run, const Member& row) {
-    const Member column = member_of(structure_.unknowns, unknowns_, run.column, run.column_step * (run.length - 1));
-    if (!refusal_.empty()) return;
-    const bool moves_together =
-        run.row_step == run.column_step || row.kind == Place::Kind::border || column.kind == Place::Kind::border;
+  void place(Source source, const PatternRun& run) {
+    const bool is_hessian = source == Source::hessian;
+    const bool is_block = is_of_one_block(run, is_hessian ? structure_.unknowns : structure_.rows);
     for (Eigen::Index begin = 0; begin < run.length;) {
-      const Eigen::Index end = moves_together && begin == 1 ? std::max<Eigen::Index>(2, run.length - 1) : begin + 1;
-      const Member i = moved(row, static_cast<std::size_t>(begin * run.row_step));
-      const Member j = moved(column, static_cast<std::size_t>(begin * run.column_step));
-      put(source == Source::hessian ? hessian_destination(i, j) : jacobian_destination(i, j), source, run, begin, end);
+      const Eigen::Index end = is_block && begin == 1 ? std::max<Eigen::Index>(2, run.length - 1) : begin + 1;
+      const Eigen::Index i = run.row + begin * run.row_step;
+      const Member j = unknown(run.column + begin * run.column_step);
+      const bool is_nowhere = is_fixed_inner(j) || (is_hessian && is_fixed_inner(unknown(i)));
+      if (!is_nowhere) {
+        put(is_hessian ? hessian_destination(unknown(i), j) : jacobian_destination(row(i), j), source, run, begin, end);
+      }
       begin = end;
     }
   }
@@ -216,31 +220,30 @@ class EntryTable {
   /// Entries `begin` .. `end` - 1 of a run.
   void put(const Destination& to, Source source, const PatternRun& run, Eigen::Index begin, Eigen::Index end) {
     const auto number = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
-    if (to.where == Destination::Where::ends) {
+    if (!to) {
       for (Eigen::Index i = begin; i < end; ++i) {
         result_.ends.push_back({source, number(run.entry + i), number(run.row + i * run.row_step),
                                 number(run.column + i * run.column_step)});
       }
-    } else if (to.where == Destination::Where::interval) {
-      const std::size_t first = number(run.entry + begin);
-      Stretch& stretch = stretches_[to.key];
-      if (stretch.length == 0) stretch = {first, to.interval, 0, source};
-      if (first != stretch.first + stretch.length || to.interval != stretch.begin + stretch.length) {
-        refuse("its derivatives are not stored interval by interval");
-      }
-      stretch.length += number(end - begin);
+      return;
     }
+    const std::size_t first = number(run.entry + begin);
+    Stretch& stretch = stretches_[to->key];
+    if (stretch.length == 0) stretch = {first, to->interval, 0, source};
+    if (first != stretch.first + stretch.length || to->interval != stretch.begin + stretch.length) {
+      refuse("its derivatives are not stored interval by interval");
+    }
+    stretch.length += number(end - begin);
   }
 
   [[nodiscard]] Destination hessian_destination(const Member& first, const Member& second) const {
-    if (is_fixed_inner(first) || is_fixed_inner(second)) return {};
     const auto interval = interval_of(first, second);
-    if (!interval) return to_ends();
+    if (!interval) return std::nullopt;
     const int a = seen_from(first, *interval);
     const int b = seen_from(second, *interval);
     const int Z = next_size(result_.shape);
-    if (a < 0 || b < 0 || (a >= Z && b >= Z)) return to_ends();
-    return {Destination::Where::interval, {LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
+    if (a < 0 || b < 0 || (a >= Z && b >= Z)) return std::nullopt;
+    return Target{{LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
   }
 
   /// The interval whose blocks hold the Hessian's entry of two unknowns: that before a node for the node's own ones.
@@ -261,18 +264,16 @@ class EntryTable {
   }
 
   [[nodiscard]] Destination jacobian_destination(const Member& row, const Member& of) {
-    if (is_fixed_inner(of)) return {};
-    if (row.column < 0) return to_ends();
+    if (row.column < 0) return std::nullopt;
     return row.kind == Place::Kind::interval ? interval_row_destination(row, of) : node_row_destination(row, of);
   }
 
   [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) {
     const int column = seen_from(of, row.at);
     if (column < 0) refuse("a row of an interval reads unknowns of another one");
-    if (row.is_inequality)
-      return {Destination::Where::interval, {LocalEntry::Block::inequality, row.column, column}, row.at};
+    if (row.is_inequality) return Target{{LocalEntry::Block::inequality, row.column, column}, row.at};
     const int number = result_.shape.node_sums + row.column;
-    return {Destination::Where::interval, {LocalEntry::Block::equality, number, column}, row.at};
+    return Target{{LocalEntry::Block::equality, number, column}, row.at};
   }
 
   [[nodiscard]] Destination node_row_destination(const Member& row, const Member& of) const {
@@ -282,11 +283,11 @@ class EntryTable {
       const int Z = next_size(result_.shape);
       const int seen = seen_from(of, of.at);  // of its own interval, or the left node of it
       const int column = seen >= Z ? seen - Z : result_.shape.node + seen;
-      return {Destination::Where::interval, {LocalEntry::Block::carry, row.column, column}, of.at};
+      return Target{{LocalEntry::Block::carry, row.column, column}, of.at};
     }
     const int column = row.at == result_.intervals ? -1 : seen_from(of, row.at);
-    if (column < 0) return to_ends();
-    return {Destination::Where::interval, {LocalEntry::Block::equality, row.column, column}, row.at};
+    if (column < 0) return std::nullopt;
+    return Target{{LocalEntry::Block::equality, row.column, column}, row.at};
   }
 
   void append_columns() {

@@ -17,8 +17,7 @@ constexpr double smallest_ratio = 1e-7;
 
 }  // namespace
 
-tl::expected<std::unique_ptr<IntervalKkt>, std::string> IntervalKkt::make(const NonlinearProgram& program,
-                                                                          SegmentKernelChoice choose) {
+IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
   try {

@@ -22,9 +22,9 @@ namespace dmocbench::interior_point {
 /// linearly with their number; README.md tells how.
 class IntervalKkt : public KktSystem {
  public:
-  /// The reason instead for a program whose structure does not allow it (interval_entries.hpp).
-  [[nodiscard]] static tl::expected<std::unique_ptr<IntervalKkt>, std::string> make(
-      const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
+  /// The reason in a sentence for a program whose structure does not allow it (interval_entries.hpp).
+  using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
+  [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
