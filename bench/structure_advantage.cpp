@@ -1,40 +1,152 @@
 // How much of DMOC's saving belongs to the method, and how much to the solver: the same programs by solvers that know
 // more or less of their structure.
-#include <cstdio>
-#include <exception>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
-#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "bench/structure_advantage/advantage_run.hpp"
+#include "bench/experiment/indirect_reference.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/structure_advantage/advantage_ratios.hpp"
+#include "bench/structure_advantage/banded_kkt.hpp"
+#include "bench/structure_advantage/operation_count.hpp"
+#include "methods/error.hpp"
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-int main(int argc, char** argv) try {
-  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CommandLine line(
-      "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by intervals, "
-      "as a band, or as any sparse matrix: iterations, linear systems, "
-      "seconds, operations of a factorisation. NAME_ratios.csv sets them against DMOC at equal N and at equal error of "
-      "the objective.",
-      "structure_advantage");
-  ExperimentOptions options;
-  options.solvers = {"ipopt", "interior_point"};
-  options.intervals = "64:1024";
-  options.name = "structure_advantage";
-  constexpr int rounds = 7;
-  options.repeats = rounds;
-  add_options(line, options);
-  std::vector<std::string> factorisations = factorisation_names();
-  line.option("--factorisation", factorisations, "how interior_point solves its linear systems")
-      .comma_separated()
-      .shows_default();
-  return run_program(line, argc, argv, [&] {
-    AdvantageRun run(options, factorisations, std::vector<std::string>(argv, argv + argc));
-    const int code = run.run();
-    fmt::print("structure_advantage: {}\n", run.summary());
-    return code;
-  });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+namespace dmocbench {
+
+namespace {
+
+const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
+
+struct Measured {
+  std::optional<double> smallest_seconds;
+  std::optional<double> per_iteration;
+  std::optional<double> linear_algebra_per_iteration;
+  std::optional<double> per_linear_system;
+  std::optional<double> operations;
+  std::optional<long long> half_bandwidth;
+  std::optional<double> objective_error;
+};
+
+class StructureAdvantage final : public Experiment {
+ public:
+  StructureAdvantage()
+      : Experiment(
+            {.name = "structure_advantage",
+             .description =
+                 "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by "
+                 "intervals, as a band, or as any sparse matrix: iterations, linear systems, seconds, operations of a "
+                 "factorisation. NAME_ratios.csv sets them against DMOC at equal N and at equal error of the "
+                 "objective.",
+             .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 7},
+             .takes_turns = true}) {}
+
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return {
+        {"factorisation", "", "how interior_point solves its linear systems",
+         from(&SolvedCase::the_case, &Case::variant)},
+        {"linear_systems", "", "linear systems of the solve", from(&SolvedCase::solution, &Solution::linear_systems)},
+        {"smallest_seconds", "s", "shortest of the rounds", of(measured_, &Measured::smallest_seconds)},
+        {"seconds_per_iteration", "s", "wall clock of the solve by iterations",
+         of(measured_, &Measured::per_iteration)},
+        {"linear_algebra_per_iteration", "s", "the same without evaluations",
+         of(measured_, &Measured::linear_algebra_per_iteration)},
+        {"seconds_per_linear_system", "s", "factorisation and substitution",
+         of(measured_, &Measured::per_linear_system)},
+        {"operations_per_interval", "", "multiplications and divisions of a factorisation",
+         of(measured_, &Measured::operations)},
+        {"elimination_operations_per_interval", "", "the same", of(measured_, &Measured::operations)},
+        {"half_bandwidth", "", "of the band", of(measured_, &Measured::half_bandwidth)},
+        {"objective_error", "", "of the objective, relative, against the indirect solution",
+         of(measured_, &Measured::objective_error)},
+    };
+  }
+
+  void add_options(CommandLine& line) override {
+    line.option("--factorisation", factorisations_, "how interior_point solves its linear systems")
+        .comma_separated()
+        .shows_default();
+  }
+
+  /// Solvers but ours have no factorisation to choose.
+  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    if (curve.front().solver != "interior_point") return curve;
+    std::vector<Case> cases;
+    for (const std::string& factorisation : all_factorisations) {
+      if (std::ranges::count(factorisations_, factorisation) == 0) continue;
+      for (const Case& of_curve : curve) cases.emplace_back(of_curve).variant = factorisation;
+    }
+    return cases;
+  }
+
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) const override {
+    if (the_case.variant == "banded") {
+      InteriorPointOptions choices;
+      choices.make_kkt_system = [](NonlinearProgram& program) {
+        return std::make_unique<interior_point::BandedKkt>(program);
+      };
+      return std::make_unique<InteriorPointSolver>(std::move(options), std::move(choices));
+    }
+    if (!the_case.variant.empty()) options.passed_on["factorisation"] = the_case.variant;
+    return make_solver(the_case.solver, options);
+  }
+
+  void check(const std::vector<Case>& cases) override {
+    for (const std::string& name : factorisations_) {
+      if (std::ranges::count(all_factorisations, name) > 0) continue;
+      throw Error(fmt::format("--factorisation takes {}, not {}", fmt::join(all_factorisations, ", "), name));
+    }
+    for (const Case& the_case : cases) static_cast<void>(solver_for(the_case, solver_options(options())));
+    reference_.emplace(options().out);
+  }
+
+  void complete(SolvedCase& solved) override {
+    measured_ = {};
+    const Solution& solution = solved.solution;
+    if (!is_solved(solution.status)) return;
+    measured_.smallest_seconds = solved.smallest_seconds;
+    if (const int iterations = solution.major_iterations.value_or(0); iterations > 0) {
+      measured_.per_iteration = solution.seconds / iterations;
+      measured_.linear_algebra_per_iteration = (solution.seconds - solution.evaluation_seconds) / iterations;
+    }
+    const int systems = solution.linear_systems.value_or(0);
+    if (solution.linear_seconds && systems > 0) measured_.per_linear_system = *solution.linear_seconds / systems;
+    const OperationCount count = count_operations(*solved.program, solution, solved.the_case.variant);
+    if (count.elimination) measured_.operations = *count.elimination / static_cast<double>(solved.the_case.intervals());
+    measured_.half_bandwidth = count.half_bandwidth;
+    if (!is_usable(solved) || !solved.trajectory) return;
+    try {
+      const double exact = reference_->near(*solved.the_case.problem, *solved.trajectory).cost();
+      measured_.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
+    } catch (const Error& error) {
+      solved.note(error.what());
+    }
+  }
+
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    write_file(prefix.string() + "_ratios.csv", advantage_ratios(table).csv());
+    metadata["repeats"] = options().repeats;
+    metadata["references"] = reference_->metadata();
+  }
+
+ private:
+  std::vector<std::string> factorisations_ = all_factorisations;
+  std::optional<IndirectReference> reference_;
+  Measured measured_;  // of the case that was solved last
+};
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  dmocbench::StructureAdvantage experiment;
+  return dmocbench::run_experiment(experiment, argc, argv);
 }

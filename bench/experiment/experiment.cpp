@@ -1,8 +1,10 @@
 #include "bench/experiment/experiment.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,7 +73,9 @@ class Run {
   int run() {
     prepare_folder(options_.out);
     listen_for_interrupt();
-    if (options_.jobs > 1) {
+    if (experiment_.card().takes_turns) {
+      solve_in_turn();
+    } else if (options_.jobs > 1) {
       solve_in_processes();
     } else {
       solve_part(0, cases_.size());
@@ -119,7 +123,7 @@ class Run {
   void solve_curve(const std::vector<Case>& curve, std::size_t first) {
     for (const std::size_t position : experiment_.solving_order(curve)) {
       if (interrupt_requested()) return;
-      SolvedCase solved = solve(curve[position]);
+      SolvedCase solved = solve(curve[position], options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
       experiment_.complete(solved);
       keep(row_of(columns_, solved), first + position);
@@ -127,16 +131,56 @@ class Run {
   }
 
   /// The solved case; without a start its row says so, and the run goes on.
-  SolvedCase solve(const Case& the_case) {
+  SolvedCase solve(const Case& the_case, int repeats) {
     try {
       const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
                         .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
       progress_.show(the_case.label());
-      return solve_case(the_case, start, experiment_.options_for(the_case, solver_options_), options_.repeats,
+      const SolverOptions options = experiment_.options_for(the_case, solver_options_);
+      return solve_case(the_case, start, *experiment_.solver_for(the_case, options), options.tolerance, repeats,
                         experiment_.card().polishes);
     } catch (const NoStart& reason) {
       return unsolved_case(the_case, reason.what());
     }
+  }
+
+  /// Grid after grid, the cases that differ in method, solver and variant only in turn.
+  void solve_in_turn() {
+    std::map<std::tuple<std::string, std::string, int, std::size_t>, std::vector<std::size_t>> grids;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      const Case& c = cases_[i];
+      grids[{c.problem->name(), c.tableau, c.stages, c.intervals()}].push_back(i);
+    }
+    for (const auto& [grid, numbers] : grids) {
+      if (!interrupt_requested()) solve_rounds(numbers);
+    }
+  }
+
+  /// Solves some cases in turn, round after round. If it is interrupted, none of them gets a row.
+  void solve_rounds(const std::vector<std::size_t>& numbers) {
+    std::vector<SolvedCase> first;
+    std::vector<std::vector<Solution>> rounds(numbers.size());
+    for (int round = 0; round < options_.repeats; ++round) {
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (round > 0 && !is_solved(first[i].solution.status)) continue;
+        SolvedCase solved = solve(cases_[numbers[i]], round == 0 ? 1 : solves_per_round(rounds[i].front()));
+        if (interrupt_requested()) return;
+        rounds[i].push_back(solved.solution);
+        if (round == 0) first.push_back(std::move(solved));
+      }
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      set_median_times(first[i], rounds[i]);
+      experiment_.complete(first[i]);
+      keep(row_of(columns_, first[i]), numbers[i]);
+    }
+  }
+
+  /// Short solves are repeated within a round, so that an interruption by something else is an outlier.
+  static int solves_per_round(const Solution& first) {
+    constexpr double seconds_of_a_round = 0.02;
+    constexpr double most = 40.0;
+    return static_cast<int>(std::clamp(seconds_of_a_round / first.seconds, 1.0, most));
   }
 
   /// The table on disk has every finished row, in the order of solving until the end.

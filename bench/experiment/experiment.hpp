@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct ExperimentCard {
   ExperimentOptions options;              ///< what is chosen unless the user chooses; then what is chosen
   bool tells_branches = true;             ///< rows tell their branch; to know it takes the solves of a common start
   bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
-  bool polishes = false;                  ///< solved cases are tightened by Newton steps (polish.hpp)
+  bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that what
+                             ///< else the machine does meets all of them alike
+  bool polishes = false;     ///< solved cases are tightened by Newton steps (polish.hpp)
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
@@ -45,6 +48,10 @@ class Experiment {
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
   /// The solver's options for one case; by default those of the command line.
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) { return common; }
+  /// The solver of a case with those options; by default the one of its name.
+  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) const {
+    return make_solver(the_case.solver, options);
+  }
   /// The motion that a case starts from; by default the one that --start names.
   [[nodiscard]] virtual Motion start_for(const Case& /*the_case*/, Motion chosen) const { return chosen; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.

@@ -1,6 +1,7 @@
 #include "bench/experiment/solve_case.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "methods/error.hpp"
@@ -17,22 +18,16 @@ namespace dmocbench {
 namespace {
 
 /// Solves several times from the same start; the answer is the first one's, the times are medians.
-Solution solve_repeatedly(const SolvedCase& solved, const Solver& solver, int repeats) {
-  Solution solution = solver.solve(*solved.program, solved.start);
-  std::vector<double> seconds{solution.seconds};
-  std::vector<double> evaluation_seconds{solution.evaluation_seconds};
-  std::vector<double> linear_seconds{solution.linear_seconds.value_or(0.0)};
-  for (int i = 1; i < repeats && is_solved(solution.status); ++i) {
-    const Solution again = solver.solve(*solved.program, solved.start);
-    if (again.status == Status::interrupted) break;
-    seconds.push_back(again.seconds);
-    evaluation_seconds.push_back(again.evaluation_seconds);
-    linear_seconds.push_back(again.linear_seconds.value_or(0.0));
+void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
+  std::vector<Solution> solutions{solver.solve(*solved.program, solved.start)};
+  solved.solution = solutions.front();
+  for (int i = 1; i < repeats && is_solved(solved.solution.status); ++i) {
+    solutions.push_back(solver.solve(*solved.program, solved.start));
+    if (solutions.back().status != Status::interrupted) continue;
+    solutions.pop_back();
+    break;
   }
-  solution.seconds = median(seconds);
-  solution.evaluation_seconds = median(evaluation_seconds);
-  if (solution.linear_seconds) solution.linear_seconds = median(linear_seconds);
-  return solution;
+  set_median_times(solved, solutions);
 }
 
 /// Judges a solution again by exact derivatives. Where the solver's derivatives denied its own word, that word counts
@@ -101,18 +96,36 @@ SolvedCase unsolved_case(const Case& the_case, const std::string& reason) {
   return result;
 }
 
+void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
+  const auto times = [&](const auto& time_of) {
+    std::vector<double> seconds;
+    std::ranges::transform(repeats, std::back_inserter(seconds), time_of);
+    return seconds;
+  };
+  const std::vector<double> seconds = times([](const Solution& s) { return s.seconds; });
+  solved.solution.seconds = median(seconds);
+  solved.smallest_seconds = std::ranges::min(seconds);
+  solved.solution.evaluation_seconds = median(times([](const Solution& s) { return s.evaluation_seconds; }));
+  if (!solved.solution.linear_seconds) return;
+  solved.solution.linear_seconds = median(times([](const Solution& s) { return s.linear_seconds.value_or(0.0); }));
+}
+
 SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                      bool polishes, const SolverMaker& make) {
+                      bool polishes) {
+  return solve_case(the_case, start, *make_solver(the_case.solver, options), options.tolerance, repeats, polishes);
+}
+
+SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
+                      bool polishes) {
   SolvedCase result{.the_case = the_case};
   const auto setup_start = Clock::now();
   result.program = the_case.transcribe();
   result.setup_seconds = seconds_since(setup_start);
   Transcription& program = *result.program;
   result.start = sample(program, start.motion);
-  const auto solver = make ? make(the_case, options) : make_solver(the_case.solver, options);
-  result.solution = solve_repeatedly(result, *solver, repeats);
+  solve_repeatedly(result, solver, repeats);
   Solution& solution = result.solution;
-  if (the_case.derivatives != "tape") judge_exactly(the_case, options.tolerance, solution);
+  if (the_case.derivatives != "tape") judge_exactly(the_case, tolerance, solution);
   if (polishes) result.polish_steps = polish(program, solution);
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
@@ -123,7 +136,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOpti
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
-  const std::string missed = describe_violation(*the_case.problem, program, solution, options.tolerance);
+  const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
   if (!missed.empty()) result.note(missed);
   return result;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/experiment/case.hpp"
 #include "bench/experiment/column.hpp"
@@ -23,7 +23,8 @@ struct SolvedCase {
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
   std::string branch = {};  ///< "same" or "other" than that of the start; empty if nobody can tell
   std::optional<double> setup_seconds = std::nullopt;
-  std::optional<int> polish_steps = std::nullopt;  ///< none if the answer was not to be polished
+  std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
+  std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
 
   /// Adds a sentence to the message of the row.
   void note(const std::string& sentence) { solution.message += " " + sentence; }
@@ -39,16 +40,18 @@ struct Start {
   std::optional<Motion> branch;
 };
 
-/// Makes the solver of a case.
-using SolverMaker = std::function<std::unique_ptr<Solver>(const Case& of, const SolverOptions& options)>;
-
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
 /// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
 /// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
-/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts. `make`
-/// makes the solver instead of `make_solver` by its name.
+/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                                    bool polishes = false, const SolverMaker& make = {});
+                                    bool polishes = false);
+/// The same by another solver than the one of the case's name.
+[[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
+                                    int repeats, bool polishes);
+
+/// Replaces the times of a solve by the medians of several.
+void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 
 /// A case that could not start: status "not run", the reason as its message.
 [[nodiscard]] SolvedCase unsolved_case(const Case& the_case, const std::string& reason);
