@@ -81,6 +81,7 @@ Certificate certificate_of(const Problem& problem, const Table& table) {
     }
   }
   std::vector<double> costs;
+  costs.reserve(result.objectives.size() + 2);
   for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
   if (result.replay_objective) costs.push_back(*result.replay_objective);
   if (result.indirect_objective) costs.push_back(*result.indirect_objective);

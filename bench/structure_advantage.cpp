@@ -86,16 +86,17 @@ class StructureAdvantage final : public Experiment {
     return cases;
   }
 
-  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) const override {
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, const SolverOptions& options) const override {
     if (the_case.variant == "banded") {
       InteriorPointOptions choices;
       choices.make_kkt_system = [](NonlinearProgram& program) {
         return std::make_unique<interior_point::BandedKkt>(program);
       };
-      return std::make_unique<InteriorPointSolver>(std::move(options), std::move(choices));
+      return std::make_unique<InteriorPointSolver>(options, std::move(choices));
     }
-    if (!the_case.variant.empty()) options.passed_on["factorisation"] = the_case.variant;
-    return make_solver(the_case.solver, options);
+    SolverOptions chosen = options;
+    if (!the_case.variant.empty()) chosen.passed_on["factorisation"] = the_case.variant;
+    return make_solver(the_case.solver, chosen);
   }
 
   void check(const std::vector<Case>& cases) override {

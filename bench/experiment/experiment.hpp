@@ -49,7 +49,7 @@ class Experiment {
   /// The solver's options for one case; by default those of the command line.
   [[nodiscard]] virtual SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) { return common; }
   /// The solver of a case with those options; by default the one of its name.
-  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) const {
+  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, const SolverOptions& options) const {
     return make_solver(the_case.solver, options);
   }
   /// The motion that a case starts from; by default the one that --start names.

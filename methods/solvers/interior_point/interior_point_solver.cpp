@@ -202,9 +202,9 @@ class InteriorPointRun {
   }
 
   /// Accepts the point at `length` along a step if filter and decrease allow it, A-5.2 to. Differences
-  /// within rounding count as none. `derivative` and `reference_length` are those of the Newton step, also where its
+  /// within rounding count as none. `derivative` and `newton_length` are those of the Newton step, also where its
   /// correction is tried.
-  [[nodiscard]] bool try_step(const Primal& step, double length, double derivative, double reference_length) {
+  [[nodiscard]] bool try_step(const Primal& step, double length, double derivative, double newton_length) {
     if (!evaluate_trial(step, length)) return false;
     const double theta = trial_values_.theta;
     constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
@@ -215,11 +215,11 @@ class InteriorPointRun {
     const double change = trial_values_.phi - values_.phi;
     const bool is_nearer = theta <= (1.0 - Filter::margin) * values_.theta;  // (18a)
     const bool is_rounding = theta <= rounding_of_theta_ && values_.theta <= rounding_of_theta_;
-    const bool is_descent = derivative < 0.0 && reference_length * std::pow(-derivative, s_phi) >
+    const bool is_descent = derivative < 0.0 && newton_length * std::pow(-derivative, s_phi) >
                                                     delta * std::pow(values_.theta, s_theta);  // (19)
     if (values_.theta <= theta_min_ && (is_descent || is_rounding)) {
       // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
-      const bool is_decrease = change <= eta_phi * reference_length * derivative + rounding;  // (20)
+      const bool is_decrease = change <= eta_phi * newton_length * derivative + rounding;  // (20)
       if (!is_decrease && !(is_rounding && is_nearer)) return false;
     } else {
       const bool is_lower = change <= -Filter::margin * values_.theta + rounding;  // (18b)
@@ -232,18 +232,19 @@ class InteriorPointRun {
 
   /// Where the violation grows from the start of a step, by the constraints' curvature, their residuals at the trial
   /// point join the right-hand side, A-5.5 to. Where it grows a lot the step is too long for a correction.
-  [[nodiscard]] bool try_second_order_correction(double length, double derivative) {
+  [[nodiscard]] bool try_second_order_correction(double newton_length, double derivative) {
     double before = values_.theta;
-    if (!(trial_values_.theta >= before && trial_values_.theta <= correctable * before)) return false;
-    Eigen::VectorXd residuals = length * values_.constraints + trial_values_.constraints;  // (27)
+    const bool is_correctable = trial_values_.theta >= before && trial_values_.theta <= correctable * before;
+    if (!is_correctable) return false;
+    Eigen::VectorXd residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
     Iterate corrected;
     for (int p = 0; p < p_max; ++p) {
       if (!residuals.allFinite() || !newton_.correct(at_, mu_, gradient_, residuals, corrected)) return false;
-      const double corrected_length = program_.bounds().fraction_to_boundary(at_, corrected, tau());
-      if (try_step(corrected, corrected_length, derivative, length)) return true;
+      const double alpha = program_.bounds().fraction_to_boundary(at_, corrected, tau());
+      if (try_step(corrected, alpha, derivative, newton_length)) return true;
       if (!(trial_values_.theta <= kappa_soc * before)) return false;
       before = trial_values_.theta;
-      residuals = corrected_length * residuals + trial_values_.constraints;
+      residuals = alpha * residuals + trial_values_.constraints;
     }
     return false;
   }
@@ -383,8 +384,10 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
   }
   interior_point::InteriorPointRun run(program, **kkt, options());
   std::optional<Status> end = run.begin(start);
-  while (!end) end = run.iterate();
-  return run.solution(*end);
+  for (;;) {
+    if (end) return run.solution(*end);
+    end = run.iterate();
+  }
 }
 
 }  // namespace dmocbench
