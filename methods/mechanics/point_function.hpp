@@ -30,7 +30,7 @@ class PointFunction {
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result);
 
-  void evaluate(const MotionPoint& point, double t, Eigen::Ref<Eigen::VectorXd> result) {
+  void evaluate(const MotionPoint& point, double t, const Eigen::Ref<Eigen::VectorXd>& result) {
     evaluate(point.q, point.v, point.u, t, result);
   }
 
