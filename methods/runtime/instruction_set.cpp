@@ -14,10 +14,11 @@ constexpr std::array every_set{InstructionSet::baseline, InstructionSet::avx2, I
 /// How many of `every_set` this processor can run: what the flags of `dmocbench_kernel` allow the compiler to use.
 std::size_t count_of_sets() {
 #ifdef DMOCBENCH_X86_KERNELS
-  const auto has = [](int supported) { return supported != 0; };
-  if (!has(__builtin_cpu_supports("avx2")) || !has(__builtin_cpu_supports("fma"))) return 1;
-  const bool has_avx512 = has(__builtin_cpu_supports("avx512f")) && has(__builtin_cpu_supports("avx512dq")) &&
-                          has(__builtin_cpu_supports("avx512cd")) && has(__builtin_cpu_supports("avx512bw"));
+  // clang says bool, GCC int.
+  const auto all = [](auto... supported) { return (static_cast<bool>(supported) && ...); };
+  if (!all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"))) return 1;
+  const bool has_avx512 = all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512dq"),
+                              __builtin_cpu_supports("avx512cd"), __builtin_cpu_supports("avx512bw"));
   return has_avx512 ? 3 : 2;
 #else
   return 1;
