@@ -42,6 +42,7 @@ GroupMemory::GroupMemory(const Shape& shape, std::size_t begin, std::size_t end,
   }};
   std::size_t lines = 0;
   for (const auto& [first, count] : blocks) lines += static_cast<std::size_t>(count);
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
   blocks_ = std::make_unique_for_overwrite<Line[]>(lines);
   Line* next = blocks_.get();
   for (const auto& [first, count] : blocks) {
@@ -51,6 +52,7 @@ GroupMemory::GroupMemory(const Shape& shape, std::size_t begin, std::size_t end,
 }
 
 void GroupMemory::make_workspace(std::size_t numbers) {
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
   workspace_ = std::make_unique_for_overwrite<Line[]>(numbers / lane_count);
   group_.workspace = workspace_[0].numbers.data();
 }
