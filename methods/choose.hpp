@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,11 +11,12 @@
 
 namespace dmocbench {
 
-/// The names of all entries of a table, in its order; `name_of(entry)` is the name of one.
+/// The names of all entries of a table, in its order; `name_of` gives the name of one, or is the member that holds it.
 template <class Table, class NameOf>
 [[nodiscard]] std::vector<std::string> names_of(const Table& table, const NameOf& name_of) {
   std::vector<std::string> names;
-  for (const auto& entry : table) names.emplace_back(name_of(entry));
+  names.reserve(std::size(table));
+  for (const auto& entry : table) names.emplace_back(std::invoke(name_of, entry));
   return names;
 }
 
@@ -25,7 +28,7 @@ template <class Table, class NameOf>
   std::string known;
   std::size_t position = 0;
   for (const auto& entry : table) {
-    const std::string candidate(name_of(entry));
+    const std::string candidate(std::invoke(name_of, entry));
     if (candidate == name) return position;
     known += (position++ == 0 ? "; choose one of " : ", ") + candidate;
   }

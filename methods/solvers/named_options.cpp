@@ -35,6 +35,7 @@ void read_named_options(std::string_view solver, const std::map<std::string, std
     const auto option = std::ranges::find(options, name, &NamedOption::name);
     if (option == options.end()) {
       std::vector<std::string_view> known;
+      known.reserve(options.size());
       for (const NamedOption& each : options) known.push_back(each.name);
       throw Error(fmt::format("the solver {} has no option {}; it has {}", solver, name, listed(known, "and")));
     }

@@ -1,9 +1,6 @@
 #include <array>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
 #include "methods/solvers/nlopt_solver.hpp"
@@ -34,17 +31,10 @@ constexpr std::array registry{
 
 }  // namespace
 
-std::vector<std::string> solver_names() {
-  std::vector<std::string> names;
-  for (const Entry& entry : registry) names.emplace_back(entry.name);
-  return names;
-}
+std::vector<std::string> solver_names() { return names_of(registry, &Entry::name); }
 
 std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options) {
-  for (const Entry& entry : registry) {
-    if (entry.name == name) return entry.make(options);
-  }
-  throw Error(fmt::format("there is no solver \"{}\"; choose one of {}", name, fmt::join(solver_names(), ", ")));
+  return one_of(registry, &Entry::name, name, "there is no solver").make(options);
 }
 
 }  // namespace dmocbench
