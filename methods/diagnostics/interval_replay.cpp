@@ -29,11 +29,7 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
   Eigen::Map<Eigen::VectorXd>(state.data(), n) = trajectory.q.row(k);
   Eigen::Map<Eigen::VectorXd>(state.data() + n, n) = trajectory.v.row(k);
   const auto equations = [&](const std::vector<double>& x, std::vector<double>& rate, double t) {
-    const Eigen::Map<const Eigen::VectorXd> q(x.data(), n);
-    const Eigen::Map<const Eigen::VectorXd> v(x.data() + n, n);
-    Eigen::Map<Eigen::VectorXd>(rate.data(), n) = v;
-    Eigen::Map<Eigen::VectorXd>(rate.data() + n, n) =
-        motion.acceleration(q, v, control_on_interval(trajectory, k, t), t);
+    motion.write_rate(x, control_on_interval(trajectory, k, t), t, rate);
   };
   const double left = trajectory.node_times[k];
   const double right = trajectory.node_times[k + 1];

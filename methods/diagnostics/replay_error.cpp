@@ -64,8 +64,7 @@ ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, d
       const Eigen::Map<const Eigen::VectorXd> q(x.data(), n);
       const Eigen::Map<const Eigen::VectorXd> v(x.data() + n, n);
       const Eigen::VectorXd u = control_on_interval(trajectory, k, t);
-      Eigen::Map<Eigen::VectorXd>(derivative.data(), n) = v;
-      Eigen::Map<Eigen::VectorXd>(derivative.data() + n, n) = motion.acceleration(q, v, u, t);
+      motion.write_rate(x, u, t, derivative);
       running_cost.evaluate(q, v, u, t, cost_rate);
       derivative.back() = cost_rate[0];
     };

@@ -28,4 +28,12 @@ Eigen::VectorXd EquationsOfMotion::acceleration(const Eigen::Ref<const Eigen::Ve
   return *acceleration;
 }
 
+void EquationsOfMotion::write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u,
+                                   double t, std::vector<double>& rate) {
+  const Eigen::Map<const Eigen::VectorXd> q(state.data(), n_);
+  const Eigen::Map<const Eigen::VectorXd> v(state.data() + n_, n_);
+  Eigen::Map<Eigen::VectorXd>(rate.data(), n_) = v;
+  Eigen::Map<Eigen::VectorXd>(rate.data() + n_, n_) = acceleration(q, v, u, t);
+}
+
 }  // namespace dmocbench

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "methods/mechanics/point_function.hpp"
@@ -17,6 +19,12 @@ class EquationsOfMotion {
   [[nodiscard]] Eigen::VectorXd acceleration(const Eigen::Ref<const Eigen::VectorXd>& q,
                                              const Eigen::Ref<const Eigen::VectorXd>& v,
                                              const Eigen::Ref<const Eigen::VectorXd>& u, double t);
+
+  /// The same as a system of first order: the first n entries of `rate` become v, the next n become q̈, at the state
+  /// whose first entries are (q, v). Entries behind these are left alone, so that an integrator may carry more along.
+  /// Throws as `acceleration`.
+  void write_rate(const std::vector<double>& state, const Eigen::Ref<const Eigen::VectorXd>& u, double t,
+                  std::vector<double>& rate);
 
  private:
   Eigen::Index n_;
