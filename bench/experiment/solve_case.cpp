@@ -30,12 +30,15 @@ void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
   set_median_times(solved, solutions);
 }
 
-/// Judges a solution again by exact derivatives. Where the solver's derivatives denied its own word, that word counts
-/// again.
-void judge_exactly(Case the_case, double tolerance, Solution& solution) {
+/// Settles an answer that needs it (`settle`). If the solver's derivatives are not exact the answer is judged again by
+/// exact ones first; where the solver's own denied its word, that word counts again.
+int settle_exactly(Case the_case, Transcription& program, double tolerance, Solution& solution) {
+  if (the_case.derivatives == "tape") return settle(program, tolerance, solution);
   the_case.derivatives = "tape";
   if (solution.status == Status::not_confirmed) solution.status = Status::solved;
-  confirm(*the_case.transcribe(), tolerance, solution);
+  const auto exact = the_case.transcribe();
+  confirm(*exact, tolerance, solution);
+  return settle(*exact, tolerance, solution);
 }
 
 /// A number of the program's.
@@ -125,8 +128,8 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   result.start = sample(program, start.motion);
   solve_repeatedly(result, solver, repeats);
   Solution& solution = result.solution;
-  if (the_case.derivatives != "tape") judge_exactly(the_case, tolerance, solution);
-  if (polishes) result.polish_steps = polish(program, solution);
+  const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
+  if (polishes) result.polish_steps = settling_steps + polish(program, solution);
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
     try {

@@ -39,6 +39,9 @@ struct Solution {
   // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
   std::optional<double> kkt_residual;          ///< none if the solver never started
   std::optional<double> constraint_violation;  ///< none if the solver never started
+  /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none where it was not asked,
+  /// or cannot be told.
+  std::optional<double> correction;
 
   // Counts; none where a solver does not tell them.
   std::optional<int> major_iterations;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "methods/program/kkt_residual.hpp"
 #include "methods/program/least_squares_multipliers.hpp"
+#include "methods/solvers/newton_correction.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
@@ -39,6 +42,28 @@ double scaled_residual(const NonlinearProgram& program, double tolerance, const 
                                   : std::max(stationarity, violation);
 }
 
+namespace {
+
+/// Takes "solved" back from an answer that a Newton step would move.
+void require_settled(NonlinearProgram& program, Solution& solution) {
+  const auto correction = NewtonCorrections(program).at(solution.primal, solution.multipliers);
+  if (!correction) return;
+  solution.correction = correction->length;
+  if (correction->length <= settled) return;
+  if (!std::isfinite(correction->length)) {
+    solution.status = Status::evaluation_failed;
+    solution.message = "A second derivative is not a number at the answer.";
+    return;
+  }
+  solution.status = Status::not_confirmed;
+  solution.message = fmt::format(
+      "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size; a "
+      "cost scaled to about 1, or a smaller tolerance, settles it.",
+      correction->length);
+}
+
+}  // namespace
+
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
   if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) {
     if (!is_solved(solution.status)) return;
@@ -51,6 +76,7 @@ void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
   if (!claims_success) return;
   solution.status = judged(solution.status, scaled_residual(program, tolerance, solution));
   solution.message = sentence_of(solution.status);
+  if (is_solved(solution.status)) require_settled(program, solution);
 }
 
 }  // namespace dmocbench

@@ -22,6 +22,10 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 
 /// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
 /// without a point, unless it claims to be solved. The message says what the judgement was.
+///
+/// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
+/// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish` may
+/// settle it. Where the step cannot be computed the residuals alone decide.
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 
 /// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
@@ -29,5 +33,8 @@ inline constexpr double confirmation_factor = 10.0;
 
 /// How much larger the residual of an acceptable solution may be than that of a solved one.
 inline constexpr double acceptable_factor = 100.0;
+
+/// The largest Newton step, relative to the answer, at which an answer is settled.
+inline constexpr double settled = 1e-4;
 
 }  // namespace dmocbench

@@ -5,29 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "methods/solvers/confirm.hpp"
-#include "methods/solvers/linearisation.hpp"
-#include "methods/solvers/symmetric_factorisation.hpp"
+#include "methods/solvers/newton_correction.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-bool has_only_equalities(const NonlinearProgram& program) {
-  return (program.constraint_lower().array() == program.constraint_upper().array()).all();
-}
-
-/// True if no free variable is at a bound, where the KKT system would differ.
-bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& x) {
-  constexpr double margin = 1e-6;
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const double lower = program.variable_lower()[j];
-    const double upper = program.variable_upper()[j];
-    const bool is_inside = x[j] > lower + margin && x[j] < upper - margin;
-    if (lower != upper && !is_inside) return false;
-  }
-  return true;
-}
 
 /// The larger of both residuals; infinity where one is not finite.
 double residual_of(const Solution& solution) {
@@ -43,29 +28,21 @@ bool is_rounding(const NonlinearProgram& program, const Solution& solution) {
   return scaled_residual(program, nothing, solution) <= 1.0;
 }
 
-/// The solution after one Newton step; with an infinite residual if there is none.
-Solution stepped(NonlinearProgram& program, SymmetricFactorisation& factorisation, const Solution& solution) {
+bool is_unsettled(const Solution& solution) {
+  return solution.status == Status::not_confirmed && solution.correction.value_or(0.0) > settled;
+}
+
+bool has_own_multipliers(const NonlinearProgram& program, const Solution& solution) {
+  return !solution.multipliers_are_estimated &&
+         static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count();
+}
+
+/// The solution after a Newton step that stays within the bounds.
+Solution stepped(NonlinearProgram& program, const NewtonCorrection& correction, const Solution& solution) {
   Solution next = solution;
-  Linearisation at = values_at(program, solution.primal);
-  differentiate(program, at);
-  const std::vector<bool> free = free_variables(program);
-  const Eigen::Index n = at.point.size();
-  const Eigen::Index m = at.constraints.size();
-  const Eigen::SparseMatrix<double> matrix =
-      kkt_matrix(hessian_at(program, at.point, solution.multipliers), 0.0, at.jacobian, free, equality_rows(program));
-  Eigen::VectorXd right_hand_side(n + m);
-  right_hand_side << -(at.gradient + at.jacobian.transpose() * solution.multipliers),
-      program.constraint_lower() - at.constraints;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!free[static_cast<std::size_t>(j)]) right_hand_side[j] = 0.0;
-  }
-  if (!factorisation.factorise(matrix)) {
-    next.kkt_residual = unbounded;
-    return next;
-  }
-  const Eigen::VectorXd step = factorisation.solve(std::move(right_hand_side));
-  next.primal += step.head(n);
-  next.multipliers += step.tail(m);
+  next.primal =
+      (solution.primal + correction.primal).cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper());
+  next.multipliers += correction.multipliers;
   judge_residuals(program, next);
   return next;
 }
@@ -73,21 +50,39 @@ Solution stepped(NonlinearProgram& program, SymmetricFactorisation& factorisatio
 }  // namespace
 
 int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
-  const bool fits = is_solved(solution.status) && !solution.multipliers_are_estimated && has_only_equalities(program) &&
-                    static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count() &&
-                    is_away_from_bounds(program, solution.primal);
-  if (!fits) return 0;
-  SymmetricFactorisation factorisation;
+  if (!is_solved(solution.status) || !has_own_multipliers(program, solution)) return 0;
+  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   int steps = 0;
   bool is_better = true;
   while (is_better && steps < most_steps) {
-    Solution next = stepped(program, factorisation, solution);
+    const auto correction = corrections.at(solution.primal, solution.multipliers);
+    if (!correction) break;
+    Solution next = stepped(program, *correction, solution);
     is_better = residual_of(next) < residual_of(solution);
     if (!is_better && !is_rounding(program, next)) break;
     solution = std::move(next);
     ++steps;
   }
   return steps;
+}
+
+int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
+  if (!is_unsettled(solution) || !has_own_multipliers(program, solution)) return 0;
+  NewtonCorrections corrections(program);
+  Solution next = solution;
+  for (int steps = 0; steps <= most_steps; ++steps) {
+    next.status = Status::solved;
+    confirm(program, tolerance, next);
+    if (is_solved(next.status)) {
+      next.message += fmt::format(" It took {} Newton steps behind the solver to settle the answer.", steps);
+      solution = std::move(next);
+      return steps;
+    }
+    const auto correction = corrections.at(next.primal, next.multipliers);
+    if (!correction) break;
+    next = stepped(program, *correction, next);
+  }
+  return 0;
 }
 
 }  // namespace dmocbench

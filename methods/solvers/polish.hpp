@@ -5,14 +5,18 @@
 
 namespace dmocbench {
 
-/// Tightens a solution by Newton steps on the Karush-Kuhn-Tucker system (H, Aᵀ; A, 0), far below the tolerance that the
-/// solver was given. All constraints must be equalities, and the free variables away from their bounds.
+/// Tightens a solution by Newton steps (`NewtonCorrections`), far below the tolerance that the solver was given.
 ///
 /// A step is kept if it lowers the larger of stationarity and violation. The first one that does not ends the polish,
 /// as `most_steps` do; it is still kept if all that it leaves is rounding (`rounding_floor`), because residuals of the
 /// same size may hide a smooth error far larger than what rounding leaves of the multipliers. Objective, residuals and
-/// multipliers of `solution` become those of the polished point. Returns the number of steps kept; 0 for other
-/// programs, or if the solution is not solved or has no multipliers of its own.
+/// multipliers of `solution` become those of the polished point. Returns the number of steps kept; 0 if the solution is
+/// not solved, has no multipliers of its own, or its Newton step cannot be computed.
 int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
+
+/// Gives an answer that was not confirmed because a Newton step would still move it (`confirm`) the steps that it
+/// lacks. It becomes solved if a further step would not move it and its residuals are confirmed at this tolerance, and
+/// its message says how many steps it took; otherwise `solution` stays as it is. Returns the number of steps kept.
+int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps = 10);
 
 }  // namespace dmocbench

@@ -6,8 +6,9 @@
 
 namespace dmocbench::interior_point {
 
-SparseKkt::SparseKkt(const NonlinearProgram& program, Order order)
+SparseKkt::SparseKkt(const NonlinearProgram& program, Order order, Inertia inertia)
     : program_(program),
+      inertia_(inertia),
       is_free_(free_variables(program)),
       factorisation_(order == Order::found ? std::vector<int>{} : dissection_order(program)) {}
 
@@ -40,7 +41,8 @@ FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const KktRightHand
   const auto& [primal_step, multiplier_step] = step;
   if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return FactorisationStatus::singular;
   if (!factorisation_.factorise(lower_triangle(matrix))) return FactorisationStatus::singular;
-  if (factorisation_.negative_eigenvalues() != rows.size()) return FactorisationStatus::wrong_inertia;
+  const bool is_minimum = factorisation_.negative_eigenvalues() == rows.size();
+  if (!is_minimum && inertia_ == Inertia::minimum) return FactorisationStatus::wrong_inertia;
   Eigen::VectorXd negated(slope.size() + rows.size());
   negated << -slope, -rows;
   for (Eigen::Index i = 0; i < slope.size(); ++i) {

@@ -20,7 +20,12 @@ class SparseKkt final : public KktSystem {
     along_the_horizon,  ///< by dissection (dissection_order.hpp), if the program tells an interval structure
   };
 
-  explicit SparseKkt(const NonlinearProgram& program, Order order = Order::found);
+  enum class Inertia : std::uint8_t {
+    minimum,  ///< the step must lead to a minimum along the constraints; otherwise `wrong_inertia`
+    any,      ///< the step is wanted whatever the point is that it leads to
+  };
+
+  explicit SparseKkt(const NonlinearProgram& program, Order order = Order::found, Inertia inertia = Inertia::minimum);
 
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
@@ -32,6 +37,7 @@ class SparseKkt final : public KktSystem {
   [[nodiscard]] Eigen::SparseMatrix<double> lower_triangle(const KktMatrix& matrix) const;
 
   const NonlinearProgram& program_;
+  Inertia inertia_;
   std::vector<bool> is_free_;
   SymmetricFactorisation factorisation_;
 };

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/interior_point/kkt_system.hpp"
+
+namespace dmocbench {
+
+/// A Newton step from a point near an optimum towards it.
+struct NewtonCorrection {
+  Eigen::VectorXd primal;       ///< δξ, variable_count() entries
+  Eigen::VectorXd multipliers;  ///< δλ, constraint_count() entries
+  /// How far it moves, see `NewtonCorrections`.
+  double length = 0.0;
+};
+
+/// How far answers of a program are from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
+/// order: what residuals permit in the answer, which residuals alone do not tell. Where the cost is flat, or a step h
+/// is small, residuals at the tolerance may leave an unknown wrong in its second digit.
+///
+/// The step solves the linearised conditions. A bound that the gradient points to takes up the gradient with its
+/// multiplier, and the linearised complementarity decides whether the unknown moves to the bound; an inequality is
+/// treated alike with its multiplier. `length` is the largest of
+///
+///   max |δξ_j| / max |ξ_j| over the unknowns of one run of the interval structure (over all unknowns without one),
+///   |∇φ δξ| / max(1, |φ|),
+///
+/// where a run counts as at least `smallest_share` of the largest unknown, and φ is scaled as the solver sees it.
+class NewtonCorrections {
+ public:
+  enum class Factorisation : std::uint8_t {
+    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
+    sparse,        ///< with pivoting: slower, and the last digits are better
+  };
+
+  /// The program must outlive this.
+  explicit NewtonCorrections(NonlinearProgram& program, Factorisation factorisation = Factorisation::by_intervals);
+  ~NewtonCorrections();
+  NewtonCorrections(const NewtonCorrections&) = delete;
+  NewtonCorrections& operator=(const NewtonCorrections&) = delete;
+  NewtonCorrections(NewtonCorrections&&) = delete;
+  NewtonCorrections& operator=(NewtonCorrections&&) = delete;
+
+  /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
+  /// length where a derivative is not finite; none where the matrix is singular.
+  [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+
+  static constexpr double smallest_share = 1e-8;
+
+ private:
+  [[nodiscard]] double length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
+                                 const Eigen::VectorXd& gradient);
+
+  NonlinearProgram& program_;
+  std::unique_ptr<interior_point::KktSystem> system_;
+};
+
+}  // namespace dmocbench
