@@ -11,7 +11,6 @@
 
 #include <xsimd/xsimd.hpp>
 
-#include "methods/expression/instruction_code.hpp"
 #include "methods/expression/operation.hpp"
 
 namespace dmocbench {

@@ -101,6 +101,7 @@ TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_
     list.append(jacobian(*generator, point.q));
   }
   schedule_ = Schedule(list.formulas());
+  tape_ = Tape(schedule_);
   trace_ends(problem);
 }
 
@@ -114,6 +115,22 @@ void TracedProblem::trace_ends(const Problem& problem) {
   list.append(conditions);
   list.append(problem.final_cost(last));
   ends_ = Schedule(list.formulas());
+}
+
+Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
+  Eigen::MatrixXd inputs(times.size(), 2 * n_ + m_ + 1);
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    const MotionPoint& point = points[static_cast<std::size_t>(i)];
+    inputs.row(i) << point.q.transpose(), point.v.transpose(), point.u.transpose(), times[i];
+  }
+  Eigen::MatrixXd values(times.size(), static_cast<Eigen::Index>(tape_.output_count()));
+  std::vector<Tape::Input> columns;
+  std::vector<double*> results;
+  for (const auto& column : inputs.colwise()) columns.push_back({column.data(), false});
+  for (auto column : values.colwise()) results.push_back(column.data());
+  Tape::Workspace workspace(tape_);
+  tape_.evaluate(points.size(), columns, results, workspace);
+  return values;
 }
 
 TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {

@@ -97,7 +97,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   const bool has_second = layout.node_state() != NodeState::configuration;
   const Eigen::Index node_size = has_second ? 2 * n : n;
 
-  const Eigen::MatrixXd adjoint = evaluate_columns(transcription.functions().node_adjoint, layout.intervals(),
+  const Eigen::MatrixXd adjoint = evaluate_columns(transcription.functions().adjoint, layout.intervals(),
                                                    transcription.bind(primal, multipliers, 1.0));  // N × 2 node_size
   Eigen::MatrixXd at_nodes(intervals + 1, node_size);
   at_nodes.topRows(intervals) = adjoint.leftCols(node_size);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/legendre_transform.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
@@ -110,10 +109,12 @@ void bound_path_rows(BoundsWriter& rows, const ProblemBounds& bounds, Eigen::Ind
 }
 
 /// The momentum of an end: fixed where the end is clamped, free otherwise.
-Bounds end_momentum(bool clamped, const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t,
-                    LegendreTransform& legendre, const Problem& problem, const char* where) {
-  if (!clamped) return Bounds::none(q.size());
-  const Eigen::VectorXd momentum = legendre.momentum(q, v, t);
+Bounds end_momentum(bool clamped, const EndBounds& end, double t, const TracedProblem& traced, const Problem& problem,
+                    const char* where) {
+  const Eigen::Index n = traced.configuration_size();
+  if (!clamped) return Bounds::none(n);
+  const MotionPoint point{end.q.lower, end.v.lower, Eigen::VectorXd::Zero(traced.control_size())};
+  const Eigen::VectorXd momentum = traced.table({&point, 1}, Eigen::VectorXd::Constant(1, t)).row(0).head(n);
   if (!momentum.allFinite()) throw Error(problem.name() + ": the momentum at the " + where + " is not finite");
   return Bounds::fixed(momentum);
 }
@@ -145,11 +146,8 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
   BoundsWriter variables(result.variables, layout);
   BoundsWriter rows(result.rows, layout);
-  LegendreTransform legendre(traced);
-  const Bounds first_momentum =
-      end_momentum(ends.first_clamped, bounds.first.q.lower, bounds.first.v.lower, 0.0, legendre, problem, "start");
-  const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last.q.lower, bounds.last.v.lower,
-                                            problem.horizon(), legendre, problem, "end");
+  const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
+  const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, problem.horizon(), traced, problem, "end");
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t head = layout.configuration_column(i);
     variables.set_series(head, last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
