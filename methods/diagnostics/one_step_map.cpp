@@ -30,12 +30,11 @@ struct OneStepMap<Scalar>::Formulas {
     residual.resize(n + trace.stage_equations.size());
     residual << trace.left_momentum - p_0, trace.stage_equations;
     append(reading, trace.right_momentum);
-    ExpressionVector impulse(n);
-    for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-      const Expression weight = local.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-      impulse += weight * problem.at(trace.stages[i]).control_force;
-    }
-    append(reading, impulse);
+    // The impulse is the virtual work along a translation, which moves every stage as it moves q_0.
+    std::vector<std::vector<ConjugatePair>> pairs;
+    for (const ControlledState& stage : trace.stages)
+      pairs.push_back({{local.left_q, problem.at(stage).control_force}});
+    append(reading, variation(local.left_q, pairs, tableau.b, local.h));
     const ExpressionVector w = input_vector(static_cast<std::size_t>(n), unknowns);
     append(derivatives, dmocbench::jacobian(residual, w));
     append(derivatives, dmocbench::jacobian(residual, local.left_q));
