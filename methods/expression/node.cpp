@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <bit>
+#include <memory>
 
 #include "methods/error.hpp"
 #include "methods/expression/expression.hpp"
@@ -35,25 +36,16 @@ std::vector<Node*> reachable_nodes(std::span<const Expression> formulas) {
     nodes.push_back(node);
   };
   for (const Expression& formula : formulas) add(formula.node());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // NOLINT(modernize-loop-convert): the list grows meanwhile
     for (Node* operand : nodes[i]->key().operands) add(operand);
   }
   return nodes;
 }
 
-struct NodeTable::Owner {
-  NodeTable* table = new NodeTable;
-  Owner() = default;
-  Owner(const Owner&) = delete;
-  Owner& operator=(const Owner&) = delete;
-  Owner(Owner&&) = delete;
-  Owner& operator=(Owner&&) = delete;
-  ~Owner() { table->orphan(); }
-};
-
 NodeTable& NodeTable::of_this_thread() {
-  thread_local const Owner owner;
-  return *owner.table;
+  constexpr auto orphan = [](NodeTable* table) noexcept { table->orphan(); };
+  thread_local const std::unique_ptr<NodeTable, decltype(orphan)> table(new NodeTable, orphan);
+  return *table;
 }
 
 NodeTable::NodeTable() : chains_(1024), zero_(find_or_create({})) { zero_->gain_reader(); }

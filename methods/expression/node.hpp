@@ -87,7 +87,6 @@ class NodeTable {
 
  private:
   friend class Node;
-  struct Owner;
 
   NodeTable();
   /// The thread has ended: the table is destroyed now, or together with its last node.

@@ -57,9 +57,9 @@ class Writer {
 
   /// How a node is computed: by its own operation, or by a shorter one if an operand has no other reader.
   struct Form {
-    Operation operation;
-    std::array<Node*, 2> operands;
-    double value;
+    Operation operation = Operation::constant;
+    std::array<Node*, 2> operands{};
+    double value = 0.0;
     bool has_constant_left = false;  // `value` stands for the left operand
   };
 

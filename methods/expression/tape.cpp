@@ -128,6 +128,7 @@ std::vector<std::uint32_t> Tape::place_values(const Schedule& schedule, const st
 
 Tape::Workspace::Workspace(const Tape& tape)
     : serial_(tape.serial_),
+      // NOLINTNEXTLINE(*-avoid-c-arrays)
       memory_(std::make_unique_for_overwrite<Series[]>(tape.first_output() + tape.slot_count_)),
       series_(tape.first_output() + tape.output_count_ + tape.slot_count_) {
   Series* next = memory_.get();

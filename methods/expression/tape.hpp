@@ -51,8 +51,9 @@ class Tape {
     struct alignas(64) Series {
       std::array<double, block_width> numbers;
     };
-    std::uint64_t serial_;              // of the tape
-    std::unique_ptr<Series[]> memory_;  // of constants, inputs that are the same for all intervals, and slots
+    std::uint64_t serial_;  // of the tape
+    // Not cleared. Of constants, inputs that are the same for all intervals, and slots.
+    std::unique_ptr<Series[]> memory_;  // NOLINT(*-avoid-c-arrays)
     std::vector<double*> series_;
   };
 
