@@ -101,10 +101,10 @@ void bound_path_rows(BoundsWriter& rows, const ProblemBounds& bounds, Eigen::Ind
   Eigen::Index row = layout.shape().stage_equations;
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : velocities) {
-      rows.set_series(layout.private_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);
+      rows.set_series(layout.interval_row_column(row++), layout.intervals(), bounds.v.lower[i], bounds.v.upper[i]);
     }
     for (Eigen::Index i = 0; i < path_constraints; ++i) {
-      rows.set_series(layout.private_row_column(row++), layout.intervals(), 0.0, unbounded);
+      rows.set_series(layout.interval_row_column(row++), layout.intervals(), 0.0, unbounded);
     }
   }
 }
