@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bench/experiment/experiment.hpp"
-#include "methods/diagnostics/momentum_consistency.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 

@@ -12,7 +12,7 @@
 #include "methods/diagnostics/adjoint_scheme.hpp"
 #include "methods/error.hpp"
 #include "methods/program/kkt_residual.hpp"
-#include "methods/transcription/embedding.hpp"
+#include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

@@ -13,7 +13,7 @@
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
-#include "methods/diagnostics/energy_balance.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"

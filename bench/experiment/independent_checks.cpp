@@ -1,6 +1,6 @@
 #include "bench/experiment/independent_checks.hpp"
 
-#include "methods/diagnostics/control_hamiltonian.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
 #include "methods/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <boost/numeric/odeint.hpp>
 
 #include "bench/structure/example_systems.hpp"
-#include "methods/diagnostics/energy_balance.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"

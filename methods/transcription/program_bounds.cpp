@@ -100,7 +100,7 @@ void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
 void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, Eigen::Index path_constraints, const Layout& layout) {
   Eigen::Index row = layout.shape().stage_equations;
   const auto bound_next = [&](double lower, double upper) {
-    set(rows, layout.private_row_column(row++), layout.intervals(), lower, upper);
+    set(rows, layout.interval_row_column(row++), layout.intervals(), lower, upper);
   };
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : bounds.bounded_velocities()) bound_next(bounds.v.lower[i], bounds.v.upper[i]);
