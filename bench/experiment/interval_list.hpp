@@ -1,21 +1,12 @@
 #pragma once
 
-#include <charconv>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace dmocbench {
+#include "methods/runtime/parsed.hpp"
 
-/// The whole text as a number; none if it is not one.
-template <class Number>
-[[nodiscard]] std::optional<Number> parsed(std::string_view text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end ? std::optional<Number>(value) : std::nullopt;
-}
+namespace dmocbench {
 
 /// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end),
 /// or a mixture; ascending, each once. Throws `Error` that names the option and quotes the entry if one is not a whole

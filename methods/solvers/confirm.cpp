@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/program/least_squares_multipliers.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {

@@ -20,13 +20,9 @@ bool has_only_equalities(const NonlinearProgram& program) {
 /// True if no free variable is at a bound, where the KKT system would differ.
 bool is_away_from_bounds(const NonlinearProgram& program, const Eigen::VectorXd& x) {
   constexpr double margin = 1e-6;
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const double lower = program.variable_lower()[j];
-    const double upper = program.variable_upper()[j];
-    const bool is_inside = x[j] > lower + margin && x[j] < upper - margin;
-    if (lower != upper && !is_inside) return false;
-  }
-  return true;
+  const auto lower = program.variable_lower().array();
+  const auto upper = program.variable_upper().array();
+  return (lower == upper || (x.array() > lower + margin && x.array() < upper - margin)).all();
 }
 
 /// The larger of both residuals; infinity where one is not finite.
@@ -48,17 +44,14 @@ Solution stepped(NonlinearProgram& program, SymmetricFactorisation& factorisatio
   Solution next = solution;
   Linearisation at = values_at(program, solution.primal);
   differentiate(program, at);
-  const std::vector<bool> free = free_variables(program);
   const Eigen::Index n = at.point.size();
   const Eigen::Index m = at.constraints.size();
-  const Eigen::SparseMatrix<double> matrix =
-      kkt_matrix(hessian_at(program, at.point, solution.multipliers), 0.0, at.jacobian, free, equality_rows(program));
+  const Eigen::SparseMatrix<double> matrix = kkt_matrix(hessian_at(program, at.point, solution.multipliers), 0.0,
+                                                        at.jacobian, free_variables(program), equality_rows(program));
   Eigen::VectorXd right_hand_side(n + m);
-  right_hand_side << -(at.gradient + at.jacobian.transpose() * solution.multipliers),
+  const Eigen::VectorXd gradient = at.gradient + at.jacobian.transpose() * solution.multipliers;
+  right_hand_side << (program.variable_lower().array() == program.variable_upper().array()).select(0.0, -gradient),
       program.constraint_lower() - at.constraints;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!free[static_cast<std::size_t>(j)]) right_hand_side[j] = 0.0;
-  }
   if (!factorisation.factorise(matrix)) {
     next.kkt_residual = unbounded;
     return next;
