@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/agreement_of_routes.hpp"
 #include "methods/error.hpp"
@@ -161,9 +160,7 @@ class Certify final : public Experiment {
     };
   }
   void add_options(CommandLine& line) override {
-    line.option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
-        .comma_separated()
-        .shows_default();
+    line.list("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages");
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
@@ -234,7 +231,4 @@ class Certify final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Certify experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Certify(), argc, argv); }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <iterator>
 #include <optional>
 
@@ -13,7 +11,6 @@
 
 #include "bench/experiment/common_columns.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
@@ -153,38 +150,36 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
   }
 }
 
-}  // namespace
-
-}  // namespace dmocbench
-
-int main(int argc, char** argv) try {
-  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CommandLine line(
-      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
-      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
-      "(consistency_order_slopes.csv).",
-      "consistency_order");
+int measure_all(CommandLine& line) {
   std::vector<std::string> problems;
   std::vector<std::string> settings;
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
   std::filesystem::path out = "results";
-  line.option("--problem", problems, "problems (default: all)").comma_separated();
+  line.list("--problem", problems, "problems (default: all)");
   line.option("--set", settings, "parameter=value of a problem");
-  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling").shows_default();
-  line.option("--out", out, "folder for the results").shows_default();
-  return run_program(line, argc, argv, [&] {
-    const std::vector<long long> steps = parse_intervals("--intervals", intervals);
-    const auto selected = selected_problems(problems, settings);
-    prepare_folder(out);
-    Results results;
-    for (const auto& problem : selected) measure(*problem, steps, results);
-    write_file(out / "consistency_order.csv", table_of(error_columns(), results.errors).csv());
-    write_file(out / "consistency_order_slopes.csv", table_of(order_columns(), results.orders).csv());
-    write_complete_run(out / "consistency_order.json", std::vector<std::string>(argv, argv + argc));
-    fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
-    return 0;
-  });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
+  line.option("--out", out, "folder for the results");
+  const std::vector<std::string> command_line = line.parse();
+  const std::vector<long long> steps = parse_intervals("--intervals", intervals);
+  const auto selected = selected_problems(problems, settings);
+  prepare_folder(out);
+  Results results;
+  for (const auto& problem : selected) measure(*problem, steps, results);
+  write_file(out / "consistency_order.csv", table_of(error_columns(), results.errors).csv());
+  write_file(out / "consistency_order_slopes.csv", table_of(order_columns(), results.orders).csv());
+  write_complete_run(out / "consistency_order.json", command_line);
+  fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace dmocbench
+
+int main(int argc, char** argv) {
+  constexpr auto description =
+      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
+      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
+      "(consistency_order_slopes.csv).";
+  return dmocbench::run_program("consistency_order", description, argc, argv, dmocbench::measure_all);
 }

@@ -124,11 +124,11 @@ class Equivalence final : public Experiment {
       answers_.push_back({here, trajectory});
       return;
     }
+    Case by_dmoc = here;
+    by_dmoc.method = "dmoc";
     for (const auto& [dmoc, answer] : answers_) {
-      const bool partner = dmoc.problem == here.problem && dmoc.tableau == here.tableau && dmoc.stages == here.stages &&
-                           dmoc.solver == here.solver && dmoc.derivatives == here.derivatives &&
-                           answer.node_times == trajectory.node_times;
-      if (partner) measured_.differences = differences(answer, trajectory, here);
+      const bool is_partner = dmoc.same_curve(by_dmoc) && answer.node_times == trajectory.node_times;
+      if (is_partner) measured_.differences = differences(answer, trajectory, here);
     }
   }
 
@@ -157,7 +157,4 @@ class Equivalence final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Equivalence experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Equivalence(), argc, argv); }

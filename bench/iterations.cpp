@@ -1,12 +1,9 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
-#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
@@ -15,8 +12,6 @@
 namespace dmocbench {
 
 namespace {
-
-const std::vector<std::string> crash_names{"none", "basis"};
 
 class Iterations final : public Experiment {
  public:
@@ -43,39 +38,23 @@ class Iterations final : public Experiment {
     };
   }
   void add_options(CommandLine& line) override {
-    line.option("--crash", crashes_,
-                "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)")
-        .comma_separated()
-        .shows_default();
+    line.list("--crash", crashes_,
+              "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)");
   }
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    const std::vector<std::string> crashes = chosen_of("--crash", {"none", "basis"}, crashes_);
     if (curve.front().solver == "nlopt") return small_grids(curve);
-    if (curve.front().solver != "sqp") return curve;
-    std::vector<Case> all;
-    for (const std::string& crash : crash_names) {
-      if (std::ranges::find(crashes_, crash) == crashes_.end()) continue;
-      for (Case each : curve) {
-        each.variant = crash;
-        all.push_back(std::move(each));
-      }
-    }
-    return all;
+    return curve.front().solver == "sqp" ? vary(curve, crashes) : curve;
   }
-  [[nodiscard]] SolverOptions options_for(const Case& the_case, SolverOptions common) override {
-    if (the_case.solver == "sqp") common.passed_on["crash"] = the_case.variant;
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (the_case.solver == "sqp") options.passed_on["crash"] = the_case.variant;
+    return Experiment::solver_for(the_case, options);
   }
   void check(const std::vector<Case>& cases) override {
-    for (const std::string& crash : crashes_) {
-      if (std::ranges::find(crash_names, crash) == crash_names.end()) {
-        throw Error(fmt::format("--crash takes {}, not {}", fmt::join(crash_names, " or "), crash));
-      }
-    }
-    if (cases.empty()) {
-      throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
-                              most_free_variables_for_slsqp));
-    }
+    if (!cases.empty()) return;
+    throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
+                            most_free_variables_for_slsqp));
   }
 
   void complete(SolvedCase& solved) override {
@@ -118,7 +97,4 @@ class Iterations final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Iterations experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Iterations(), argc, argv); }

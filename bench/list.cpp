@@ -1,8 +1,6 @@
 // What there is: problems with everything they prescribe and what is known of their optimum, methods, tableaus,
 // solvers, derivative back ends.
 #include <cmath>
-#include <cstdio>
-#include <exception>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -122,7 +120,12 @@ void print_problem(const Problem& problem) {
   }
 }
 
-int print_all(const std::vector<std::string>& names, const std::vector<std::string>& settings) {
+int print_all(CommandLine& line) {
+  std::vector<std::string> names;
+  std::vector<std::string> settings;
+  line.list("--problem", names, "only these problems");
+  line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  line.parse();
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed
   fmt::print("Problems (--problem)\n\n");
@@ -152,15 +155,8 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) try {
-  dmocbench::CommandLine line(
-      "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", "list");
-  std::vector<std::string> problems;
-  std::vector<std::string> settings;
-  line.option("--problem", problems, "only these problems").comma_separated();
-  line.option("--set", settings, "parameter=value of a problem; may be repeated");
-  return dmocbench::run_program(line, argc, argv, [&] { return dmocbench::print_all(problems, settings); });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+int main(int argc, char** argv) {
+  constexpr auto description =
+      "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.";
+  return dmocbench::run_program("list", description, argc, argv, dmocbench::print_all);
 }

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
@@ -55,20 +54,23 @@ class Solve final : public Experiment {
       throw Error("--trace needs exactly one case, solved by --solver sqp");
     }
   }
-  [[nodiscard]] SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) override {
-    if (trace_file_.empty()) return common;
-    common.on_minor_iteration = [this](const MinorIteration& minor) {
-      if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
-      trace_.push_back(minor);
-    };
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (!trace_file_.empty()) {
+      options.on_minor_iteration = [this](const MinorIteration& minor) {
+        if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
+        trace_.push_back(minor);
+      };
+    }
+    return Experiment::solver_for(the_case, options);
   }
 
   void complete(SolvedCase& solved) override {
     const auto variables = static_cast<Eigen::Index>(solved.program ? solved.program->variable_count() : 0);
     if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
-    checks_ = solved.trajectory ? check_independently(solved) : IndependentChecks{};
-    if (!solved.trajectory || !is_solved(solved.solution.status)) return;
+    checks_ = {};
+    if (!solved.trajectory) return;
+    checks_ = check_independently(solved);
+    if (!is_solved(solved.solution.status)) return;
     motions_.push_back({solved.the_case, *solved.trajectory, solved.solution.multipliers_are_estimated});
   }
 
@@ -106,7 +108,4 @@ class Solve final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Solve experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Solve(), argc, argv); }

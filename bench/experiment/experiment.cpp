@@ -1,19 +1,20 @@
 #include "bench/experiment/experiment.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/progress.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/error.hpp"
@@ -26,6 +27,34 @@ constexpr int exit_solved = 0;
 constexpr int exit_some_failed = 1;
 constexpr int exit_interrupted = 130;
 constexpr int most_jobs = 256;
+
+/// One line on a terminal that says what is being solved; nothing at all if standard error is not a terminal.
+class Progress {
+ public:
+  explicit Progress(std::size_t total) : total_(total), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  Progress(Progress&&) = delete;
+  Progress& operator=(Progress&&) = delete;
+  ~Progress() {
+    if (is_terminal_) std::fputs(erase_line, stderr);
+  }
+
+  /// Shows what is under way; does not count it.
+  void show(const std::string& activity) const {
+    if (!is_terminal_) return;
+    fmt::print(stderr, "{}[{}/{}] {}", erase_line, done_ + 1, total_, activity);
+    std::fflush(stderr);
+  }
+  /// One more is done.
+  void advance() { ++done_; }
+
+ private:
+  static constexpr const char* erase_line = "\r\033[K";
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool is_terminal_;
+};
 
 /// The cases of the curve that begins at `first`.
 std::vector<Case> curve_at(const std::vector<Case>& cases, std::size_t first) {
@@ -44,18 +73,13 @@ std::vector<Case> with_variants(const Experiment& experiment, const std::vector<
   return result;
 }
 
-SolverOptions with_interrupt(SolverOptions options) {
-  options.stop_requested = interrupt_requested;
-  return options;
-}
-
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
   Run(Experiment& experiment, const std::vector<std::string>& command_line)
       : experiment_(experiment),
         options_(experiment.options()),
-        solver_options_(with_interrupt(solver_options(options_))),
+        solver_options_(solver_options(options_)),
         cases_(with_variants(experiment, expand_cases(options_))),
         starts_(options_.start, solver_options_),
         columns_(core_columns() + experiment.columns()),
@@ -108,8 +132,7 @@ class Run {
 
   /// All rows in the order of the cases.
   void write_table() const {
-    const Table table = this->table();
-    if (!table.rows().empty()) write_file(table_file(), table.csv());
+    if (const Table table = this->table(); !table.rows().empty()) write_file(table_file(), table.csv());
   }
 
   void solve_part(std::size_t first, std::size_t end) {
@@ -121,8 +144,10 @@ class Run {
   }
 
   void solve_curve(const std::vector<Case>& curve, std::size_t first) {
-    for (const std::size_t position : experiment_.solving_order(curve)) {
+    const std::size_t solved_first = experiment_.solved_first(curve);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
       if (interrupt_requested()) return;
+      const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
       SolvedCase solved = solve(curve[position], options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
       experiment_.complete(solved);
@@ -136,11 +161,12 @@ class Run {
       const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
                         .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
       progress_.show(the_case.label());
-      const SolverOptions options = experiment_.options_for(the_case, solver_options_);
-      return solve_case(the_case, start, *experiment_.solver_for(the_case, options), options.tolerance, repeats,
-                        experiment_.card().polishes);
+      return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
+                        repeats, experiment_.card().polishes);
     } catch (const NoStart& reason) {
-      return unsolved_case(the_case, reason.what());
+      SolvedCase unsolved{.the_case = the_case};
+      unsolved.solution.message = reason.what();
+      return unsolved;
     }
   }
 
@@ -245,26 +271,42 @@ class Run {
 
 }  // namespace
 
-std::vector<std::size_t> Experiment::solving_order(const std::vector<Case>& curve) const {
-  std::vector<std::size_t> order(curve.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  return order;
+std::unique_ptr<Solver> Experiment::solver_for(const Case& the_case, SolverOptions options) {
+  return make_solver(the_case.solver, options);
 }
 
-int run_experiment(Experiment& experiment, int argc, char** argv) {
-  const ExperimentCard& card = experiment.card();
-  CommandLine line(card.description, card.name);
-  line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
-  add_options(line, experiment.options());
-  if (card.problems_are_independent) {
-    line.option("--jobs", experiment.options().jobs,
-                "problems worked on at the same time, each in a process of its own")
-        .range(1, most_jobs)
-        .shows_default();
+std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
+                                   const std::vector<std::string>& chosen) {
+  for (const std::string& name : chosen) {
+    if (std::ranges::count(known, name) > 0) continue;
+    throw Error(fmt::format("{} takes {}, not {}", option, fmt::join(known, known.size() == 2 ? " or " : ", "), name));
   }
-  experiment.add_options(line);
-  return run_program(line, argc, argv,
-                     [&] { return Run(experiment, std::vector<std::string>(argv, argv + argc)).run(); });
+  std::vector<std::string> names;
+  std::ranges::copy_if(known, std::back_inserter(names),
+                       [&](const std::string& name) { return std::ranges::count(chosen, name) > 0; });
+  return names;
+}
+
+std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants) {
+  std::vector<Case> cases;
+  for (const std::string& variant : variants) {
+    for (const Case& of_curve : curve) cases.emplace_back(of_curve).variant = variant;
+  }
+  return cases;
+}
+
+int run_experiment(Experiment&& experiment, int argc, char** argv) {
+  const ExperimentCard& card = experiment.card();
+  return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
+    line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
+    add_options(line, experiment.options());
+    if (card.problems_are_independent) {
+      line.number("--jobs", experiment.options().jobs, 1, most_jobs,
+                  "problems worked on at the same time, each in a process of its own");
+    }
+    experiment.add_options(line);
+    return Run(experiment, line.parse()).run();
+  });
 }
 
 }  // namespace dmocbench

@@ -78,23 +78,6 @@ void require_near(const Problem& problem, const IndirectSolution& solution, cons
               "grids");
 }
 
-IndirectSolution solution_in(const Json& file, const Problem& problem) {
-  CollocatedExtremal extremal;
-  extremal.stages = file.at("stages").get<int>();
-  extremal.horizon = file.at("horizon").get<double>();
-  extremal.cost = file.at("scaled_cost").get<double>();
-  extremal.nodes = matrix_of(file.at("nodes"));
-  extremal.rates = matrix_of(file.at("slopes"));
-  extremal.algebraic = matrix_of(file.at("algebraic"));
-  const Json& agreement = file.at("agreement");
-  return {problem,
-          std::move(extremal),
-          {.state = agreement.at("state").get<double>(),
-           .costate = agreement.at("costate").get<double>(),
-           .control = agreement.at("control").get<double>(),
-           .cost = agreement.at("cost").get<double>()}};
-}
-
 /// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
 std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
                                               const Trajectory& direct) {
@@ -103,13 +86,23 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   try {
     const Json file = Json::parse(read_file(path));
     if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
-    IndirectSolution solution = solution_in(file, problem);
+    CollocatedExtremal extremal;
+    extremal.stages = file.at("stages");
+    extremal.horizon = file.at("horizon");
+    extremal.cost = file.at("scaled_cost");
+    extremal.nodes = matrix_of(file.at("nodes"));
+    extremal.rates = matrix_of(file.at("slopes"));
+    extremal.algebraic = matrix_of(file.at("algebraic"));
+    const Json& agreement = file.at("agreement");
+    IndirectSolution solution(problem, std::move(extremal),
+                              {.state = agreement.at("state"),
+                               .costate = agreement.at("costate"),
+                               .control = agreement.at("control"),
+                               .cost = agreement.at("cost")});
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const std::exception&) {
     return std::nullopt;  // a file that is not ours is written anew
-  } catch (const Error&) {
-    return std::nullopt;
   }
 }
 
@@ -156,39 +149,34 @@ IndirectReference::Entry IndirectReference::find(const Problem& problem, const T
   entry.replay_error = replay_error(problem, entry.solution.trajectory(), replay_tolerance).norm();
   entry.shooting_defect = shooting_defect(problem, entry.solution);
   const IndirectPoint start = entry.solution.at(0.0);
-  const auto add_costate = [&](const std::string& prefix, const Eigen::VectorXd& values) {
-    Eigen::Index i = 0;
-    for (const std::string& name : problem.configuration_names()) {
-      entry.initial_costate.emplace_back(prefix + name, values[i++]);
+  for (const auto& [prefix, costate] : {std::pair("psi_q_", start.psi_q), std::pair("psi_p_", start.psi_p)}) {
+    for (Eigen::Index i = 0; const std::string& name : problem.configuration_names()) {
+      entry.initial_costate.emplace_back(prefix + name, costate[i++]);
     }
-  };
-  add_costate("psi_q_", start.psi_q);
-  add_costate("psi_p_", start.psi_p);
+  }
   return entry;
 }
 
 const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
-  auto known = entries_.find(problem.name());
-  if (known == entries_.end()) {
-    known = entries_.emplace(problem.name(), find(problem, direct)).first;
-  } else {
-    require_near(problem, known->second.solution, direct);
-  }
+  const auto known = entries_.find(problem.name());
+  if (known == entries_.end()) return entries_.emplace(problem.name(), find(problem, direct)).first->second.solution;
+  require_near(problem, known->second.solution, direct);
   return known->second.solution;
 }
 
 Table IndirectReference::table() const {
   std::vector<std::string> names = names_of(columns());
-  std::vector<Row> rows;
   for (const auto& [problem, entry] : entries_) {
-    rows.push_back(row_of(columns(), entry));
     for (const auto& [name, value] : entry.initial_costate) {
-      rows.back().set(name, value);
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
     }
   }
   Table table(names);
-  for (Row& row : rows) table.append(std::move(row));
+  for (const auto& [problem, entry] : entries_) {
+    Row row = row_of(columns(), entry);
+    for (const auto& [name, value] : entry.initial_costate) row.set(name, value);
+    table.append(std::move(row));
+  }
   return table;
 }
 

@@ -32,29 +32,27 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   return values;
 }
 
-/// Quantities over time, a column each, named with a prefix.
+/// Quantities over time: a column each, with a prefix before its name; no rows where there are none.
 struct Series {
   std::string prefix;
   std::vector<std::string> names;
-  Eigen::MatrixXd values;  ///< a row per time; empty if there are none
+  Eigen::MatrixXd values;
 };
 
 Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all) {
   std::vector<std::string> header{time};
-  for (const Series& series : all) {
-    for (const std::string& name : series.names) header.push_back(series.prefix + name);
-  }
-  Table table(header);
-  for (Eigen::Index k = 0; k < times.size(); ++k) {
-    Row row;
-    row.set(time, times[k]);
-    for (const Series& series : all) {
-      for (Eigen::Index i = 0; i < series.values.cols(); ++i) {
-        row.set(series.prefix + series.names[static_cast<std::size_t>(i)], series.values(k, i));
+  std::vector<Row> rows(static_cast<std::size_t>(times.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].set(time, times[static_cast<Eigen::Index>(k)]);
+  for (const auto& [prefix, names, values] : all) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      header.push_back(prefix + names[i]);
+      for (Eigen::Index k = 0; k < values.rows(); ++k) {
+        rows[static_cast<std::size_t>(k)].set(header.back(), values(k, static_cast<Eigen::Index>(i)));
       }
     }
-    table.append(std::move(row));
   }
+  Table table(header);
+  for (Row& row : rows) table.append(std::move(row));
   return table;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/interval_list.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <charconv>
 #include <concepts>
 #include <map>
 #include <optional>
@@ -9,6 +10,15 @@
 #include <vector>
 
 namespace dmocbench {
+
+/// The whole text as a number; none if it is not one.
+template <class Number>
+[[nodiscard]] std::optional<Number> parsed(std::string_view text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end ? std::optional<Number>(value) : std::nullopt;
+}
 
 /// A field of a table as it is written: a number with all its digits (%.17g), a text, or nothing.
 class Cell {
