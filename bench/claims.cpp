@@ -1,5 +1,8 @@
 // The table of claims: what the paper states, what was measured, and the verdict.
 
+#include <algorithm>
+#include <ranges>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -23,17 +26,16 @@ std::string markdown(const Table& claims) {
   std::string text = fmt::format("# The paper's claims, measured\n\n| {} |\n|", fmt::join(claims.columns(), " | "));
   for (std::size_t i = 0; i < claims.columns().size(); ++i) text += "---|";
   for (const Row& claim : claims.rows()) {
-    text += "\n|";
-    for (const std::string& column : claims.columns()) text += " " + claim.text(column) + " |";
+    const auto field = [&](const std::string& column) { return claim.text(column); };
+    text += fmt::format("\n| {} |", fmt::join(claims.columns() | std::views::transform(field), " | "));
   }
   return text + "\n";
 }
 
 void print(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
-    fmt::print("{:<11} {:<50} {}\n", name_of(claim.verdict), claim.id, claim.where);
-    fmt::print("{:12}paper:    {}\n", "", claim.states);
-    fmt::print("{:12}measured: {}\n", "", claim.measured);
+    fmt::print("{0:<11} {1:<50} {2}\n{5:12}paper:    {3}\n{5:12}measured: {4}\n", name_of(claim.verdict), claim.id,
+               claim.where, claim.states, claim.measured, "");
   }
   std::vector<std::string> counts;
   for (const ClaimVerdict verdict :
@@ -61,7 +63,8 @@ int judge_all(CommandLine& line) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) {
-  constexpr auto description =
-      "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.";
-  return dmocbench::run_program("claims", description, argc, argv, dmocbench::judge_all);
+  return dmocbench::run_program(
+      "claims",
+      "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.", argc,
+      argv, dmocbench::judge_all);
 }

@@ -30,8 +30,8 @@ int compare_files(CommandLine& line) {
   ComparisonOptions options;
   std::filesystem::path csv;
   bool fails_if_slower = false;
-  line.required("before", before_files, "JSON file of a run (--benchmark_out), or several runs: FILE,FILE,...");
-  line.required("after", after_files, "the same of what is compared with it");
+  line.option("before", before_files, "JSON file of a run (--benchmark_out), or several runs: FILE,FILE,...");
+  line.option("after", after_files, "the same of what is compared with it");
   line.option("--counter", options.counter,
               "what is compared: cpu_time, real_time or a counter; more is slower, unless it ends with per_second");
   line.number("--threshold", options.threshold, 1.0, 1e6, "smallest ratio of medians that is worth a verdict");
@@ -59,10 +59,11 @@ int compare_files(CommandLine& line) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) {
-  constexpr auto description =
+  return dmocbench::run_program(
+      "compare",
       "Compares two runs of a program of Google Benchmark with repetitions. A benchmark is faster or slower if the "
       "Mann-Whitney test finds the repetitions apart and the ratio of medians reaches the threshold; it takes 5 "
       "repetitions at least. Noise that lasts for a whole run, such as another program beside it, the test cannot "
-      "know.";
-  return dmocbench::run_program("compare", description, argc, argv, dmocbench::compare_files);
+      "know.",
+      argc, argv, dmocbench::compare_files);
 }

@@ -93,53 +93,47 @@ class Convergence final : public Experiment {
 
   void complete(SolvedCase& solved) override {
     const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
-    if (is_first) {
-      curve_ = solved.the_case;
-      reference_trajectory_.reset();
-    }
+    if (is_first) reference_trajectory_.reset();
+    curve_ = solved.the_case;
     measured_ = {};
     if (!solved.trajectory) return;
     measured_.replay = replay(solved);
     if (!is_usable(solved)) return;
     const Problem& problem = *solved.the_case.problem;
+    const Trajectory& trajectory = *solved.trajectory;
     try {
       if (indirect_) {
-        measure(problem, *solved.trajectory,
-                indirect_->near(problem, *solved.trajectory).sampled_like(*solved.trajectory));
+        reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
       } else if (is_first) {
-        reference_trajectory_ = *solved.trajectory;
-      } else if (reference_trajectory_) {
-        measure(problem, *solved.trajectory, *reference_trajectory_);
+        reference_trajectory_ = trajectory;
+        return;
       }
+      if (!reference_trajectory_) return;
+      measured_.error = trajectory_error(trajectory, *reference_trajectory_);
+      if (!measured_.error->costate) return;
+      measured_.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
     } catch (const Error& failure) {
       solved.note(failure.what());
     }
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    const FittedOrders orders = fit_orders(table, fit_range_, reference_);
+    FittedOrders orders = fit_orders(table, fit_range_, reference_);
     write_file(prefix.string() + "_slopes.csv", orders.table.csv());
     write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
     if (indirect_) {
       write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
       metadata["references"] = indirect_->metadata();
-      for (const std::string& note : indirect_->notes()) tell(note, metadata);
+      const std::vector<std::string> notes = indirect_->notes();
+      orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
     }
-    for (const std::string& note : orders.notes) tell(note, metadata);
+    for (const std::string& note : orders.notes) {
+      metadata["notes"].push_back(note);
+      fmt::print("convergence: {}\n", note);
+    }
   }
 
  private:
-  static void tell(const std::string& note, nlohmann::ordered_json& metadata) {
-    metadata["notes"].push_back(note);
-    fmt::print("convergence: {}\n", note);
-  }
-
-  void measure(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference) {
-    measured_.error = trajectory_error(trajectory, reference);
-    if (!measured_.error->costate) return;
-    measured_.control_from_costate_error = node_control_error(problem, trajectory, reference);
-  }
-
   std::string reference_text_;
   long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
   std::optional<IndirectReference> indirect_;

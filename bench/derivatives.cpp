@@ -5,7 +5,6 @@
 
 #include "bench/derivatives/measured_derivatives.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -92,8 +91,11 @@ class Derivatives final : public Experiment {
       answers_.push_back({the_case, *solved.trajectory, solved.solution.seconds});
     }
     measured_ = {};
-    compare(solved);
-    evaluate(solved);
+    if (const Answer* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
+      const Eigen::MatrixXd& q = exact->trajectory.q;
+      measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
+    }
+    if (solved.program) evaluate(solved);
   }
 
  private:
@@ -105,7 +107,6 @@ class Derivatives final : public Experiment {
 
   /// Errors and times at the start of the solve.
   void evaluate(const SolvedCase& solved) {
-    if (!solved.program) return;
     Transcription& program = *solved.program;
     const Eigen::VectorXd multipliers = fixed_multipliers(program.constraint_count());
     const DerivativeReference reference = reference_derivatives(program, solved.start, 1.0, multipliers);
@@ -129,13 +130,6 @@ class Derivatives final : public Experiment {
              answer.the_case.grid.relative_times() == the_case.grid.relative_times();
     });
     return found == answers_.end() ? nullptr : &*found;
-  }
-
-  void compare(const SolvedCase& solved) {
-    const Answer* exact = partner_of(solved.the_case);
-    if (!solved.trajectory || exact == nullptr) return;
-    const Eigen::MatrixXd& q = exact->trajectory.q;
-    measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
   }
 
   std::vector<Answer> answers_;

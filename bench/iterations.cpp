@@ -44,8 +44,11 @@ class Iterations final : public Experiment {
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     const std::vector<std::string> crashes = chosen_of("--crash", {"none", "basis"}, crashes_);
-    if (curve.front().solver == "nlopt") return small_grids(curve);
-    return curve.front().solver == "sqp" ? vary(curve, crashes) : curve;
+    std::vector<Case> cases = curve.front().solver == "sqp" ? vary(curve, crashes) : curve;
+    std::erase_if(cases, [](const Case& the_case) {
+      return the_case.solver == "nlopt" && free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
+    });
+    return cases;
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (the_case.solver == "sqp") options.passed_on["crash"] = the_case.variant;
@@ -69,13 +72,6 @@ class Iterations final : public Experiment {
  private:
   /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
   static constexpr std::size_t most_free_variables_for_slsqp = 200;
-
-  static std::vector<Case> small_grids(std::vector<Case> curve) {
-    std::erase_if(curve, [](const Case& the_case) {
-      return free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
-    });
-    return curve;
-  }
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.

@@ -9,7 +9,6 @@
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -40,10 +39,7 @@ class LocalMinima final : public Experiment {
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> all;
     for (const Case& each : curve) {
-      for (long long start = 0; start < starts_; ++start) {
-        all.push_back(each);
-        all.back().variant = std::to_string(start);
-      }
+      for (long long start = 0; start < starts_; ++start) all.emplace_back(each).variant = std::to_string(start);
     }
     return all;
   }

@@ -118,7 +118,7 @@ int evaluate_slips(CommandLine& line) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) {
-  constexpr auto description =
-      "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.";
-  return dmocbench::run_program("slips", description, argc, argv, dmocbench::evaluate_slips);
+  return dmocbench::run_program(
+      "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
+      argc, argv, dmocbench::evaluate_slips);
 }

@@ -1,9 +1,8 @@
 // Structure: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation of a Modified
 // Energy").
-
 #include <fmt/format.h>
 
-#include "bench/experiment/common_columns.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -12,7 +11,6 @@
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
 #include "methods/diagnostics/energy_balance.hpp"
-#include "methods/error.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
@@ -53,47 +51,42 @@ Columns<Record> ellipse_columns() {
                          {"steps_per_period", "", "steps per period", &Record::steps_per_period}};
 }
 
-Columns<EnergyOfPeriod> period_columns() {
-  constexpr auto energy = &EnergyOfPeriod::energy;
-  return ellipse_columns<EnergyOfPeriod>() +
-         Columns<EnergyOfPeriod>{
-             {"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period)},
-             {"energy_smallest", "", "smallest error of the energy", from(energy, &PeriodEnergy::smallest)},
-             {"energy_mean", "", "mean error over the period", from(energy, &PeriodEnergy::mean)},
-             {"energy_largest", "", "largest error of the energy", from(energy, &PeriodEnergy::largest)}};
-}
+const Columns<EnergyOfPeriod> period_columns =
+    ellipse_columns<EnergyOfPeriod>() +
+    Columns<EnergyOfPeriod>{
+        {"period", "", "number of the period, from 0", from(&EnergyOfPeriod::energy, &PeriodEnergy::period)},
+        {"energy_smallest", "", "smallest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::smallest)},
+        {"energy_mean", "", "mean error over the period", from(&EnergyOfPeriod::energy, &PeriodEnergy::mean)},
+        {"energy_largest", "", "largest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::largest)}};
 
-Columns<EnergyOfPeriods> behaviour_columns() {
-  constexpr auto energy = &EnergyOfPeriods::energy;
-  return ellipse_columns<EnergyOfPeriods>() +
-         Columns<EnergyOfPeriods>{
-             {"periods", "", "number of periods", &EnergyOfPeriods::periods},
-             {"oscillation", "", "max - min over the first ten periods", from(energy, &EnergyBehaviour::oscillation)},
-             {"range", "", "max - min over all watched periods", from(energy, &EnergyBehaviour::range)},
-             {"drift_per_period", "", "of the mean, by least squares",
-              from(energy, &EnergyBehaviour::drift_per_period)},
-             {"standard_error", "", "of the drift", from(energy, &EnergyBehaviour::standard_error)},
-             {"change", "", "last mean minus first mean", from(energy, &EnergyBehaviour::change)}};
-}
+constexpr auto orbit_energy = &EnergyOfPeriods::energy;
+const Columns<EnergyOfPeriods> behaviour_columns =
+    ellipse_columns<EnergyOfPeriods>() +
+    Columns<EnergyOfPeriods>{
+        {"periods", "", "number of periods", &EnergyOfPeriods::periods},
+        {"oscillation", "", "max - min over the first ten periods", from(orbit_energy, &EnergyBehaviour::oscillation)},
+        {"range", "", "max - min over all watched periods", from(orbit_energy, &EnergyBehaviour::range)},
+        {"drift_per_period", "", "of the mean, by least squares",
+         from(orbit_energy, &EnergyBehaviour::drift_per_period)},
+        {"standard_error", "", "of the drift", from(orbit_energy, &EnergyBehaviour::standard_error)},
+        {"change", "", "last mean minus first mean", from(orbit_energy, &EnergyBehaviour::change)}};
 
-Columns<EnergyOrder> order_columns() {
-  return scheme_columns<EnergyOrder>() +
-         Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
-         fitted_order_columns(&EnergyOrder::fit);
-}
+const Columns<EnergyOrder> order_columns =
+    scheme_columns<EnergyOrder>() +
+    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
+    fitted_order_columns(&EnergyOrder::fit);
 
-Columns<TransferEnergy> transfer_columns() {
-  constexpr auto balance = &TransferEnergy::balance;
-  return scheme_columns<TransferEnergy>() +
-         Columns<TransferEnergy>{
-             {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
-             {"h", "", "step", &TransferEnergy::h},
-             {"energy_change", "", "E(T) - E(0)", from(balance, &EnergyBalance::change)},
-             {"work", "", "work of the thrust", from(balance, &EnergyBalance::work)},
-             {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
-             {"largest_gap", "", "largest difference over the nodes", from(balance, &EnergyBalance::largest_gap)},
-             {"largest_work", "", "largest work over the nodes", from(balance, &EnergyBalance::largest_work)}};
-}
+constexpr auto transfer_balance = &TransferEnergy::balance;
+const Columns<TransferEnergy> transfer_columns =
+    scheme_columns<TransferEnergy>() +
+    Columns<TransferEnergy>{
+        {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
+        {"h", "", "step", &TransferEnergy::h},
+        {"energy_change", "", "E(T) - E(0)", from(transfer_balance, &EnergyBalance::change)},
+        {"work", "", "work of the thrust", from(transfer_balance, &EnergyBalance::work)},
+        {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
+        {"largest_gap", "", "largest difference over the nodes", from(transfer_balance, &EnergyBalance::largest_gap)},
+        {"largest_work", "", "largest work over the nodes", from(transfer_balance, &EnergyBalance::largest_work)}};
 
 struct EnergyResults {
   std::vector<EnergyOfPeriod> periods;
@@ -170,10 +163,10 @@ int write_tables(CommandLine& line) {
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
   follow_transfer(results);
-  write("structure_transfer", table_of(transfer_columns(), results.transfer));
-  write("structure_energy", table_of(period_columns(), results.periods));
-  write("structure_energy_behaviour", table_of(behaviour_columns(), results.behaviour));
-  write("structure_energy_slopes", table_of(order_columns(), results.orders));
+  write("structure_transfer", table_of(transfer_columns, results.transfer));
+  write("structure_energy", table_of(period_columns, results.periods));
+  write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));
+  write("structure_energy_slopes", table_of(order_columns, results.orders));
   write_complete_run(out / "structure.json", command_line);
   return 0;
 }
@@ -183,10 +176,11 @@ int write_tables(CommandLine& line) {
 }  // namespace dmocbench
 
 int main(int argc, char** argv) {
-  constexpr auto description =
+  return dmocbench::run_program(
+      "structure",
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
       "(structure_energy.csv, structure_energy_behaviour.csv) and along the optimal orbital transfer "
-      "(structure_transfer.csv).";
-  return dmocbench::run_program("structure", description, argc, argv, dmocbench::write_tables);
+      "(structure_transfer.csv).",
+      argc, argv, dmocbench::write_tables);
 }

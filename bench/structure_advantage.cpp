@@ -23,15 +23,6 @@ namespace {
 
 const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
 
-struct Measured {
-  std::optional<double> per_iteration;
-  std::optional<double> linear_algebra_per_iteration;
-  std::optional<double> per_linear_system;
-  std::optional<double> operations;
-  std::optional<long long> half_bandwidth;
-  std::optional<double> objective_error;
-};
-
 class StructureAdvantage final : public Experiment {
  public:
   StructureAdvantage()
@@ -52,18 +43,15 @@ class StructureAdvantage final : public Experiment {
         {"linear_systems", "", "linear systems of the solve", from(&SolvedCase::solution, &Solution::linear_systems)},
         {"smallest_seconds", "s", "shortest of the rounds",
          [](const SolvedCase& s) { return is_solved(s.solution.status) ? Cell(s.smallest_seconds) : Cell(); }},
-        {"seconds_per_iteration", "s", "wall clock of the solve by iterations",
-         of(measured_, &Measured::per_iteration)},
+        {"seconds_per_iteration", "s", "wall clock of the solve by iterations", of(measured_.per_iteration)},
         {"linear_algebra_per_iteration", "s", "the same without evaluations",
-         of(measured_, &Measured::linear_algebra_per_iteration)},
-        {"seconds_per_linear_system", "s", "factorisation and substitution",
-         of(measured_, &Measured::per_linear_system)},
-        {"operations_per_interval", "", "multiplications and divisions of a factorisation",
-         of(measured_, &Measured::operations)},
-        {"elimination_operations_per_interval", "", "the same", of(measured_, &Measured::operations)},
-        {"half_bandwidth", "", "of the band", of(measured_, &Measured::half_bandwidth)},
+         of(measured_.linear_algebra_per_iteration)},
+        {"seconds_per_linear_system", "s", "factorisation and substitution", of(measured_.per_linear_system)},
+        {"operations_per_interval", "", "multiplications and divisions of a factorisation", of(measured_.operations)},
+        {"elimination_operations_per_interval", "", "the same", of(measured_.operations)},
+        {"half_bandwidth", "", "of the band", of(measured_.half_bandwidth)},
         {"objective_error", "", "of the objective, relative, against the indirect solution",
-         of(measured_, &Measured::objective_error)},
+         of(measured_.objective_error)},
     };
   }
 
@@ -125,7 +113,14 @@ class StructureAdvantage final : public Experiment {
  private:
   std::vector<std::string> factorisations_ = all_factorisations;
   std::optional<IndirectReference> reference_;
-  Measured measured_;  // of the case that was solved last
+  struct {
+    std::optional<double> per_iteration;
+    std::optional<double> linear_algebra_per_iteration;
+    std::optional<double> per_linear_system;
+    std::optional<double> operations;
+    std::optional<long long> half_bandwidth;
+    std::optional<double> objective_error;
+  } measured_;  // of the case that is completed
 };
 
 }  // namespace

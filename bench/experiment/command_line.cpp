@@ -29,7 +29,7 @@ int report_error(const std::string& name, std::string sentence) {
 
 template <class Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
-  add(app_, names, value, help);
+  add(app_, names, value, help)->required(!names.starts_with('-'));
 }
 template void CommandLine::option(const std::string&, int&, const std::string&);
 template void CommandLine::option(const std::string&, double&, const std::string&);
@@ -54,10 +54,6 @@ void CommandLine::list(const std::string& names, std::vector<Value>& values, con
 }
 template void CommandLine::list(const std::string&, std::vector<int>&, const std::string&);
 template void CommandLine::list(const std::string&, std::vector<std::string>&, const std::string&);
-
-void CommandLine::required(const std::string& names, std::string& value, const std::string& help) {
-  add(app_, names, value, help)->required();
-}
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
   app_.add_flag(names, value, help);

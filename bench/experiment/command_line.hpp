@@ -17,7 +17,8 @@ namespace dmocbench {
 /// CLI11 is behind it, in command_line.cpp alone: its headers take a compiler longer than most programs do.
 class CommandLine {
  public:
-  /// Reads into `value`: int, double, string, path, and a vector of strings (the option may be repeated).
+  /// Reads into `value`: int, double, string, path, and a vector of strings (the option may be repeated). A name
+  /// without dashes is that of an argument that has to be given.
   template <class Value>
   void option(const std::string& names, Value& value, const std::string& help);
   /// Reads a number between `least` and `largest`: int, long long, std::uint64_t or double.
@@ -27,8 +28,6 @@ class CommandLine {
   /// Reads values with commas between them: int or string.
   template <class Value>
   void list(const std::string& names, std::vector<Value>& values, const std::string& help);
-  /// Reads a text that has to be given.
-  void required(const std::string& names, std::string& value, const std::string& help);
   /// `names` as in "--polish,!--no-polish", where an exclamation mark stands before a name that says no.
   void flag(const std::string& names, bool& value, const std::string& help);
   /// Text behind the options in `--help`.

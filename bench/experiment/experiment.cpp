@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -28,47 +29,23 @@ constexpr int exit_some_failed = 1;
 constexpr int exit_interrupted = 130;
 constexpr int most_jobs = 256;
 
-/// One line on a terminal that says what is being solved; nothing at all if standard error is not a terminal.
-class Progress {
- public:
-  explicit Progress(std::size_t total) : total_(total), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  Progress(Progress&&) = delete;
-  Progress& operator=(Progress&&) = delete;
-  ~Progress() {
-    if (is_terminal_) std::fputs(erase_line, stderr);
+void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
+
+/// Cases in a row that differ in their grid only, together.
+std::vector<std::vector<Case>> curves_of(std::span<const Case> cases) {
+  std::vector<std::vector<Case>> curves;
+  for (const Case& the_case : cases) {
+    if (curves.empty() || !curves.back().front().same_curve(the_case)) curves.emplace_back();
+    curves.back().push_back(the_case);
   }
-
-  /// Shows what is under way; does not count it.
-  void show(const std::string& activity) const {
-    if (!is_terminal_) return;
-    fmt::print(stderr, "{}[{}/{}] {}", erase_line, done_ + 1, total_, activity);
-    std::fflush(stderr);
-  }
-  /// One more is done.
-  void advance() { ++done_; }
-
- private:
-  static constexpr const char* erase_line = "\r\033[K";
-  std::size_t total_;
-  std::size_t done_ = 0;
-  bool is_terminal_;
-};
-
-/// The cases of the curve that begins at `first`.
-std::vector<Case> curve_at(const std::vector<Case>& cases, std::size_t first) {
-  const auto begin = cases.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, std::find_if_not(begin, cases.end(), [&](const Case& other) { return other.same_curve(*begin); })};
+  return curves;
 }
 
 std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
   std::vector<Case> result;
-  for (std::size_t first = 0; first < cases.size();) {
-    const std::vector<Case> curve = curve_at(cases, first);
+  for (const std::vector<Case>& curve : curves_of(cases)) {
     const std::vector<Case> variants = experiment.variants(curve);
     result.insert(result.end(), variants.begin(), variants.end());
-    first += curve.size();
   }
   return result;
 }
@@ -86,11 +63,10 @@ class Run {
         names_(names_of(columns_)),
         rows_(cases_.size()),
         prefix_(options_.out / options_.name),
-        metadata_(describe_run(command_line)),
-        progress_(cases_.size()) {
+        metadata_(describe_run(command_line)) {
     experiment_.check(cases_);
     starts_.check(cases_);
-    starts_.on_progress = [this](const std::string& activity) { progress_.show(activity); };
+    starts_.on_progress = [this](const std::string& activity) { show(activity); };
     for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_));
   }
 
@@ -104,40 +80,46 @@ class Run {
     } else {
       solve_part(0, cases_.size());
     }
-    write_table();
-    const Table table = this->table();
+    const Table table = write_table();
+    const auto failures = std::ranges::count_if(
+        table.rows(), [](const Row& row) { return !is_solved(status_named(row.text("status"))); });
+    const auto other_branch =
+        std::ranges::count_if(table.rows(), [](const Row& row) { return row.text("branch") == "other"; });
     const bool complete = !interrupt_requested();
     if (complete) experiment_.finish(table, prefix_, metadata_);
     metadata_["complete"] = complete;
     metadata_["rows"] = table.rows().size();
-    metadata_["not_solved"] = failures_;
-    metadata_["on_another_branch"] = other_branch_;
+    metadata_["not_solved"] = failures;
+    metadata_["on_another_branch"] = other_branch;
     write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
     fmt::print("{}: {} rows, {} not solved, {} on another branch: {}\n", experiment_.card().name, table.rows().size(),
-               failures_, other_branch_, table_file().string());
+               failures, other_branch, table_file().string());
     if (!complete) return exit_interrupted;
-    return failures_ > 0 ? exit_some_failed : exit_solved;
+    return failures > 0 ? exit_some_failed : exit_solved;
   }
 
  private:
   [[nodiscard]] std::filesystem::path table_file() const { return prefix_.string() + ".csv"; }
 
-  [[nodiscard]] Table table() const {
+  /// Writes and returns all rows so far in the order of the cases.
+  Table write_table() const {
     Table table(names_);
     for (const auto& row : rows_) {
       if (row) table.append(*row);
     }
+    if (!table.rows().empty()) write_file(table_file(), table.csv());
     return table;
   }
 
-  /// All rows in the order of the cases.
-  void write_table() const {
-    if (const Table table = this->table(); !table.rows().empty()) write_file(table_file(), table.csv());
+  void show(const std::string& activity) const {
+    if (!terminal_) return;
+    erase_line(terminal_.get());
+    fmt::print(terminal_.get(), "[{}/{}] {}", done_ + 1, cases_.size(), activity);
+    std::fflush(terminal_.get());
   }
 
   void solve_part(std::size_t first, std::size_t end) {
-    while (first < end && !interrupt_requested()) {
-      const std::vector<Case> curve = curve_at(cases_, first);
+    for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
       solve_curve(curve, first);
       first += curve.size();
     }
@@ -160,7 +142,7 @@ class Run {
     try {
       const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
                         .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
-      progress_.show(the_case.label());
+      show(the_case.label());
       return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
                         repeats, experiment_.card().polishes);
     } catch (const NoStart& reason) {
@@ -211,8 +193,6 @@ class Run {
 
   /// The table on disk has every finished row, in the order of solving until the end.
   void keep(Row row, std::size_t number) {
-    if (!is_solved(status_named(row.text("status")))) ++failures_;
-    if (row.text("branch") == "other") ++other_branch_;
     const std::string line = row.csv(names_);
     rows_[number] = std::move(row);
     if (std::exchange(has_file_, true)) {
@@ -220,7 +200,7 @@ class Run {
     } else {
       write_table();
     }
-    progress_.advance();
+    ++done_;
   }
 
   /// A process per problem; its rows come back in a file.
@@ -247,7 +227,7 @@ class Run {
       for (const Row& row : part.rows()) {
         if (number == heads[i + 1]) throw Error("a process wrote more rows than it had cases");
         keep(row, number++);
-        progress_.show(row.text("problem"));
+        show(row.text("problem"));
       }
     };
     for_each_in_processes(heads.size() - 1, static_cast<std::size_t>(options_.jobs), work, collect);
@@ -263,14 +243,16 @@ class Run {
   std::vector<std::optional<Row>> rows_;
   std::filesystem::path prefix_;
   nlohmann::ordered_json metadata_;
-  Progress progress_;
+  /// Standard error if it is a terminal, where one line says what is being solved; it is erased at the end.
+  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_{::isatty(STDERR_FILENO) == 1 ? stderr : nullptr,
+                                                             erase_line};
+  std::size_t done_ = 0;   ///< cases
   bool has_file_ = false;  ///< a row has been written to the table's file
-  std::size_t failures_ = 0;
-  std::size_t other_branch_ = 0;
 };
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): overrides change the options
 std::unique_ptr<Solver> Experiment::solver_for(const Case& the_case, SolverOptions options) {
   return make_solver(the_case.solver, options);
 }

@@ -27,9 +27,7 @@ Json parameters_of(const Problem& problem) {
 
 Json columns_of(const Eigen::MatrixXd& matrix) {
   Json columns = Json::array();
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    columns.push_back(std::vector<double>(matrix.col(j).begin(), matrix.col(j).end()));
-  }
+  for (const auto& column : matrix.colwise()) columns.push_back(std::vector<double>(column.begin(), column.end()));
   return columns;
 }
 
@@ -37,9 +35,9 @@ Eigen::MatrixXd matrix_of(const Json& columns) {
   const auto values = columns.get<std::vector<std::vector<double>>>();
   if (values.empty()) return {};
   Eigen::MatrixXd matrix(values.front().size(), values.size());
-  for (std::size_t j = 0; j < values.size(); ++j) {
-    if (values[j].size() != values.front().size()) throw Error("columns differ in length");
-    matrix.col(static_cast<Eigen::Index>(j)) = Eigen::Map<const Eigen::VectorXd>(values[j].data(), matrix.rows());
+  for (Eigen::Index j = 0; const std::vector<double>& column : values) {
+    if (std::ssize(column) != matrix.rows()) throw Error("columns differ in length");
+    matrix.col(j++) = Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.rows());
   }
   return matrix;
 }
@@ -106,35 +104,32 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   }
 }
 
-}  // namespace
+using Entry = CheckedIndirectSolution;
+constexpr auto solution_of = &Entry::solution;
+constexpr auto agreement_of = &IndirectSolution::agreement;
+constexpr auto extremal_of = &IndirectSolution::extremal;
+const Columns<Entry> reference_columns{
+    {"problem", "", "name of the problem", from(&Entry::problem)},
+    {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
+    {"certified_digits", "", "digits that two runs of different order and grid share",
+     from(solution_of, &IndirectSolution::certified_digits)},
+    {"state_agreement", "", "relative difference of their states",
+     from(solution_of, agreement_of, &IndirectAgreement::state)},
+    {"costate_agreement", "", "of their costates", from(solution_of, agreement_of, &IndirectAgreement::costate)},
+    {"control_agreement", "", "of their controls", from(solution_of, agreement_of, &IndirectAgreement::control)},
+    {"cost_agreement", "", "of their costs", from(solution_of, agreement_of, &IndirectAgreement::cost)},
+    {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
+     from(solution_of, &IndirectSolution::hamiltonian_drift)},
+    {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
+    {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
+    {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
+    {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
+    {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
+};
 
-const Columns<IndirectReference::Entry>& IndirectReference::columns() {
-  constexpr auto solution = &Entry::solution;
-  constexpr auto agreement = &IndirectSolution::agreement;
-  constexpr auto extremal = &IndirectSolution::extremal;
-  static const Columns<Entry> columns{
-      {"problem", "", "name of the problem", from(&Entry::problem)},
-      {"cost", "cost", "optimal cost", from(solution, &IndirectSolution::cost)},
-      {"certified_digits", "", "digits that two runs of different order and grid share",
-       from(solution, &IndirectSolution::certified_digits)},
-      {"state_agreement", "", "relative difference of their states",
-       from(solution, agreement, &IndirectAgreement::state)},
-      {"costate_agreement", "", "of their costates", from(solution, agreement, &IndirectAgreement::costate)},
-      {"control_agreement", "", "of their controls", from(solution, agreement, &IndirectAgreement::control)},
-      {"cost_agreement", "", "of their costs", from(solution, agreement, &IndirectAgreement::cost)},
-      {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
-       from(solution, &IndirectSolution::hamiltonian_drift)},
-      {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
-      {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
-      {"stages", "", "Gauss points per interval", from(solution, extremal, &CollocatedExtremal::stages)},
-      {"intervals", "", "number of intervals", from(solution, extremal, &CollocatedExtremal::intervals)},
-      {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
-  };
-  return columns;
-}
-
-IndirectReference::Entry IndirectReference::find(const Problem& problem, const Trajectory& direct) const {
-  const std::filesystem::path path = folder_ / (problem.name() + "_indirect.json");
+/// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
+Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / (problem.name() + "_indirect.json");
   std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
   std::optional<double> seconds;
   if (!solution) {
@@ -157,23 +152,26 @@ IndirectReference::Entry IndirectReference::find(const Problem& problem, const T
   return entry;
 }
 
+}  // namespace
+
 const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
-  const auto known = entries_.find(problem.name());
-  if (known == entries_.end()) return entries_.emplace(problem.name(), find(problem, direct)).first->second.solution;
+  const auto known = known_.find(problem.name());
+  if (known == known_.end())
+    return known_.emplace(problem.name(), solution_near(problem, direct, folder_)).first->second.solution;
   require_near(problem, known->second.solution, direct);
   return known->second.solution;
 }
 
 Table IndirectReference::table() const {
-  std::vector<std::string> names = names_of(columns());
-  for (const auto& [problem, entry] : entries_) {
+  std::vector<std::string> names = names_of(reference_columns);
+  for (const auto& [problem, entry] : known_) {
     for (const auto& [name, value] : entry.initial_costate) {
       if (std::ranges::count(names, name) == 0) names.push_back(name);
     }
   }
   Table table(names);
-  for (const auto& [problem, entry] : entries_) {
-    Row row = row_of(columns(), entry);
+  for (const auto& [problem, entry] : known_) {
+    Row row = row_of(reference_columns, entry);
     for (const auto& [name, value] : entry.initial_costate) row.set(name, value);
     table.append(std::move(row));
   }
@@ -182,7 +180,7 @@ Table IndirectReference::table() const {
 
 nlohmann::ordered_json IndirectReference::metadata() const {
   Json references = Json::array();
-  for (const auto& [problem, entry] : entries_) {
+  for (const auto& [problem, entry] : known_) {
     references.push_back({{"problem", problem},
                           {"cost", entry.solution.cost()},
                           {"certified_digits", entry.solution.certified_digits()},
@@ -196,7 +194,7 @@ nlohmann::ordered_json IndirectReference::metadata() const {
 std::vector<std::string> IndirectReference::notes() const {
   constexpr double wanted_digits = 11.0;
   std::vector<std::string> notes;
-  for (const auto& [problem, entry] : entries_) {
+  for (const auto& [problem, entry] : known_) {
     const double digits = entry.solution.certified_digits();
     if (digits >= wanted_digits) continue;
     notes.push_back(

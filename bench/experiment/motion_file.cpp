@@ -10,24 +10,20 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::VectorXd column(const Table& table, const std::string& name, const std::filesystem::path& file) {
-  Eigen::VectorXd values(std::ssize(table.rows()));
-  Eigen::Index k = 0;
-  for (const Row& row : table.rows()) {
-    const auto value = row.number(name);
-    if (!value) {
-      throw Error(fmt::format("{}: column {} is missing or has a field that is not a number", file.string(), name));
-    }
-    values[k++] = *value;
-  }
-  return values;
-}
-
+/// The columns PREFIX NAME of the table in a file.
 Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& names, const std::string& prefix,
                         const std::filesystem::path& file) {
   Eigen::MatrixXd values(std::ssize(table.rows()), std::ssize(names));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    values.col(static_cast<Eigen::Index>(i)) = column(table, prefix + names[i], file);
+  for (Eigen::Index k = 0; const Row& row : table.rows()) {
+    for (Eigen::Index i = 0; const std::string& name : names) {
+      const auto value = row.number(prefix + name);
+      if (!value) {
+        throw Error(
+            fmt::format("{}: column {} is missing or has a field that is not a number", file.string(), prefix + name));
+      }
+      values(k, i++) = *value;
+    }
+    ++k;
   }
   return values;
 }
@@ -109,8 +105,8 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
   // One control per stage time, joined linearly: the trajectory of a one-stage method, whatever wrote the file.
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
-  trajectory.node_times = column(nodes, "t", nodes_file);
-  trajectory.stage_times = column(stages, "t", stages_file);
+  trajectory.node_times = columns(nodes, {"t"}, "", nodes_file);
+  trajectory.stage_times = columns(stages, {"t"}, "", stages_file);
   if (trajectory.node_times.size() < 2 || trajectory.stage_times.size() == 0) {
     throw Error(fmt::format("{} holds no motion", nodes_file.string()));
   }

@@ -51,13 +51,11 @@ std::vector<std::string> in_order(const std::string& kind, const std::vector<std
 }
 
 std::vector<Grid> make_grids(const ExperimentOptions& options) {
-  std::vector<Grid> grids;
   if (!options.grid_file.empty()) {
     const std::vector<double> times = parse_node_times(read_file(options.grid_file));
-    grids.push_back(
-        Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
-    return grids;
+    return {Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)))};
   }
+  std::vector<Grid> grids;
   for (const long long count : parse_intervals("--intervals", options.intervals)) grids.push_back(Grid::uniform(count));
   return grids;
 }
@@ -78,38 +76,33 @@ std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   return tableaus;
 }
 
-/// A family of tableaus with chosen numbers of stages, ascending, each once.
-struct Family {
-  std::string name;
-  std::vector<int> stages;
-};
+/// A family of tableaus and a number of stages.
+using FamilyAndStages = std::pair<std::string, int>;
 
-/// The chosen families with those of the chosen numbers of stages that each is offered with. Throws `Error` if no
-/// family is offered with one of the numbers.
-std::vector<Family> chosen_families(const ExperimentOptions& options) {
-  const auto is_chosen = [&](int stages) { return std::ranges::count(options.stages, stages) > 0; };
-  std::vector<Family> families;
-  std::set<int> offered;
-  for (const std::string& name : in_order("tableau", chosen_tableaus(options), tableau_names())) {
-    Family& family = families.emplace_back(Family{name, {}});
-    std::ranges::copy_if(tableau_stages(name), std::back_inserter(family.stages), is_chosen);
-    offered.insert(family.stages.begin(), family.stages.end());
+/// The chosen families with those of the chosen numbers of stages that each is offered with, ascending. Throws `Error`
+/// if no family is offered with one of the numbers.
+std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
+  const auto families = in_order("tableau", chosen_tableaus(options), tableau_names());
+  std::vector<FamilyAndStages> schemes;
+  for (const std::string& family : families) {
+    for (const int stages : tableau_stages(family)) {
+      if (std::ranges::count(options.stages, stages) > 0) schemes.emplace_back(family, stages);
+    }
   }
   for (const int stages : options.stages) {
-    if (offered.contains(stages)) continue;
-    const std::string& name = families.front().name;
-    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", name,
-                            fmt::join(tableau_stages(name), ", "), stages));
+    if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
+    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", families.front(),
+                            fmt::join(tableau_stages(families.front()), ", "), stages));
   }
-  std::erase_if(families, [](const Family& family) { return family.stages.empty(); });
-  return families;
+  return schemes;
 }
 
 }  // namespace
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
-  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all");
+  const std::string unless_given = options.methods.empty() ? "; default: all" : "";
+  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent" + unless_given);
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.option("--controls", options.controls,
               "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
@@ -170,7 +163,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
-  const auto families = chosen_families(options);
+  const auto schemes = chosen_schemes(options);
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
@@ -185,18 +178,18 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
     // All methods have as many degrees of freedom on a grid, and more stages have more: one program per family tells
     // whether the problem is well posed and the coarsest grid fine enough.
-    for (const auto& [tableau, stages] : families) {
-      const Case coarsest{problem, methods.front(), tableau, stages.front(), "", "tape", grids.front(), "", form};
+    std::set<std::string> checked;
+    for (const auto& [tableau, stages] : schemes) {
+      if (!checked.insert(tableau).second) continue;
+      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), "", form};
       static_cast<void>(coarsest.transcribe());
     }
     for (const std::string& method : methods) {
-      for (const auto& [tableau, numbers_of_stages] : families) {
-        for (const int stages : numbers_of_stages) {
-          for (const std::string& solver : solvers) {
-            for (const std::string& derivatives : back_ends) {
-              for (const Grid& grid : grids) {
-                cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
-              }
+      for (const auto& [tableau, stages] : schemes) {
+        for (const std::string& solver : solvers) {
+          for (const std::string& derivatives : back_ends) {
+            for (const Grid& grid : grids) {
+              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
             }
           }
         }

@@ -25,10 +25,9 @@ void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
   std::vector<Solution> solutions{solver.solve(*solved.program, solved.start)};
   solved.solution = solutions.front();
   for (int i = 1; i < repeats && is_solved(solved.solution.status); ++i) {
-    solutions.push_back(solver.solve(*solved.program, solved.start));
-    if (solutions.back().status != Status::interrupted) continue;
-    solutions.pop_back();
-    break;
+    const Solution again = solver.solve(*solved.program, solved.start);
+    if (again.status == Status::interrupted) break;
+    solutions.push_back(again);
   }
   set_median_times(solved, solutions);
 }

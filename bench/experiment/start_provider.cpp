@@ -24,14 +24,6 @@ namespace {
 constexpr long long final_intervals = 144;
 constexpr std::array guess_intervals{48LL, 96LL, 144LL};
 
-/// Solves a case from a motion; none if it does not converge.
-std::optional<Trajectory> answer_from(const Motion& start, const Case& the_case, const SolverOptions& options) {
-  const auto program = the_case.transcribe();
-  const Solution solution = make_solver(the_case.solver, options)->solve(*program, sample(*program, start));
-  if (!is_solved(solution.status)) return std::nullopt;
-  return read_trajectory(*program, solution.primal, solution.multipliers);
-}
-
 /// The scheme and grid of a solve; equal for solves with the same answer.
 std::string scheme_and_grid(const std::string& method, const std::string& tableau, int stages, std::size_t intervals) {
   return fmt::format("{} {} {} {}", method, tableau, stages, intervals);
@@ -159,13 +151,13 @@ StartProvider::FoundStart StartProvider::find_common_start(const Case& the_case)
   const Motion guess = guessed_motion(problem);
   const auto is_interrupted = [&] { return options_.stop_requested && options_.stop_requested(); };
   const auto solve_on = [&](const std::string& method, long long intervals, const Motion& start) {
-    const Case candidate{.problem = the_case.problem,
-                         .method = method,
-                         .tableau = the_case.tableau,
-                         .stages = the_case.stages,
-                         .solver = "ipopt",
-                         .grid = Grid::uniform(intervals)};
-    return answer_from(start, candidate, options_);
+    Case candidate{.problem = the_case.problem, .method = method, .tableau = the_case.tableau};
+    candidate.stages = the_case.stages;
+    candidate.grid = Grid::uniform(intervals);
+    const auto program = candidate.transcribe();
+    const Solution solution = make_solver("ipopt", options_)->solve(*program, sample(*program, start));
+    return is_solved(solution.status) ? std::optional(read_trajectory(*program, solution.primal, solution.multipliers))
+                                      : std::nullopt;
   };
   std::vector<Candidate> candidates;
   for (const std::string& method : element_names()) {
