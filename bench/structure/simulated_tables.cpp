@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/experiment/common_columns.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
