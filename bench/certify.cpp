@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/agreement_of_routes.hpp"
+#include "bench/summary/selection.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
@@ -22,24 +23,20 @@ namespace dmocbench {
 
 namespace {
 
-struct Scheme {
-  std::string tableau;
-  int stages = 1;
-};
-
-/// "lobatto4" is lobatto with four stages.
-Scheme parse_scheme(const std::string& text) {
+/// A tableau and its number of stages: "lobatto4" is lobatto with four.
+std::pair<std::string, int> parse_route(const std::string& text) {
   const std::size_t digits = text.find_first_of("0123456789");
   if (digits == 0 || digits == std::string::npos || text.size() - digits > 2 ||
       text.find_first_not_of("0123456789", digits) != std::string::npos) {
     throw Error(fmt::format("--routes takes tableaus with their stages like gauss3,lobatto4, not {}", text));
   }
-  Scheme scheme{text.substr(0, digits), std::stoi(text.substr(digits))};
-  static_cast<void>(make_tableau(scheme.tableau, scheme.stages));  // refuses what is not offered
-  return scheme;
+  const std::string tableau = text.substr(0, digits);
+  const int stages = std::stoi(text.substr(digits));
+  static_cast<void>(make_tableau(tableau, stages));  // throws if it is not offered
+  return {tableau, stages};
 }
 
-/// What is known of a problem's least cost when all routes are there.
+/// The least cost of a problem by all routes.
 struct Certificate {
   std::string problem;
   std::map<std::string, double> objectives;  ///< by route
@@ -55,37 +52,27 @@ struct Certificate {
 /// The finest answer of every route, the best replay on the finest grid and the indirect method's cost, from the rows
 /// of one problem.
 Certificate certificate_of(const Problem& problem, const Table& table) {
-  Certificate result;
-  result.problem = problem.name();
-  std::map<std::string, double> finest;   // number of intervals by route
-  std::pair<double, double> best_replay;  // number of intervals, error
-  for (const Row& row : table.rows()) {
-    if (row.text("problem") != problem.name()) continue;
-    if (const auto cost = row.number("indirect_objective")) result.indirect_objective = cost;
-    if (const auto digits = row.number("indirect_digits")) result.indirect_digits = digits;
-    if (const std::string reason = row.text("indirect_message"); !reason.empty()) result.message = reason;
-    const auto objective = row.number("objective");
-    if (row.text("status") != "solved" || !objective) continue;
-    const double intervals = row.number("intervals").value_or(0.0);
-    const std::string route = row.text("tableau") + row.text("stages");
-    if (finest[route] <= intervals) {
-      finest[route] = intervals;
-      result.objectives[route] = *objective;
-    }
-    const auto error = row.number("replay_error");
-    if (!error) continue;
-    if (best_replay.first < intervals || (best_replay.first == intervals && *error < best_replay.second)) {
-      best_replay = {intervals, *error};
-      result.replay_objective = row.number("replay_objective");
-      result.replay_error = error;
-    }
-  }
+  const Selection rows = Selection(table).where("problem", problem.name());
+  const auto has_message = [](const Row& row) { return !row.text("indirect_message").empty(); };
+  const Selection solved = rows.where("status", "solved").with_number("objective").sorted_by("intervals");
+  const Selection replays = solved.with_number("replay_error");
+  const Row& best_replay =
+      replays.where("intervals", replays.back().text("intervals")).sorted_by("replay_error").front();
+  Certificate result{.problem = problem.name(),
+                     .objectives = {},
+                     .replay_objective = best_replay.number("replay_objective"),
+                     .replay_error = best_replay.number("replay_error"),
+                     .indirect_objective = rows.with_number("indirect_objective").back().number("indirect_objective"),
+                     .indirect_digits = rows.with_number("indirect_digits").back().number("indirect_digits"),
+                     .agreement = {},
+                     .reference = problem.card().reference,
+                     .message = rows.where(has_message).back().text("indirect_message")};
+  for (const Row& row : solved) result.objectives[row.text("tableau") + row.text("stages")] = *row.number("objective");
   std::vector<double> costs;
-  costs.reserve(result.objectives.size() + 2);
   for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
-  if (result.replay_objective) costs.push_back(*result.replay_objective);
-  if (result.indirect_objective) costs.push_back(*result.indirect_objective);
-  result.reference = problem.card().reference;
+  for (const auto& cost : {result.replay_objective, result.indirect_objective}) {
+    if (cost) costs.push_back(*cost);
+  }
   result.agreement = agreement_of_routes(costs, result.reference);
   return result;
 }
@@ -101,11 +88,8 @@ Cell reference_agreement(const Certificate& certificate) {
 
 Cell published(const Certificate& certificate) {
   if (!certificate.reference) return {};
-  std::vector<std::string> values;
-  for (const PublishedOptimum& value : certificate.reference->published) {
-    values.push_back(fmt::format("{:.12g} ({})", value.objective, value.source));
-  }
-  return fmt::format("{}", fmt::join(values, "; "));
+  const auto in_words = [](const PublishedOptimum& p) { return fmt::format("{:.12g} ({})", p.objective, p.source); };
+  return fmt::format("{}", fmt::join(certificate.reference->published | std::views::transform(in_words), "; "));
 }
 
 Columns<Certificate> certificate_columns(const std::vector<std::string>& routes) {
@@ -161,19 +145,17 @@ class Certify final : public Experiment {
     };
   }
   void add_options(CommandLine& line) override {
-    line.option("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages")
-        .comma_separated()
-        .shows_default();
+    line.list("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages");
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> cases;
     for (const std::string& route : route_names_) {
-      const Scheme scheme = parse_scheme(route);
-      for (Case each : curve) {
-        each.tableau = scheme.tableau;
-        each.stages = scheme.stages;
-        cases.push_back(std::move(each));
+      const auto [tableau, stages] = parse_route(route);
+      for (const Case& of_curve : curve) {
+        Case& the_case = cases.emplace_back(of_curve);
+        the_case.tableau = tableau;
+        the_case.stages = stages;
       }
     }
     return cases;
@@ -192,13 +174,13 @@ class Certify final : public Experiment {
     CertifiedProblem& certified = *std::ranges::find(problems_, solved.the_case.problem, &CertifiedProblem::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
       measured_.replay = replay(solved);
-      const bool is_finer = !certified.finest || certified.finest->intervals() < solved.trajectory->intervals();
-      if (is_finer) certified.finest = *solved.trajectory;
+      auto& finest = certified.finest;
+      if (!finest || finest->intervals() < solved.trajectory->intervals()) finest = solved.trajectory;
     }
     if (--certified.cases_left > 0 || !with_indirect_ || !certified.finest) return;
     try {
       measured_.indirect = solve_indirect(*certified.problem, *certified.finest);
-    } catch (const Error& error) {  // says what of the problem it does not know
+    } catch (const Error& error) {  // the method does not cover all problems
       measured_.indirect_message = error.what();
     }
   }
@@ -234,7 +216,4 @@ class Certify final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Certify experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Certify(), argc, argv); }

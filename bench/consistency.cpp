@@ -1,9 +1,9 @@
 // Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b) of the paper.
 #include <optional>
-#include <utility>
+#include <set>
 
 #include "bench/experiment/experiment.hpp"
-#include "methods/diagnostics/momentum_consistency.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
@@ -28,12 +28,11 @@ class Consistency final : public Experiment {
     };
   }
   void check(const std::vector<Case>& cases) override {
-    const Problem* checked = nullptr;
-    for (const Case& the_case : cases) {
-      if (std::exchange(checked, the_case.problem.get()) == the_case.problem.get()) continue;
-      if (!TracedProblem(*the_case.problem).has_symmetry()) {
-        throw Error(the_case.problem->name() + " states no symmetry, so there is no momentum to watch");
-      }
+    std::set<const Problem*> problems;
+    for (const Case& the_case : cases) problems.insert(the_case.problem.get());
+    for (const Problem* problem : problems) {
+      if (TracedProblem(*problem).has_symmetry()) continue;
+      throw Error(problem->name() + " states no symmetry, so there is no momentum to watch");
     }
   }
   void complete(SolvedCase& solved) override {
@@ -49,7 +48,4 @@ class Consistency final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Consistency experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Consistency(), argc, argv); }

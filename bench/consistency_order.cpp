@@ -4,37 +4,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "bench/experiment/common_columns.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-struct Quantity {
-  const char* name;
-  double ConsistencyErrors::*error;
-};
-
-constexpr std::array quantities{
-    Quantity{"lagrangian", &ConsistencyErrors::lagrangian},
-    Quantity{"left_force", &ConsistencyErrors::left_force},
-    Quantity{"right_force", &ConsistencyErrors::right_force},
-    Quantity{"left_legendre", &ConsistencyErrors::left_legendre},
-    Quantity{"right_legendre", &ConsistencyErrors::right_legendre},
-    Quantity{"map", &ConsistencyErrors::map},
-};
+/// The quantities that are compared with the exact ones, with their names in the tables.
+constexpr std::array<std::pair<const char*, double ConsistencyErrors::*>, 6> quantities{
+    {{"lagrangian", &ConsistencyErrors::lagrangian},
+     {"left_force", &ConsistencyErrors::left_force},
+     {"right_force", &ConsistencyErrors::right_force},
+     {"left_legendre", &ConsistencyErrors::left_legendre},
+     {"right_legendre", &ConsistencyErrors::right_legendre},
+     {"map", &ConsistencyErrors::map}}};
 
 /// u_j = 1/2 + sin(2πt/T + j): smooth, and nowhere stationary with all its derivatives.
 ControlFormula smooth_control(const Problem& problem) {
@@ -74,46 +66,37 @@ std::vector<Tableau> all_tableaus() {
   return tableaus;
 }
 
-/// Of what an error, or an order, is.
+/// A measured error, or a fitted order, and what it is of.
+template <class Value>
 struct Measured {
   std::string problem;
   std::string tableau;
   Eigen::Index stages = 0;
   int order = 0;
   std::string quantity;
-};
-
-struct MeasuredError {
-  Measured measured;
-  double h = 0.0;
-  double error = 0.0;
-};
-
-struct MeasuredOrder {
-  Measured measured;
-  FittedOrder fit;
+  Value value;
 };
 
 /// The columns that begin both tables.
 template <class Record>
 Columns<Record> first_columns() {
-  constexpr auto measured = &Record::measured;
-  return {{"problem", "", "name of the problem", from(measured, &Measured::problem)},
-          {"tableau", "", "family of Butcher tableaus", from(measured, &Measured::tableau)},
-          {"stages", "", "number of stages", from(measured, &Measured::stages)},
-          {"order", "", "the tableau's order", from(measured, &Measured::order)},
-          {"quantity", "", "what is compared with the exact one", from(measured, &Measured::quantity)}};
+  return {{"problem", "", "name of the problem", &Record::problem},
+          {"tableau", "", "family of Butcher tableaus", &Record::tableau},
+          {"stages", "", "number of stages", &Record::stages},
+          {"order", "", "the tableau's order", &Record::order},
+          {"quantity", "", "what is compared with the exact one", &Record::quantity}};
 }
 
-Columns<MeasuredError> error_columns() {
-  return first_columns<MeasuredError>() +
-         Columns<MeasuredError>{{"h", "", "step", &MeasuredError::h},
-                                {"error", "", "largest error over the initial conditions", &MeasuredError::error}};
-}
+using MeasuredError = Measured<GridError>;
+const Columns<MeasuredError> error_columns =
+    first_columns<MeasuredError>() +
+    Columns<MeasuredError>{
+        {"h", "", "step", from(&MeasuredError::value, &GridError::step)},
+        {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &GridError::error)}};
 
-Columns<MeasuredOrder> order_columns() {
-  return first_columns<MeasuredOrder>() + fitted_order_columns(&MeasuredOrder::fit);
-}
+using MeasuredOrder = Measured<FittedOrder>;
+const Columns<MeasuredOrder> order_columns =
+    first_columns<MeasuredOrder>() + fitted_order_columns(&MeasuredOrder::value);
 
 struct Results {
   std::vector<MeasuredError> errors;
@@ -127,7 +110,7 @@ std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   constexpr double rounding = 1e-15;
   constexpr std::ptrdiff_t fitted = 6;
   std::erase_if(points, [](const GridError& point) { return point.error < rounding; });
-  std::sort(points.begin(), points.end(), [](const GridError& a, const GridError& b) { return a.step < b.step; });
+  std::ranges::sort(points, {}, &GridError::step);
   if (std::ssize(points) > fitted) points.erase(points.begin() + fitted, points.end());
   return fit_order(points);
 }
@@ -140,51 +123,52 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
   const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
   for (std::size_t k = 0; k < intervals.size(); ++k) errors.push_back(order.errors(tableaus, step(k)));
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
-    for (const Quantity& quantity : quantities) {
-      const Measured measured{problem.name(), tableaus[i].family, tableaus[i].stages(), tableaus[i].order,
-                              quantity.name};
+    for (const auto& [quantity, error] : quantities) {
+      const auto measured = [&, quantity = quantity]<class Value>(const Value& value) {
+        const Tableau& tableau = tableaus[i];
+        return Measured<Value>{problem.name(), tableau.family, tableau.stages(), tableau.order, quantity, value};
+      };
       std::vector<GridError> points;
       for (std::size_t k = 0; k < intervals.size(); ++k) {
-        points.push_back({step(k), errors[k][i].*quantity.error});
-        results.errors.push_back({measured, points.back().step, points.back().error});
+        points.push_back({step(k), errors[k][i].*error});
+        results.errors.push_back(measured(points.back()));
       }
-      if (const auto fitted = fit_finest(points)) results.orders.push_back({measured, *fitted});
+      if (const auto fitted = fit_finest(points)) results.orders.push_back(measured(*fitted));
     }
   }
+}
+
+int measure_all(CommandLine& line) {
+  std::vector<std::string> problems;
+  std::vector<std::string> settings;
+  std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
+  std::filesystem::path out = "results";
+  line.list("--problem", problems, "problems (default: all)");
+  line.option("--set", settings, "parameter=value of a problem");
+  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
+  line.option("--out", out, "folder for the results");
+  const std::vector<std::string> command_line = line.parse();
+  const std::vector<long long> steps = parse_intervals("--intervals", intervals);
+  const auto selected = selected_problems(problems, settings);
+  prepare_folder(out);
+  Results results;
+  for (const auto& problem : selected) measure(*problem, steps, results);
+  write_file(out / "consistency_order.csv", table_of(error_columns, results.errors).csv());
+  write_file(out / "consistency_order_slopes.csv", table_of(order_columns, results.orders).csv());
+  write_complete_run(out / "consistency_order.json", command_line);
+  fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
+  return 0;
 }
 
 }  // namespace
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) try {
-  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CommandLine line(
+int main(int argc, char** argv) {
+  return dmocbench::run_program(
+      "consistency_order",
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
       "(consistency_order_slopes.csv).",
-      "consistency_order");
-  std::vector<std::string> problems;
-  std::vector<std::string> settings;
-  std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
-  std::filesystem::path out = "results";
-  line.option("--problem", problems, "problems (default: all)").comma_separated();
-  line.option("--set", settings, "parameter=value of a problem");
-  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling").shows_default();
-  line.option("--out", out, "folder for the results").shows_default();
-  return run_program(line, argc, argv, [&] {
-    const std::vector<long long> steps = parse_intervals("--intervals", intervals);
-    const auto selected = selected_problems(problems, settings);
-    prepare_folder(out);
-    Results results;
-    for (const auto& problem : selected) measure(*problem, steps, results);
-    write_file(out / "consistency_order.csv", table_of(error_columns(), results.errors).csv());
-    write_file(out / "consistency_order_slopes.csv", table_of(order_columns(), results.orders).csv());
-    write_complete_run(out / "consistency_order.json", std::vector<std::string>(argv, argv + argc));
-    fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
-    return 0;
-  });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+      argc, argv, dmocbench::measure_all);
 }

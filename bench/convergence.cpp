@@ -7,12 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/indirect_reference.hpp"
-#include "bench/experiment/interval_list.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/summary/equal_accuracy.hpp"
 #include "bench/summary/fitted_orders.hpp"
+#include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
@@ -21,7 +19,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What --reference says: N, 0 for the finest grid of each curve, or `exact_reference`.
+/// The value of --reference: N, 0 for the finest grid of each curve, or `exact_reference`.
 long long parse_reference(const std::string& text) {
   if (text.empty()) return 0;
   if (text == "indirect") return exact_reference;
@@ -29,6 +27,8 @@ long long parse_reference(const std::string& text) {
   if (intervals && *intervals > 0) return *intervals;
   throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
 }
+
+long long intervals_of(const Case& the_case) { return static_cast<long long>(the_case.intervals()); }
 
 class Convergence final : public Experiment {
  public:
@@ -81,72 +81,59 @@ class Convergence final : public Experiment {
       fit_range_ = {range.front(), range.back()};
     }
     if (reference_ == exact_reference) indirect_.emplace(card_.options.out);
-    if (reference_ <= 0) return;
-    const bool present = std::ranges::any_of(
-        cases, [&](const Case& the_case) { return static_cast<long long>(the_case.intervals()) == reference_; });
-    if (!present) throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+    if (reference_ > 0 && std::ranges::count(cases, reference_, intervals_of) == 0) {
+      throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+    }
   }
 
-  [[nodiscard]] std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const override {
-    std::vector<std::size_t> order{curve.size() - 1};
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      if (static_cast<long long>(curve[i].intervals()) == reference_) order[0] = i;
-    }
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      if (i != order[0]) order.push_back(i);
-    }
-    return order;
+  [[nodiscard]] std::size_t solved_first(const std::vector<Case>& curve) const override {
+    const auto found = std::ranges::find(curve, reference_, intervals_of);
+    return found == curve.end() ? curve.size() - 1 : static_cast<std::size_t>(found - curve.begin());
   }
 
   void complete(SolvedCase& solved) override {
     const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
-    if (is_first) {
-      curve_ = solved.the_case;
-      reference_trajectory_.reset();
-    }
+    if (is_first) reference_trajectory_.reset();
+    curve_ = solved.the_case;
     measured_ = {};
     if (!solved.trajectory) return;
     measured_.replay = replay(solved);
     if (!is_usable(solved)) return;
     const Problem& problem = *solved.the_case.problem;
+    const Trajectory& trajectory = *solved.trajectory;
     try {
       if (indirect_) {
-        measure(problem, *solved.trajectory,
-                indirect_->near(problem, *solved.trajectory).sampled_like(*solved.trajectory));
+        reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
       } else if (is_first) {
-        reference_trajectory_ = *solved.trajectory;
-      } else if (reference_trajectory_) {
-        measure(problem, *solved.trajectory, *reference_trajectory_);
+        reference_trajectory_ = trajectory;
+        return;
       }
+      if (!reference_trajectory_) return;
+      measured_.error = trajectory_error(trajectory, *reference_trajectory_);
+      if (!measured_.error->costate) return;
+      measured_.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
     } catch (const Error& failure) {
       solved.note(failure.what());
     }
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    const FittedOrders slopes = fit_orders(table, fit_range_, reference_);
-    write_file(prefix.string() + "_slopes.csv", slopes.table.csv());
+    FittedOrders orders = fit_orders(table, fit_range_, reference_);
+    write_file(prefix.string() + "_slopes.csv", orders.table.csv());
     write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
     if (indirect_) {
       write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
       metadata["references"] = indirect_->metadata();
-      for (const std::string& note : indirect_->notes()) tell(note, metadata);
+      const std::vector<std::string> notes = indirect_->notes();
+      orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
     }
-    for (const std::string& note : slopes.notes) tell(note, metadata);
+    for (const std::string& note : orders.notes) {
+      metadata["notes"].push_back(note);
+      fmt::print("convergence: {}\n", note);
+    }
   }
 
  private:
-  static void tell(const std::string& note, nlohmann::ordered_json& metadata) {
-    metadata["notes"].push_back(note);
-    fmt::print("convergence: {}\n", note);
-  }
-
-  void measure(const Problem& problem, const Trajectory& trajectory, const Trajectory& reference) {
-    measured_.error = trajectory_error(trajectory, reference);
-    if (!measured_.error->costate) return;
-    measured_.control_from_costate_error = node_control_error(problem, trajectory, reference);
-  }
-
   std::string reference_text_;
   long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
   std::optional<IndirectReference> indirect_;
@@ -165,7 +152,4 @@ class Convergence final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Convergence experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Convergence(), argc, argv); }

@@ -5,7 +5,6 @@
 
 #include "bench/derivatives/measured_derivatives.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -21,8 +20,6 @@ constexpr double shortest_limit = 0.2;  // [s]
 constexpr double limit_without_tape = 0.5;
 /// From the common start exact derivatives take two or three iterations.
 constexpr int most_iterations = 150;
-
-bool is_exact(const std::string& derivatives) { return derivatives == "tape" || derivatives == "adolc"; }
 
 /// Multipliers around 1 of either sign, the same on every run.
 Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
@@ -70,26 +67,22 @@ class Derivatives final : public Experiment {
   }
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    std::vector<Case> all = curve;
     const Case& first = curve.front();
     const bool has_limited_memory =
         first.solver == "ipopt" && (first.derivatives == "tape" || first.derivatives == "forward_differences");
-    for (Case each : curve) {
-      if (!has_limited_memory) break;
-      each.variant = limited_memory;
-      all.push_back(std::move(each));
-    }
-    return all;
+    return has_limited_memory ? vary(curve, {"", limited_memory}) : curve;
   }
 
-  [[nodiscard]] SolverOptions options_for(const Case& the_case, SolverOptions common) override {
-    if (the_case.variant == limited_memory) common.passed_on.emplace("hessian_approximation", "limited-memory");
-    if (is_exact(the_case.derivatives) && the_case.variant.empty()) return common;
-    const Answer* exact = partner_of(the_case);
-    common.most_iterations = std::min(common.most_iterations, most_iterations);
-    common.most_seconds =
-        exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->seconds) : limit_without_tape;
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (the_case.variant == limited_memory) options.passed_on.emplace("hessian_approximation", "limited-memory");
+    const bool is_exact = the_case.derivatives == "tape" || the_case.derivatives == "adolc";
+    if (!is_exact || !the_case.variant.empty()) {
+      const Answer* exact = partner_of(the_case);
+      options.most_iterations = std::min(options.most_iterations, most_iterations);
+      options.most_seconds =
+          exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->seconds) : limit_without_tape;
+    }
+    return Experiment::solver_for(the_case, options);
   }
 
   void complete(SolvedCase& solved) override {
@@ -98,8 +91,11 @@ class Derivatives final : public Experiment {
       answers_.push_back({the_case, *solved.trajectory, solved.solution.seconds});
     }
     measured_ = {};
-    compare(solved);
-    evaluate(solved);
+    if (const Answer* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
+      const Eigen::MatrixXd& q = exact->trajectory.q;
+      measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
+    }
+    if (solved.program) evaluate(solved);
   }
 
  private:
@@ -111,7 +107,6 @@ class Derivatives final : public Experiment {
 
   /// Errors and times at the start of the solve.
   void evaluate(const SolvedCase& solved) {
-    if (!solved.program) return;
     Transcription& program = *solved.program;
     const Eigen::VectorXd multipliers = fixed_multipliers(program.constraint_count());
     const DerivativeReference reference = reference_derivatives(program, solved.start, 1.0, multipliers);
@@ -127,20 +122,14 @@ class Derivatives final : public Experiment {
 
   /// The tape's solve of the same program; null if there is none.
   [[nodiscard]] const Answer* partner_of(const Case& the_case) const {
+    Case by_tape = the_case;
+    by_tape.derivatives = "tape";
+    by_tape.variant = "";
     const auto found = std::ranges::find_if(answers_, [&](const Answer& answer) {
-      const Case& other = answer.the_case;
-      return other.problem == the_case.problem && other.method == the_case.method &&
-             other.tableau == the_case.tableau && other.stages == the_case.stages && other.solver == the_case.solver &&
-             other.grid.relative_times() == the_case.grid.relative_times();
+      return answer.the_case.same_curve(by_tape) &&
+             answer.the_case.grid.relative_times() == the_case.grid.relative_times();
     });
     return found == answers_.end() ? nullptr : &*found;
-  }
-
-  void compare(const SolvedCase& solved) {
-    const Answer* exact = partner_of(solved.the_case);
-    if (!solved.trajectory || exact == nullptr) return;
-    const Eigen::MatrixXd& q = exact->trajectory.q;
-    measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
   }
 
   std::vector<Answer> answers_;
@@ -156,7 +145,4 @@ class Derivatives final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Derivatives experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Derivatives(), argc, argv); }

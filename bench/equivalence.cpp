@@ -3,6 +3,7 @@
 // costates of each are put into the adjoint scheme (th:orderapp).
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -12,7 +13,7 @@
 #include "methods/diagnostics/adjoint_scheme.hpp"
 #include "methods/error.hpp"
 #include "methods/program/kkt_residual.hpp"
-#include "methods/transcription/embedding.hpp"
+#include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
@@ -24,7 +25,7 @@ double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
 }
 
-/// What a trajectory leaves in a method's constraints on the same grid, and what of it is rounding.
+/// The violation of a method's constraints by a trajectory on the same grid, and how much of it may be rounding.
 struct ForeignViolation {
   double violation = 0.0;
   double rounding = 0.0;
@@ -44,35 +45,6 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
   return {.violation = constraint_violation(*program, embedded), .rounding = program->rounding_floor() / divisor};
 }
 
-/// How far two answers are apart.
-struct Differences {
-  double configuration = 0.0;
-  double momentum = 0.0;
-  double control = 0.0;
-  std::optional<double> costate;
-  std::optional<double> stage_costate;
-  double objective = 0.0;
-  ForeignViolation in_dmoc;  ///< this method's answer in DMOC's constraints
-  ForeignViolation of_dmoc;  ///< DMOC's answer in this method's constraints
-};
-
-Differences differences(const Trajectory& dmoc, const Trajectory& here, const Case& the_case) {
-  Differences result{.configuration = relative_difference(here.q, dmoc.q),
-                     .momentum = relative_difference(here.p, dmoc.p),
-                     .control = relative_difference(here.stage_u, dmoc.stage_u),
-                     .costate = {},
-                     .stage_costate = {},
-                     .objective = std::abs(here.cost - dmoc.cost) / std::abs(dmoc.cost),
-                     .in_dmoc = violation_in(the_case, "dmoc", here),
-                     .of_dmoc = violation_in(the_case, the_case.method, dmoc)};
-  if (here.has_costates() && dmoc.has_costates()) {
-    result.costate = std::max(relative_difference(here.psi_q, dmoc.psi_q), relative_difference(here.psi_p, dmoc.psi_p));
-    result.stage_costate = std::max(relative_difference(here.stage_psi_q, dmoc.stage_psi_q),
-                                    relative_difference(here.stage_psi_p, dmoc.stage_psi_p));
-  }
-  return result;
-}
-
 class Equivalence final : public Experiment {
  public:
   Equivalence()
@@ -85,24 +57,21 @@ class Equivalence final : public Experiment {
                     .options = {.intervals = "16:1024"},
                     .polishes = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
-    constexpr auto violation = &ForeignViolation::violation;
-    constexpr auto rounding = &ForeignViolation::rounding;
+    using T = Trajectory;
     return {
-        {"configuration_difference", "", "largest difference of q from DMOC's",
-         of(measured_.differences, &Differences::configuration)},
-        {"momentum_difference", "", "of p", of(measured_.differences, &Differences::momentum)},
-        {"control_difference", "", "of the stage controls", of(measured_.differences, &Differences::control)},
-        {"costate_difference", "", "of psi", of(measured_.differences, &Differences::costate)},
-        {"objective_difference", "", "of the cost", of(measured_.differences, &Differences::objective)},
+        {"configuration_difference", "", "largest difference of q from DMOC's", difference(&T::q)},
+        {"momentum_difference", "", "of p", difference(&T::p)},
+        {"control_difference", "", "of the stage controls", difference(&T::stage_u)},
+        {"costate_difference", "", "of psi", difference(&T::psi_q, &T::psi_p)},
+        {"objective_difference", "", "of the cost", of(measured_.objective_difference)},
         {"violation_in_rows_of_dmoc", "", "what the answer leaves in DMOC's constraints",
-         of(measured_.differences, &Differences::in_dmoc, violation)},
+         of(measured_.in_dmoc, &ForeignViolation::violation)},
         {"rounding_in_rows_of_dmoc", "", "what rounding may leave there",
-         of(measured_.differences, &Differences::in_dmoc, rounding)},
+         of(measured_.in_dmoc, &ForeignViolation::rounding)},
         {"violation_of_dmoc_here", "", "what DMOC's answer leaves in this method's constraints",
-         of(measured_.differences, &Differences::of_dmoc, violation)},
-        {"rounding_here", "", "what rounding may leave there",
-         of(measured_.differences, &Differences::of_dmoc, rounding)},
-        {"stage_costate_difference", "", "of Psi_i", of(measured_.differences, &Differences::stage_costate)},
+         of(measured_.of_dmoc, &ForeignViolation::violation)},
+        {"rounding_here", "", "what rounding may leave there", of(measured_.of_dmoc, &ForeignViolation::rounding)},
+        {"stage_costate_difference", "", "of Psi_i", difference(&T::stage_psi_q, &T::stage_psi_p)},
         {"adjoint_residual", "", "what the costates leave in the adjoint scheme", of(measured_.adjoint_residual)},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
          of(measured_.plain_residual)},
@@ -119,17 +88,29 @@ class Equivalence final : public Experiment {
     if (!solved.trajectory || !is_usable(solved)) return;
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
-    if (trajectory.has_costates()) measure_adjoint_residuals(*here.problem, trajectory);
+    if (trajectory.has_costates()) {
+      // By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
+      const Tableau& tableau = trajectory.tableau;
+      const auto residual = [&](const AdjointCoefficients& coefficients) {
+        return adjoint_residual(*here.problem, trajectory, coefficients).largest();
+      };
+      measured_.adjoint_residual = residual(adjoint_coefficients(tableau));
+      measured_.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
+    }
     if (here.method == "dmoc") {
       answers_.push_back({here, trajectory});
       return;
     }
+    Case by_dmoc = here;
+    by_dmoc.method = "dmoc";
     for (const auto& [dmoc, answer] : answers_) {
-      const bool partner = dmoc.problem == here.problem && dmoc.tableau == here.tableau && dmoc.stages == here.stages &&
-                           dmoc.solver == here.solver && dmoc.derivatives == here.derivatives &&
-                           answer.node_times == trajectory.node_times;
-      if (partner) measured_.differences = differences(answer, trajectory, here);
+      const bool is_partner = dmoc.same_curve(by_dmoc) && answer.node_times == trajectory.node_times;
+      if (is_partner) measured_.dmoc = answer;
     }
+    if (!measured_.dmoc) return;
+    measured_.objective_difference = std::abs(trajectory.cost - measured_.dmoc->cost) / std::abs(measured_.dmoc->cost);
+    measured_.in_dmoc = violation_in(here, "dmoc", trajectory);
+    measured_.of_dmoc = violation_in(here, here.method, *measured_.dmoc);
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
@@ -137,17 +118,24 @@ class Equivalence final : public Experiment {
   }
 
  private:
-  /// By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
-  void measure_adjoint_residuals(const Problem& problem, const Trajectory& trajectory) {
-    const Tableau& tableau = trajectory.tableau;
-    const AdjointCoefficients plain{.a_q = tableau.a, .a_p = tableau.a_conjugate};
-    measured_.adjoint_residual = adjoint_residual(problem, trajectory, adjoint_coefficients(tableau)).largest();
-    measured_.plain_residual = adjoint_residual(problem, trajectory, plain).largest();
+  /// A column's getter: the largest relative difference of some tables from those of DMOC's answer; none without them.
+  template <class... Tables>
+  [[nodiscard]] std::function<Cell(const SolvedCase&)> difference(Tables... tables) const {
+    return [this, tables...](const SolvedCase& solved) -> Cell {
+      const auto both_have = [&](auto table) {
+        return measured_.dmoc && (*solved.trajectory.*table).size() > 0 && (*measured_.dmoc.*table).size() > 0;
+      };
+      if (!(both_have(tables) && ...)) return {};
+      return std::max({relative_difference(*solved.trajectory.*tables, *measured_.dmoc.*tables)...});
+    };
   }
 
   std::vector<std::pair<Case, Trajectory>> answers_;  // of DMOC
   struct {
-    std::optional<Differences> differences;
+    std::optional<Trajectory> dmoc;  // DMOC's answer on the same grid
+    std::optional<double> objective_difference;
+    std::optional<ForeignViolation> in_dmoc;  // this method's answer in DMOC's constraints
+    std::optional<ForeignViolation> of_dmoc;  // DMOC's answer in this method's constraints
     std::optional<double> adjoint_residual;
     std::optional<double> plain_residual;
   } measured_;  // of the case that is completed
@@ -157,7 +145,4 @@ class Equivalence final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Equivalence experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Equivalence(), argc, argv); }

@@ -1,12 +1,9 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
-#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
@@ -15,8 +12,6 @@
 namespace dmocbench {
 
 namespace {
-
-const std::vector<std::string> crash_names{"none", "basis"};
 
 class Iterations final : public Experiment {
  public:
@@ -43,39 +38,26 @@ class Iterations final : public Experiment {
     };
   }
   void add_options(CommandLine& line) override {
-    line.option("--crash", crashes_,
-                "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)")
-        .comma_separated()
-        .shows_default();
+    line.list("--crash", crashes_,
+              "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)");
   }
 
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    if (curve.front().solver == "nlopt") return small_grids(curve);
-    if (curve.front().solver != "sqp") return curve;
-    std::vector<Case> all;
-    for (const std::string& crash : crash_names) {
-      if (std::ranges::find(crashes_, crash) == crashes_.end()) continue;
-      for (Case each : curve) {
-        each.variant = crash;
-        all.push_back(std::move(each));
-      }
-    }
-    return all;
+    const std::vector<std::string> crashes = chosen_of("--crash", {"none", "basis"}, crashes_);
+    std::vector<Case> cases = curve.front().solver == "sqp" ? vary(curve, crashes) : curve;
+    std::erase_if(cases, [](const Case& the_case) {
+      return the_case.solver == "nlopt" && free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
+    });
+    return cases;
   }
-  [[nodiscard]] SolverOptions options_for(const Case& the_case, SolverOptions common) override {
-    if (the_case.solver == "sqp") common.passed_on["crash"] = the_case.variant;
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (the_case.solver == "sqp") options.passed_on["crash"] = the_case.variant;
+    return Experiment::solver_for(the_case, options);
   }
   void check(const std::vector<Case>& cases) override {
-    for (const std::string& crash : crashes_) {
-      if (std::ranges::find(crash_names, crash) == crash_names.end()) {
-        throw Error(fmt::format("--crash takes {}, not {}", fmt::join(crash_names, " or "), crash));
-      }
-    }
-    if (cases.empty()) {
-      throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
-                              most_free_variables_for_slsqp));
-    }
+    if (!cases.empty()) return;
+    throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
+                            most_free_variables_for_slsqp));
   }
 
   void complete(SolvedCase& solved) override {
@@ -90,13 +72,6 @@ class Iterations final : public Experiment {
  private:
   /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
   static constexpr std::size_t most_free_variables_for_slsqp = 200;
-
-  static std::vector<Case> small_grids(std::vector<Case> curve) {
-    std::erase_if(curve, [](const Case& the_case) {
-      return free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
-    });
-    return curve;
-  }
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.
@@ -118,7 +93,4 @@ class Iterations final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Iterations experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Iterations(), argc, argv); }

@@ -1,14 +1,11 @@
 // What there is: problems with everything they prescribe and what is known of their optimum, methods, tableaus,
 // solvers, derivative back ends.
 #include <cmath>
-#include <cstdio>
-#include <exception>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
@@ -25,51 +22,46 @@ void print_field(const std::string& label, const std::string& content) {
   if (!content.empty()) fmt::print("    {:<9} {}\n", label, content);
 }
 
-/// "-2 <= x <= 2, u_1 >= 0" of the entries that are bounded, "" if none is.
+/// "-2 <= x <= 2" or "u_1 >= 0"; empty if the entry is not bounded.
+std::string bound_in_words(const Bounds& bounds, Eigen::Index i, const std::string& name) {
+  const bool has_upper = std::isfinite(bounds.upper[i]);
+  if (!std::isfinite(bounds.lower[i])) return has_upper ? fmt::format("{} <= {:.6g}", name, bounds.upper[i]) : "";
+  if (!has_upper) return fmt::format("{} >= {:.6g}", name, bounds.lower[i]);
+  return fmt::format("{:.6g} <= {} <= {:.6g}", bounds.lower[i], name, bounds.upper[i]);
+}
+
+/// The entries that are bounded, "none" if none is.
 std::string bounds_in_words(const Bounds& bounds, const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (Eigen::Index i = 0; i < bounds.lower.size(); ++i) {
-    const std::string& name = names[static_cast<std::size_t>(i)];
-    const bool has_lower = std::isfinite(bounds.lower[i]);
-    const bool has_upper = std::isfinite(bounds.upper[i]);
-    if (has_lower && has_upper) {
-      parts.push_back(fmt::format("{:.6g} <= {} <= {:.6g}", bounds.lower[i], name, bounds.upper[i]));
-    } else if (has_lower) {
-      parts.push_back(fmt::format("{} >= {:.6g}", name, bounds.lower[i]));
-    } else if (has_upper) {
-      parts.push_back(fmt::format("{} <= {:.6g}", name, bounds.upper[i]));
-    }
+    parts.push_back(bound_in_words(bounds, i, names[static_cast<std::size_t>(i)]));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  std::erase(parts, "");
+  return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::vector<std::string> velocity_names(const Problem& problem) {
-  std::vector<std::string> names;
-  for (const std::string& name : problem.configuration_names()) names.push_back("v_" + name);
+  std::vector<std::string> names = problem.configuration_names();
+  for (std::string& name : names) name.insert(0, "v_");
   return names;
 }
 
 /// The state at an end, and which of its components are not prescribed.
 std::string end_in_words(const Problem& problem, const BoundaryState& state, const EndBounds& bounds) {
-  std::string words = fmt::format("q = {}, v = {}", listed(state.q), listed(state.v));
   std::vector<std::string> free;
   std::vector<std::string> between;
   const auto sort = [&](const Bounds& of, const std::vector<std::string>& names) {
     for (Eigen::Index i = 0; i < of.lower.size(); ++i) {
       const std::string& name = names[static_cast<std::size_t>(i)];
-      if (of.is_fixed(i)) continue;
-      if (!of.is_bounded(i)) {
-        free.push_back(name);
-      } else {
-        between.push_back(bounds_in_words({of.lower.segment(i, 1), of.upper.segment(i, 1)}, {name}));
-      }
+      if (!of.is_bounded(i)) free.push_back(name);
+      if (of.is_bounded(i) && !of.is_fixed(i)) between.push_back(bound_in_words(of, i, name));
     }
   };
   sort(bounds.q, problem.configuration_names());
   sort(bounds.v, velocity_names(problem));
-  if (!free.empty()) words += fmt::format("; free (as guessed): {}", fmt::join(free, ", "));
-  if (!between.empty()) words += fmt::format("; {}", fmt::join(between, ", "));
-  return words;
+  return fmt::format("q = {}, v = {}{}{}{}{}", listed(state.q), listed(state.v),
+                     free.empty() ? "" : "; free (as guessed): ", fmt::join(free, ", "), between.empty() ? "" : "; ",
+                     fmt::join(between, ", "));
 }
 
 std::string horizon_in_words(const Problem& problem) {
@@ -104,13 +96,9 @@ void print_problem(const Problem& problem) {
   print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
   print_field("end", end_in_words(problem, problem.final_state(), problem.bounds().last));
   print_field("horizon", horizon_in_words(problem));
-  const auto bounds_on = [](const Bounds& bounds, const std::vector<std::string>& names) {
-    const std::string words = bounds_in_words(bounds, names);
-    return words.empty() ? std::string("none") : words;
-  };
-  print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_on(problem.bounds().q, q_names),
-                                    bounds_on(problem.bounds().v, velocity_names(problem)),
-                                    bounds_on(problem.bounds().u, problem.control_names())));
+  print_field("bounds", fmt::format("on q: {}; on v: {}; on u: {}", bounds_in_words(problem.bounds().q, q_names),
+                                    bounds_in_words(problem.bounds().v, velocity_names(problem)),
+                                    bounds_in_words(problem.bounds().u, problem.control_names())));
   print_field("rows", fmt::format("{} path constraints, {} boundary conditions", traced.path_constraint_count(),
                                   traced.boundary_condition_count()));
   print_reference(problem);
@@ -122,7 +110,12 @@ void print_problem(const Problem& problem) {
   }
 }
 
-int print_all(const std::vector<std::string>& names, const std::vector<std::string>& settings) {
+int print_all(CommandLine& line) {
+  std::vector<std::string> names;
+  std::vector<std::string> settings;
+  line.list("--problem", names, "only these problems");
+  line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  line.parse();
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed
   fmt::print("Problems (--problem)\n\n");
@@ -152,15 +145,8 @@ int print_all(const std::vector<std::string>& names, const std::vector<std::stri
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) try {
-  dmocbench::CommandLine line(
-      "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", "list");
-  std::vector<std::string> problems;
-  std::vector<std::string> settings;
-  line.option("--problem", problems, "only these problems").comma_separated();
-  line.option("--set", settings, "parameter=value of a problem; may be repeated");
-  return dmocbench::run_program(line, argc, argv, [&] { return dmocbench::print_all(problems, settings); });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+int main(int argc, char** argv) {
+  return dmocbench::run_program(
+      "list", "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", argc,
+      argv, dmocbench::print_all);
 }

@@ -6,11 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
-#include "bench/experiment/perturbed_guess.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -34,23 +32,14 @@ class LocalMinima final : public Experiment {
            columns_of(checks_);
   }
   void add_options(CommandLine& line) override {
-    line.option("--starts", starts_, "starts per case: the guess, and perturbed ones")
-        .range(1LL, most_starts)
-        .shows_default();
-    line.option("--seed", seed_, "of the random curves; the same seed gives the same starts")
-        .range(0LL, largest_seed)
-        .shows_default();
-    line.option("--amplitude", amplitude_, "of the random curves, relative to the range of each coordinate")
-        .range(0.0, largest_amplitude)
-        .shows_default();
+    line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
+    line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
+    line.number("--amplitude", amplitude_, 0.0, 10.0, "of the random curves, relative to the range of each coordinate");
   }
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     std::vector<Case> all;
     for (const Case& each : curve) {
-      for (long long start = 0; start < starts_; ++start) {
-        all.push_back(each);
-        all.back().variant = std::to_string(start);
-      }
+      for (long long start = 0; start < starts_; ++start) all.emplace_back(each).variant = std::to_string(start);
     }
     return all;
   }
@@ -60,8 +49,8 @@ class LocalMinima final : public Experiment {
   }
 
   void complete(SolvedCase& solved) override {
-    const bool is_checked = is_solved(solved.solution.status) && solved.trajectory;
-    checks_ = is_checked ? check_independently(solved) : IndependentChecks{};
+    checks_ = {};
+    if (is_solved(solved.solution.status) && solved.trajectory) checks_ = check_independently(solved);
   }
 
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
@@ -78,9 +67,6 @@ class LocalMinima final : public Experiment {
   }
 
  private:
-  static constexpr long long most_starts = 100000;
-  static constexpr long long largest_seed = 0xffffffffLL;
-  static constexpr double largest_amplitude = 10.0;
   // Costs of one minimum by different methods differ by less than this share, those of different minima by more.
   static constexpr double separation = 0.01;
   // A spurious minimum of the grid is no motion: a replay ends far away.
@@ -96,7 +82,4 @@ class LocalMinima final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::LocalMinima experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::LocalMinima(), argc, argv); }

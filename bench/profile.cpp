@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/library_table.hpp"
 #include "bench/summary/performance_profile.hpp"
@@ -18,7 +17,6 @@ namespace {
 
 class Profile final : public Experiment {
  public:
-  // All solvers reach this tolerance.
   Profile()
       : Experiment(
             {.name = "profile",
@@ -28,7 +26,10 @@ class Profile final : public Experiment {
                  "below the tolerance and a cost within --objective-tolerance of the reference; all else counts as "
                  "never. NAME_library.csv and NAME_library.md hold every cost at the finest grid beside the "
                  "reference.",
-             .options = {.problems = {"all"}, .intervals = "32,64,128", .start = "guess", .tolerance = 1e-8},
+             .options = {.problems = {"all"},
+                         .intervals = "32,64,128",
+                         .start = "guess",
+                         .tolerance = 1e-8},  // all solvers reach it
              .tells_branches = false,
              .problems_are_independent = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
@@ -45,17 +46,13 @@ class Profile final : public Experiment {
            columns_of(measured_.checks);
   }
   void add_options(CommandLine& line) override {
-    line.option("--objective-tolerance", objective_tolerance_,
-                "largest difference of the cost from the reference, relative, that counts as a success")
-        .range(0.0, 1.0)
-        .shows_default();
-    line.option("--seconds", most_seconds_, "time after which a solve has failed")
-        .range(0.0, longest_time)
-        .shows_default();
+    line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
+                "largest difference of the cost from the reference, relative, that counts as a success");
+    line.number("--seconds", most_seconds_, 0.0, 1e6, "time after which a solve has failed");
   }
-  [[nodiscard]] SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) override {
-    common.most_seconds = most_seconds_;
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    options.most_seconds = most_seconds_;
+    return Experiment::solver_for(the_case, options);
   }
 
   void complete(SolvedCase& solved) override {
@@ -63,9 +60,8 @@ class Profile final : public Experiment {
     measured_.reference = solved.the_case.problem->card().reference;
     const auto& reference = measured_.reference;
     if (!reference || !is_solved(solved.solution.status) || !solved.trajectory) return;
-    const double error = std::abs(solved.trajectory->cost - reference->objective);
-    measured_.error = error;
-    measured_.is_success = error <= objective_tolerance_ * std::abs(reference->objective);
+    measured_.error = std::abs(solved.trajectory->cost - reference->objective);
+    measured_.is_success = measured_.error <= objective_tolerance_ * std::abs(reference->objective);
     measured_.checks = check_independently(solved);
   }
 
@@ -84,7 +80,6 @@ class Profile final : public Experiment {
   }
 
  private:
-  static constexpr double longest_time = 1e6;
   double objective_tolerance_ = 0.02;
   double most_seconds_ = 20.0;
   struct {
@@ -99,7 +94,4 @@ class Profile final : public Experiment {
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Profile experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Profile(), argc, argv); }

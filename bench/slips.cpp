@@ -1,7 +1,5 @@
 // Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -51,17 +49,6 @@ Slip potential_without_sine() {
           .required = 0.0};
 }
 
-/// The optimal transfer by DMOC: angular momentum at the nodes.
-Trajectory transfer(const std::shared_ptr<const Problem>& problem) {
-  constexpr long long intervals = 128;
-  const Case the_case{
-      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(intervals)};
-  StartProvider starts("common", {});
-  SolvedCase solved = solve_case(the_case, {starts.motion_for(the_case), starts.branch_for(the_case)}, {}, 1);
-  if (!solved.trajectory || !is_usable(solved)) throw Error("the orbital transfer could not be solved");
-  return std::move(*solved.trajectory);
-}
-
 /// Free variations at t = 0 give ∂L/∂q̇(0) = p⁰; the paper prints p^T there, and p⁰ at T.
 Slip swapped_momenta(const Problem& problem, const Trajectory& motion) {
   const BoundaryState first = problem.initial_state();
@@ -109,28 +96,29 @@ const Columns<Slip> columns{
     {"required_value", "", "its value as it has to be", &Slip::required},
 };
 
+int evaluate_slips(CommandLine& line) {
+  std::filesystem::path out = "results";
+  line.option("--out", out, "folder for the results");
+  line.parse();
+  prepare_folder(out);
+  const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
+  const Trajectory motion =
+      StartProvider("common", {})
+          .solve(
+              {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
+  const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),
+                                mayer_gradient(*orbit, motion)};
+  write_file(out / "slips.csv", table_of(columns, slips).csv());
+  fmt::print("slips: {} rows: {}\n", slips.size(), (out / "slips.csv").string());
+  return 0;
+}
+
 }  // namespace
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) try {
-  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CommandLine line(
-      "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-      "slips");
-  std::filesystem::path out = "results";
-  line.option("--out", out, "folder for the results").shows_default();
-  return run_program(line, argc, argv, [&] {
-    prepare_folder(out);
-    const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
-    const Trajectory motion = transfer(orbit);
-    const Table table =
-        table_of(columns, {potential_without_sine(), swapped_momenta(*orbit, motion), mayer_gradient(*orbit, motion)});
-    write_file(out / "slips.csv", table.csv());
-    fmt::print("slips: {} rows: {}\n", table.rows().size(), (out / "slips.csv").string());
-    return 0;
-  });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+int main(int argc, char** argv) {
+  return dmocbench::run_program(
+      "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
+      argc, argv, dmocbench::evaluate_slips);
 }

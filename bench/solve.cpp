@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/independent_checks.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
@@ -55,58 +54,55 @@ class Solve final : public Experiment {
       throw Error("--trace needs exactly one case, solved by --solver sqp");
     }
   }
-  [[nodiscard]] SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) override {
-    if (trace_file_.empty()) return common;
-    common.on_minor_iteration = [this](const MinorIteration& minor) {
-      if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
-      trace_.push_back(minor);
-    };
-    return common;
+  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (!trace_file_.empty()) {
+      options.on_minor_iteration = [this](const MinorIteration& minor) {
+        if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
+        trace_.push_back(minor);
+      };
+    }
+    return Experiment::solver_for(the_case, options);
   }
 
   void complete(SolvedCase& solved) override {
     const auto variables = static_cast<Eigen::Index>(solved.program ? solved.program->variable_count() : 0);
     if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
-    checks_ = solved.trajectory ? check_independently(solved) : IndependentChecks{};
-    if (!solved.trajectory || !is_solved(solved.solution.status)) return;
-    motions_.push_back({solved.the_case, *solved.trajectory, solved.solution.multipliers_are_estimated});
+    checks_ = {};
+    if (!solved.trajectory) return;
+    checks_ = check_independently(solved);
+    if (!is_solved(solved.solution.status)) return;
+    motions_.push_back(solved);
+    motions_.back().program.reset();  // it is large
   }
 
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    for (const auto& [the_case, trajectory, costates_are_estimated] : motions_) {
+    for (const SolvedCase& solved : motions_) {
+      const Case& the_case = solved.the_case;
       const std::string file = single_ ? prefix.string() : prefix.string() + "_" + the_case.file_label();
-      write_file(file + "_stages.csv", stage_table(*the_case.problem, trajectory).csv());
-      write_file(file + "_picture.csv", picture_table(*the_case.problem, trajectory).csv());
-      write_file(file + "_nodes.csv", node_table(*the_case.problem, trajectory).csv());
+      write_file(file + "_stages.csv", stage_table(*the_case.problem, *solved.trajectory).csv());
+      write_file(file + "_picture.csv", picture_table(*the_case.problem, *solved.trajectory).csv());
+      write_file(file + "_nodes.csv", node_table(*the_case.problem, *solved.trajectory).csv());
       metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
                                      {"problem", the_case.problem->name()},
                                      {"method", the_case.method},
                                      {"tableau", the_case.tableau},
                                      {"stages", the_case.stages},
                                      {"intervals", the_case.intervals()},
-                                     {"costates_are_estimated", costates_are_estimated}});
+                                     {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
       fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);
     }
   }
 
  private:
-  struct SolvedMotion {
-    Case the_case;
-    Trajectory trajectory;
-    bool costates_are_estimated;  // by least squares, where the solver gave no multipliers
-  };
   bool single_ = true;
   std::string trace_file_;
   std::vector<MinorIteration> trace_;
-  std::vector<SolvedMotion> motions_;
-  IndependentChecks checks_;  // of the case that is completed
+  std::vector<SolvedCase> motions_;  // solved, each with its trajectory
+  IndependentChecks checks_;         // of the case that is completed
 };
 
 }  // namespace
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) {
-  dmocbench::Solve experiment;
-  return dmocbench::run_experiment(experiment, argc, argv);
-}
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Solve(), argc, argv); }

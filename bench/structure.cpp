@@ -1,11 +1,8 @@
 // Structure: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation of a Modified
 // Energy").
-#include <cstdio>
-#include <exception>
-
 #include <fmt/format.h>
 
-#include "bench/experiment/common_columns.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -13,8 +10,7 @@
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
-#include "methods/diagnostics/energy_balance.hpp"
-#include "methods/error.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
@@ -22,20 +18,17 @@ namespace dmocbench {
 
 namespace {
 
-struct EnergyOfPeriod {
-  Scheme scheme;
-  int order = 0;
-  int steps_per_period = 0;
-  PeriodEnergy energy;
-};
-
-struct EnergyOfPeriods {
+/// The energy along the unforced ellipse: of one period, or over all of them.
+template <class Energy>
+struct OnEllipse {
   Scheme scheme;
   int order = 0;
   int steps_per_period = 0;
   long long periods = 0;
-  EnergyBehaviour behaviour;
+  Energy energy;
 };
+using EnergyOfPeriod = OnEllipse<PeriodEnergy>;
+using EnergyOfPeriods = OnEllipse<EnergyBehaviour>;
 
 struct EnergyOrder {
   Scheme scheme;
@@ -58,48 +51,42 @@ Columns<Record> ellipse_columns() {
                          {"steps_per_period", "", "steps per period", &Record::steps_per_period}};
 }
 
-Columns<EnergyOfPeriod> period_columns() {
-  constexpr auto energy = &EnergyOfPeriod::energy;
-  return ellipse_columns<EnergyOfPeriod>() +
-         Columns<EnergyOfPeriod>{
-             {"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period)},
-             {"energy_smallest", "", "smallest error of the energy", from(energy, &PeriodEnergy::smallest)},
-             {"energy_mean", "", "mean error over the period", from(energy, &PeriodEnergy::mean)},
-             {"energy_largest", "", "largest error of the energy", from(energy, &PeriodEnergy::largest)}};
-}
+const Columns<EnergyOfPeriod> period_columns =
+    ellipse_columns<EnergyOfPeriod>() +
+    Columns<EnergyOfPeriod>{
+        {"period", "", "number of the period, from 0", from(&EnergyOfPeriod::energy, &PeriodEnergy::period)},
+        {"energy_smallest", "", "smallest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::smallest)},
+        {"energy_mean", "", "mean error over the period", from(&EnergyOfPeriod::energy, &PeriodEnergy::mean)},
+        {"energy_largest", "", "largest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::largest)}};
 
-Columns<EnergyOfPeriods> behaviour_columns() {
-  constexpr auto behaviour = &EnergyOfPeriods::behaviour;
-  return ellipse_columns<EnergyOfPeriods>() +
-         Columns<EnergyOfPeriods>{
-             {"periods", "", "number of periods", &EnergyOfPeriods::periods},
-             {"oscillation", "", "max - min over the first ten periods",
-              from(behaviour, &EnergyBehaviour::oscillation)},
-             {"range", "", "max - min over all watched periods", from(behaviour, &EnergyBehaviour::range)},
-             {"drift_per_period", "", "of the mean, by least squares",
-              from(behaviour, &EnergyBehaviour::drift_per_period)},
-             {"standard_error", "", "of the drift", from(behaviour, &EnergyBehaviour::standard_error)},
-             {"change", "", "last mean minus first mean", from(behaviour, &EnergyBehaviour::change)}};
-}
+constexpr auto orbit_energy = &EnergyOfPeriods::energy;
+const Columns<EnergyOfPeriods> behaviour_columns =
+    ellipse_columns<EnergyOfPeriods>() +
+    Columns<EnergyOfPeriods>{
+        {"periods", "", "number of periods", &EnergyOfPeriods::periods},
+        {"oscillation", "", "max - min over the first ten periods", from(orbit_energy, &EnergyBehaviour::oscillation)},
+        {"range", "", "max - min over all watched periods", from(orbit_energy, &EnergyBehaviour::range)},
+        {"drift_per_period", "", "of the mean, by least squares",
+         from(orbit_energy, &EnergyBehaviour::drift_per_period)},
+        {"standard_error", "", "of the drift", from(orbit_energy, &EnergyBehaviour::standard_error)},
+        {"change", "", "last mean minus first mean", from(orbit_energy, &EnergyBehaviour::change)}};
 
-Columns<EnergyOrder> order_columns() {
-  return scheme_columns<EnergyOrder>() +
-         Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
-         fitted_order_columns(&EnergyOrder::fit);
-}
+const Columns<EnergyOrder> order_columns =
+    scheme_columns<EnergyOrder>() +
+    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
+    fitted_order_columns(&EnergyOrder::fit);
 
-Columns<TransferEnergy> transfer_columns() {
-  constexpr auto balance = &TransferEnergy::balance;
-  return scheme_columns<TransferEnergy>() +
-         Columns<TransferEnergy>{
-             {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
-             {"h", "", "step", &TransferEnergy::h},
-             {"energy_change", "", "E(T) - E(0)", from(balance, &EnergyBalance::change)},
-             {"work", "", "work of the thrust", from(balance, &EnergyBalance::work)},
-             {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
-             {"largest_gap", "", "largest difference over the nodes", from(balance, &EnergyBalance::largest_gap)},
-             {"largest_work", "", "largest work over the nodes", from(balance, &EnergyBalance::largest_work)}};
-}
+constexpr auto transfer_balance = &TransferEnergy::balance;
+const Columns<TransferEnergy> transfer_columns =
+    scheme_columns<TransferEnergy>() +
+    Columns<TransferEnergy>{
+        {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
+        {"h", "", "step", &TransferEnergy::h},
+        {"energy_change", "", "E(T) - E(0)", from(transfer_balance, &EnergyBalance::change)},
+        {"work", "", "work of the thrust", from(transfer_balance, &EnergyBalance::work)},
+        {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
+        {"largest_gap", "", "largest difference over the nodes", from(transfer_balance, &EnergyBalance::largest_gap)},
+        {"largest_work", "", "largest work over the nodes", from(transfer_balance, &EnergyBalance::largest_work)}};
 
 struct EnergyResults {
   std::vector<EnergyOfPeriod> periods;
@@ -112,12 +99,13 @@ Scheme on_ellipse(const LongTimeMethod& method) { return {"kepler", method.name,
 
 EnergyBehaviour follow(const LongTimeMethod& method, int steps_per_period, long long periods, bool with_periods,
                        EnergyResults& results) {
+  const Scheme scheme = on_ellipse(method);
   const std::vector<PeriodEnergy> energies = long_time_energy(method, steps_per_period, periods);
   for (const PeriodEnergy& period : energies) {
-    if (with_periods) results.periods.push_back({on_ellipse(method), method.order, steps_per_period, period});
+    if (with_periods) results.periods.push_back({scheme, method.order, steps_per_period, periods, period});
   }
   const EnergyBehaviour behaviour = energy_behaviour(energies);
-  results.behaviour.push_back({on_ellipse(method), method.order, steps_per_period, periods, behaviour});
+  results.behaviour.push_back({scheme, method.order, steps_per_period, periods, behaviour});
   return behaviour;
 }
 
@@ -142,58 +130,57 @@ void follow_transfer(EnergyResults& results) {
     std::vector<GridError> points;
     for (const long long intervals : {32, 64, 128, 256}) {
       the_case.grid = Grid::uniform(intervals);
-      const SolvedCase solved = solve_case(the_case, {starts.motion_for(the_case), starts.branch_for(the_case)}, {}, 1);
-      if (!solved.trajectory || !is_usable(solved)) throw Error("the orbital transfer could not be solved");
+      const EnergyBalance balance = energy_balance(*problem, starts.solve(the_case));
       const double h = problem->horizon() / static_cast<double>(intervals);
-      results.transfer.push_back({scheme, intervals, h, energy_balance(*problem, *solved.trajectory)});
-      points.push_back({h, results.transfer.back().balance.largest_gap});
+      results.transfer.push_back({scheme, intervals, h, balance});
+      points.push_back({h, balance.largest_gap});
     }
     if (const auto order = fit_order(points)) results.orders.push_back({scheme, "transfer_gap", *order});
   }
+}
+
+int write_tables(CommandLine& line) {
+  std::filesystem::path out = "results";
+  int steps = 400;
+  int steps_per_period = 64;
+  long long periods = 10000;
+  line.option("--out", out, "folder for the results");
+  line.number("--steps", steps, 1, 1000000, "steps of the forced maps");
+  line.number("--steps-per-period", steps_per_period, 8, 100000, "steps per period of the orbit");
+  line.number("--periods", periods, 3, 10000000, "periods of the orbit");
+  const std::vector<std::string> command_line = line.parse();
+  prepare_folder(out);
+  const auto write = [&](const std::string& name, const Table& table) {
+    const std::filesystem::path file = out / (name + ".csv");
+    write_file(file, table.csv());
+    fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
+  };
+  write("structure_momentum", noether_table(steps));
+  write("structure_symplecticity", symplecticity_table());
+  EnergyResults results;
+  for (const LongTimeMethod& method : long_time_methods()) {
+    follow(method, steps_per_period, periods, true, results);
+    if (method.name == "dmoc") oscillation_over_step(method, results);
+  }
+  follow_transfer(results);
+  write("structure_transfer", table_of(transfer_columns, results.transfer));
+  write("structure_energy", table_of(period_columns, results.periods));
+  write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));
+  write("structure_energy_slopes", table_of(order_columns, results.orders));
+  write_complete_run(out / "structure.json", command_line);
+  return 0;
 }
 
 }  // namespace
 
 }  // namespace dmocbench
 
-int main(int argc, char** argv) try {
-  using namespace dmocbench;  // NOLINT(google-build-using-namespace): the whole program is ours
-  CommandLine line(
+int main(int argc, char** argv) {
+  return dmocbench::run_program(
+      "structure",
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
       "(structure_energy.csv, structure_energy_behaviour.csv) and along the optimal orbital transfer "
       "(structure_transfer.csv).",
-      "structure");
-  std::filesystem::path out = "results";
-  int steps = 400;
-  int steps_per_period = 64;
-  long long periods = 10000;
-  line.option("--out", out, "folder for the results").shows_default();
-  line.option("--steps", steps, "steps of the forced maps").range(1, 1000000).shows_default();
-  line.option("--steps-per-period", steps_per_period, "steps per period of the orbit").range(8, 100000).shows_default();
-  line.option("--periods", periods, "periods of the orbit").range(3LL, 10000000LL).shows_default();
-  return run_program(line, argc, argv, [&] {
-    prepare_folder(out);
-    const auto write = [&](const std::string& name, const Table& table) {
-      write_file(out / (name + ".csv"), table.csv());
-      fmt::print("structure: {} rows: {}\n", table.rows().size(), (out / (name + ".csv")).string());
-    };
-    write("structure_momentum", noether_table(steps));
-    write("structure_symplecticity", symplecticity_table());
-    EnergyResults results;
-    for (const LongTimeMethod& method : long_time_methods()) {
-      follow(method, steps_per_period, periods, true, results);
-      if (method.name == "dmoc") oscillation_over_step(method, results);
-    }
-    follow_transfer(results);
-    write("structure_transfer", table_of(transfer_columns(), results.transfer));
-    write("structure_energy", table_of(period_columns(), results.periods));
-    write("structure_energy_behaviour", table_of(behaviour_columns(), results.behaviour));
-    write("structure_energy_slopes", table_of(order_columns(), results.orders));
-    write_complete_run(out / "structure.json", std::vector<std::string>(argv, argv + argc));
-    return 0;
-  });
-} catch (const std::exception& error) {  // what is set up before run_program can guard it
-  std::fputs(error.what(), stderr);
-  return 2;
+      argc, argv, dmocbench::write_tables);
 }

@@ -27,6 +27,11 @@ do for [m = 1:3] { do for [s = 1:2] {
 grids_axis = "set logscale x 2; unset mxtics; set format x '%g'; set xrange [45:1.5e6]; set xlabel 'number of intervals N';\
     set xtics ('64' 64, '1024' 1024, '16384' 16384, '' 65536, '' 262144, '2^{20}' 1048576) font ',13'"
 
+# One panel per problem. Titles and key need the width of two; margins are those of the labels, however wide the figure is.
+panels_width(n) = 150 + 400 * (n < 2 ? 2 : n)
+panels_margins(n, bottom) = sprintf("margins %g, %g, %g, 0.82 spacing %g",\
+    108.0 / panels_width(n), 1 - 20.0 / panels_width(n), bottom, 54.0 / panels_width(n))
+
 # --- Time per interval and iteration ---------------------------------------------------------------------------------
 drawn = ""
 do for [problem in on_grids] {
@@ -34,10 +39,12 @@ do for [problem in on_grids] {
 }
 if (words(drawn) > 0) {
   do for [kind in kinds] {
-    eval begin_figure(kind, "speed_solves", 150 + 400 * words(drawn), 600)
-    set multiplot layout 1, words(drawn) title title_text("Time of a solve per interval and iteration", "",\
-        "One thread, tolerance 10^{−10}, from the problem's own guess; what was not solved is left out. Smaller is better.")\
-        offset 0, -0.4 margins 0.08, 0.985, 0.25, 0.82 spacing 0.04
+    eval begin_figure(kind, "speed_solves", panels_width(words(drawn)), 600)
+    key_rows = words(drawn) > 2 ? 2 : 3
+    title = title_text("Time of a solve per interval and iteration", "",\
+        "One thread, tolerance 10^{−10}, from the problem's own guess; what was not solved is left out. Smaller is better.")
+    eval "set multiplot layout 1, words(drawn) title title offset 0, -0.4 ".\
+        panels_margins(words(drawn), key_rows == 2 ? 0.25 : 0.28)
     do for [p = 1:words(drawn)] {
       problem = word(drawn, p)
       unset logscale; set autoscale; unset label
@@ -48,7 +55,7 @@ if (words(drawn) > 0) {
       set title problem_label(problem) font ",15"
       set ylabel (p == 1 ? "time per interval and iteration [ns]" : "")
       unset key
-      if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 2 width 2 }
+      if (p == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows key_rows width 2 }
       shown = ""
       do for [c = 3:8] {
         if (here("speed_solves", times(problem, (c - 1) / 2, (c - 1) % 2 + 1), "solved")) {
@@ -73,10 +80,10 @@ do for [problem in on_grids] {
 }
 if (words(drawn) == 0) { exit }
 do for [kind in kinds] {
-  eval begin_figure(kind, "speed_solves_ratio", 150 + 400 * words(drawn), 560)
-  set multiplot layout 1, words(drawn) title title_text("How many times longer Ipopt takes than interior\\_point", "",\
-      "Medians of whole solves, one thread; only where both solved and their costs agree to 10^{−9}.")\
-      offset 0, -0.4 margins 0.08, 0.985, 0.21, 0.82 spacing 0.04
+  eval begin_figure(kind, "speed_solves_ratio", panels_width(words(drawn)), 560)
+  title = title_text("How many times longer Ipopt takes than interior\\_point", "",\
+      "Medians of whole solves, one thread; only where both solved and their costs agree to 10^{−9}.")
+  eval "set multiplot layout 1, words(drawn) title title offset 0, -0.4 ".panels_margins(words(drawn), 0.21)
   do for [p = 1:words(drawn)] {
     problem = word(drawn, p)
     unset logscale; set autoscale; unset label

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,7 +14,7 @@
 
 namespace dmocbench {
 
-/// What the measurement says of a statement.
+/// The verdict of a measurement on a statement.
 enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
@@ -48,6 +49,11 @@ inline constexpr const char* orbit = "orbital_transfer";
 inline constexpr const char* two_link = "two_link_manipulator";
 inline constexpr const char* oscillator = "forced_oscillator";
 
+using Problems = std::vector<std::string>;
+inline const Problems of_paper{orbit, two_link};
+inline const Problems only_orbit{orbit};
+inline const Problems only_two_link{two_link};
+
 /// Who makes a statement.
 enum class Whose : std::uint8_t {
   paper,
@@ -68,7 +74,7 @@ class Wording {
   const char* on_two_link_;
 };
 
-/// What the tables say about a claim.
+/// The result of judging a claim by the tables.
 struct Finding {
   std::string measured;  ///< in words and numbers
   ClaimVerdict verdict = ClaimVerdict::not_yet;
@@ -80,15 +86,13 @@ using Predicate = std::function<std::optional<Finding>(const ResultTables& table
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
 struct Claim {
   std::string id;  ///< "state_slope"; the written table puts the problem in front
-  std::vector<std::string> problems{orbit, two_link};
+  Problems problems;
   Wording where;  ///< label or section in the paper
-  Whose whose = Whose::paper;
+  Whose whose;
   Wording states;
   Predicate judge;
-  /// Explains what was measured, and is written behind it.
-  const char* reason = "";
-  /// Left out where its table is not there: the experiment is not part of every run.
-  bool is_optional = false;
+  const char* reason = "";   ///< explains what was measured, and is written behind it
+  bool is_optional = false;  ///< left out where its table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.
@@ -107,41 +111,37 @@ struct JudgedClaim {
 // The claims by topic, each topic's predicates and the numbers that decide in one file.
 
 using Claims = std::vector<Claim>;
-/// Momentum-force consistency, and which methods have equal solutions.
-[[nodiscard]] Claims solution_claims();
-/// Where tangent-space collocation has the solutions of DMOC.
-[[nodiscard]] Claims coincidence_claims();
-/// Section 4.2: convergence, cost and numbers of variables over the grids.
-[[nodiscard]] Claims grid_claims();
-/// Orders of state, costate and control for every tableau.
-[[nodiscard]] Claims order_claims();
-[[nodiscard]] Claims stage_control_claims();
-/// Iterations, time, operations and derivatives.
-[[nodiscard]] Claims cost_claims();
-/// The order of consistency, and what the discrete flow preserves.
-[[nodiscard]] Claims consistency_order_claims();
-[[nodiscard]] Claims flow_claims();
-/// Local minima, and the whole library.
-[[nodiscard]] Claims minima_claims();
-[[nodiscard]] Claims library_claims();
+[[nodiscard]] Claims solution_claims();           ///< momentum-force consistency, methods with equal solutions
+[[nodiscard]] Claims coincidence_claims();        ///< where tangent-space collocation has the solutions of DMOC
+[[nodiscard]] Claims grid_claims();               ///< section 4.2: convergence, cost and variables over the grids
+[[nodiscard]] Claims order_claims();              ///< orders of state and costate for every tableau
+[[nodiscard]] Claims stage_control_claims();      ///< and of the controls of the stages
+[[nodiscard]] Claims cost_claims();               ///< iterations, time, operations and derivatives
+[[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
+[[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
+[[nodiscard]] Claims minima_claims();             ///< local minima
+[[nodiscard]] Claims library_claims();            ///< the whole library
 
-// What predicates share.
+// Shared by the predicates.
 
-/// A fitted slope may miss its order by this much.
+/// A fitted order may miss its order by this much.
 inline constexpr double near_order = 0.3;
 
+[[nodiscard]] inline ClaimVerdict verdict_on(ClaimVerdict verdict) { return verdict; }
 [[nodiscard]] inline ClaimVerdict verdict_on(bool holds) {
   return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
 }
 
-/// A finding in the words of fmt::format.
-template <class... Values>
-[[nodiscard]] Finding found(ClaimVerdict verdict, fmt::format_string<Values...> words, Values&&... values) {
-  return {fmt::format(words, std::forward<Values>(values)...), verdict};
+/// A finding in the words of fmt::format; `outcome` is a verdict, or whether the statement holds.
+template <class Outcome, class... Values>
+[[nodiscard]] Finding found(Outcome outcome, fmt::format_string<Values...> words, Values&&... values) {
+  return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
 }
-template <class... Values>
-[[nodiscard]] Finding found(bool holds, fmt::format_string<Values...> words, Values&&... values) {
-  return found(verdict_on(holds), words, std::forward<Values>(values)...);
+
+/// Whether the order that was fitted in a row is as expected; false without one.
+[[nodiscard]] inline bool has_order(const Row& row, double expected) {
+  const auto order = row.number("slope");
+  return order && std::abs(*order - expected) < near_order;
 }
 
 /// The rows of one method by the midpoint rule.

@@ -26,28 +26,28 @@ PublishedRange published_range(const std::string& problem) {
 struct SqpRatios {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = 0.0;
+  PublishedRange range;
   Selection grids;       ///< DMOC's rows
   bool complete = true;  ///< no row is missing, not solved or on another branch
 
-  SqpRatios(const Selection& rows, const std::string& column, const PublishedRange& range)
-      : grids(midpoint(rows, "dmoc").where([&](const Row& row) {
+  SqpRatios(const Selection& rows, const std::string& column, const PublishedRange& published)
+      : range(published), grids(midpoint(rows, "dmoc").where([&](const Row& row) {
           return row.number("intervals", 0.0) >= range.coarsest;
         })) {
     for (const Row& dmoc : grids) {
       for (const char* method : {"hamiltonian", "tangent"}) {
         const Row& other = midpoint(rows, method).usable().matching(dmoc, {"intervals"}).front();
-        const auto value = ratio(other.number(column), dmoc.number(column));
-        complete = complete && value && is_usable(dmoc);
-        if (!value || !is_usable(dmoc)) continue;
-        lowest = std::min(lowest, *value);
-        highest = std::max(highest, *value);
+        const auto value = is_usable(dmoc) ? ratio(other.number(column), dmoc.number(column)) : std::nullopt;
+        complete = complete && value;
+        lowest = std::min(lowest, value.value_or(lowest));
+        highest = std::max(highest, value.value_or(highest));
       }
     }
   }
-  [[nodiscard]] bool lie_in(const PublishedRange& range) const {
+  [[nodiscard]] bool are_as_published() const {
     return grids.size() > 1 && complete && lowest >= range.lowest && highest <= range.highest;
   }
-  [[nodiscard]] std::string in_words(const PublishedRange& range) const {
+  [[nodiscard]] std::string in_words() const {
     return fmt::format("{:.3f} to {:.3f} on {} grids, N = {} to {}", lowest, highest, grids.size(), range.coarsest,
                        grids.max("intervals"));
   }
@@ -60,10 +60,9 @@ Selection sqp_rows(const ResultTables& tables, const std::string& problem, const
 
 Predicate minor_iterations_in_range(const char* crash, const char* start) {
   return [=](const ResultTables& tables, const std::string& problem) -> std::optional<Finding> {
-    const PublishedRange range = published_range(problem);
-    const SqpRatios ratios(sqp_rows(tables, problem, crash), "minor_iterations", range);
+    const SqpRatios ratios(sqp_rows(tables, problem, crash), "minor_iterations", published_range(problem));
     if (ratios.grids.empty()) return std::nullopt;
-    return found(ratios.lie_in(range), "{} {}", start, ratios.in_words(range));
+    return found(ratios.are_as_published(), "{} {}", start, ratios.in_words());
   };
 }
 
@@ -81,7 +80,7 @@ std::optional<Finding> minor_iterations_equal_variables(const ResultTables& tabl
                    std::abs(minors.lowest / variables.lowest - 1.0) < close &&
                    std::abs(minors.highest / variables.highest - 1.0) < close,
                "minor iterations = free variables + major iterations - 1 in {} of {} rows; free variables {}", exact,
-               solved.size(), variables.in_words(range));
+               solved.size(), variables.in_words());
 }
 
 /// What costs less than this times DMOC is not more expensive: the constraints of the ends are within.
@@ -135,9 +134,8 @@ struct Record {
     solved = all.usable().size();
     std::vector<double> slowdowns;
     for (const Row& row : all.usable()) {
-      const auto value =
-          ratio(row.number("seconds"), tape.matching(row, {"method", "intervals"}).front().number("seconds"));
-      if (value) slowdowns.push_back(*value);
+      const Row& exact = tape.matching(row, {"method", "intervals"}).front();
+      if (const auto value = ratio(row.number("seconds"), exact.number("seconds"))) slowdowns.push_back(*value);
     }
     if (!slowdowns.empty()) slowdown = median(slowdowns);
   }
@@ -182,44 +180,31 @@ std::optional<Finding> adolc_faster(const ResultTables& tables, const std::strin
 Claims cost_claims() {
   const Wording figure{"fig:kepler_iterations", "fig:twolink_iterations"};
   return {
-      {.id = "minor_iteration_ratio",
-       .where = figure,
-       .states = {"DMOC needs about 1.7 times fewer minor iterations",
-                  "DMOC needs about 1.5 times fewer minor iterations"},
-       .judge = minor_iterations_in_range("none", "from the slack basis, collocation to DMOC")},
-      {.id = "minor_iterations_equal_variable_ratio",
-       .where = {"section 4.2.1", "section 4.2.2"},
-       .states = {"in exact agreement with the reduced number of variables",
-                  "this factor reflects that DMOC uses 2/3 of the variables"},
-       .judge = minor_iterations_equal_variables},
-      {.id = "minor_iteration_ratio_from_a_crash_basis",
-       .where = figure,
-       .whose = Whose::ours,
-       .states = {"about 1.7 times fewer minor iterations, as a property of DMOC and not of how the solver starts",
-                  "about 1.5 times fewer minor iterations, as a property of DMOC and not of how the solver starts"},
-       .judge = minor_iterations_in_range("basis", "with the first basis chosen for free"),
-       .reason = ": the saving lies in phase 1 from the slack basis"},
-      {.id = "collocation_more_expensive",
-       .where = "rem:savings",
-       .states =
-           "twice as many state variables and (Ns + 1)n more constraints make collocation of Hamilton's equations "
-           "numerically more expensive",
-       .judge = collocation_more_expensive},
-      {.id = "factorisation_more_expensive_by_any_solver",
-       .where = "rem:savings",
-       .whose = Whose::ours,
-       .states = "more expensive by its size, whichever way the system is eliminated in the form that it has",
-       .judge = factorisation_more_expensive,
-       .reason = "; combined without momenta its equations are DMOC's (methods/README.md, \"Equal solutions\")"},
-      {.id = "automatic_differentiation",
-       .where = "section 4.1",
-       .states = "faster and more robust than finite differences",
-       .judge = automatic_differentiation},
-      {.id = "adolc_faster_than_differences",
-       .where = "section 4.1",
-       .states = "faster, by the package ADOL-C",
-       .judge = adolc_faster,
-       .reason = "; the differences here cost one pass over all intervals per unknown of one interval"},
+      {"minor_iteration_ratio", of_paper, figure, Whose::paper,
+       Wording("DMOC needs about 1.7 times fewer minor iterations",
+               "DMOC needs about 1.5 times fewer minor iterations"),
+       minor_iterations_in_range("none", "from the slack basis, collocation to DMOC")},
+      {"minor_iterations_equal_variable_ratio", of_paper, Wording("section 4.2.1", "section 4.2.2"), Whose::paper,
+       Wording("in exact agreement with the reduced number of variables",
+               "this factor reflects that DMOC uses 2/3 of the variables"),
+       minor_iterations_equal_variables},
+      {"minor_iteration_ratio_from_a_crash_basis", of_paper, figure, Whose::ours,
+       Wording("about 1.7 times fewer minor iterations, as a property of DMOC and not of how the solver starts",
+               "about 1.5 times fewer minor iterations, as a property of DMOC and not of how the solver starts"),
+       minor_iterations_in_range("basis", "with the first basis chosen for free"),
+       ": the saving lies in phase 1 from the slack basis"},
+      {"collocation_more_expensive", of_paper, "rem:savings", Whose::paper,
+       "twice as many state variables and (Ns + 1)n more constraints make collocation of Hamilton's equations "
+       "numerically more expensive",
+       collocation_more_expensive},
+      {"factorisation_more_expensive_by_any_solver", of_paper, "rem:savings", Whose::ours,
+       "more expensive by its size, whichever way the system is eliminated in the form that it has",
+       factorisation_more_expensive,
+       "; combined without momenta its equations are DMOC's (methods/README.md, \"Equal solutions\")"},
+      {"automatic_differentiation", of_paper, "section 4.1", Whose::paper,
+       "faster and more robust than finite differences", automatic_differentiation},
+      {"adolc_faster_than_differences", of_paper, "section 4.1", Whose::paper, "faster, by the package ADOL-C",
+       adolc_faster, "; the differences here cost one pass over all intervals per unknown of one interval"},
   };
 }
 

@@ -26,9 +26,7 @@ Predicate has_order_of_consistency(const char* one, const char* other) {
     Selection orders = rows.where("quantity", one);
     orders.append(rows.where("quantity", other));
     if (orders.empty()) return std::nullopt;
-    const auto is_one_more = [](const Row& row) {
-      return std::abs(row.number("slope", not_told) - (row.number("order", 0.0) + 1.0)) < near_order;
-    };
+    const auto is_one_more = [](const Row& row) { return has_order(row, row.number("order", 0.0) + 1.0); };
     const auto words = [](const Row& row) {
       return fmt::format("{} {:.2f} (r = {:g})", row.text("quantity"), row.number("slope", std::nan("")),
                          row.number("order", 0.0));
@@ -83,41 +81,25 @@ std::optional<Finding> modified_energy(const ResultTables& tables, const std::st
 }  // namespace
 
 Claims consistency_order_claims() {
-  return {{.id = "order_of_discrete_lagrangian",
-           .where = "eq:DMOC_orderL, th:ordercalculation",
-           .states = "L_d and the one-step map are exact up to h^(r + 1)",
-           .judge = has_order_of_consistency("lagrangian", "map")},
-          {.id = "order_of_discrete_forces",
-           .where = "eq:DMOC_orderf",
-           .states = "f_d is exact up to h^(r + 1)",
-           .judge = has_order_of_consistency("left_force", "right_force")},
-          {.id = "order_of_legendre_transforms",
-           .where = "eq:DMOC_orderLeg",
-           .states = "the discrete Legendre transforms are exact up to h^(r + 1)",
-           .judge = has_order_of_consistency("left_legendre", "right_legendre")}};
+  return {{"order_of_discrete_lagrangian", of_paper, "eq:DMOC_orderL, th:ordercalculation", Whose::paper,
+           "L_d and the one-step map are exact up to h^(r + 1)", has_order_of_consistency("lagrangian", "map")},
+          {"order_of_discrete_forces", of_paper, "eq:DMOC_orderf", Whose::paper, "f_d is exact up to h^(r + 1)",
+           has_order_of_consistency("left_force", "right_force")},
+          {"order_of_legendre_transforms", of_paper, "eq:DMOC_orderLeg", Whose::paper,
+           "the discrete Legendre transforms are exact up to h^(r + 1)",
+           has_order_of_consistency("left_legendre", "right_legendre")}};
 }
 
 Claims flow_claims() {
-  return {{.id = "forced_noether_theorem",
-           .problems = {orbit},
-           .where = "eq:noether_force_d",
-           .states = "the momentum changes by the work of the discrete forces along the group action",
-           .judge = balances_momentum("along")},
-          {.id = "momentum_preserved",
-           .problems = {orbit},
-           .where = "th:discforcNoe",
-           .states = "a force orthogonal to the group action preserves the momentum",
-           .judge = balances_momentum("orthogonal")},
-          {.id = "symplectic",
-           .problems = {orbit},
-           .where = "section 2.2, equ_L_RK",
-           .states = "the unforced discrete flow is symplectic",
-           .judge = symplectic},
-          {.id = "modified_energy",
-           .problems = {orbit},
-           .where = "section 2.2",
-           .states = "energy oscillates but does not drift",
-           .judge = modified_energy}};
+  return {
+      {"forced_noether_theorem", only_orbit, "eq:noether_force_d", Whose::paper,
+       "the momentum changes by the work of the discrete forces along the group action", balances_momentum("along")},
+      {"momentum_preserved", only_orbit, "th:discforcNoe", Whose::paper,
+       "a force orthogonal to the group action preserves the momentum", balances_momentum("orthogonal")},
+      {"symplectic", only_orbit, "section 2.2, equ_L_RK", Whose::paper, "the unforced discrete flow is symplectic",
+       symplectic},
+      {"modified_energy", only_orbit, "section 2.2", Whose::paper, "energy oscillates but does not drift",
+       modified_energy}};
 }
 
 }  // namespace dmocbench

@@ -9,8 +9,8 @@ namespace dmocbench {
 
 namespace {
 
-constexpr double lowest_slope_of_order_two = 1.9;
-constexpr double highest_slope_of_order_two = 2.1;
+constexpr double lowest_order = 1.9;
+constexpr double highest_order = 2.1;
 constexpr double fewest_points = 3;
 
 /// Boundary values make the ratio of a finite grid differ from the limit by a few over N.
@@ -27,9 +27,8 @@ Predicate is_of_order_two(const char* table, const char* quantity) {
     }
     if (orders.empty()) return std::nullopt;
     const auto is_two = [](const Row& row) {
-      const double slope = row.number("slope", 0.0);
-      return slope > lowest_slope_of_order_two && slope < highest_slope_of_order_two &&
-             row.number("points", 0.0) >= fewest_points;
+      const double order = row.number("slope", 0.0);
+      return order > lowest_order && order < highest_order && row.number("points", 0.0) >= fewest_points;
     };
     const auto words = [](const Row& row) {
       return fmt::format("{} {:.3f}", row.text("method"), row.number("slope", 0.0));
@@ -105,38 +104,19 @@ Claims grid_claims() {
   const char* const second_order = "O(h^2) for all three methods";
   const char* const against_512 = "O(h^2) for all three methods, against N = 512";
   return {
-      {.id = "state_slope",
-       .where = figure,
-       .states = second_order,
-       .judge = is_of_order_two("convergence_slopes", "state")},
-      {.id = "control_slope",
-       .where = figure,
-       .states = second_order,
-       .judge = is_of_order_two("convergence_slopes", "control")},
-      {.id = "state_slope_against_512",
-       .problems = {two_link},
-       .where = figure,
-       .states = against_512,
-       .judge = is_of_order_two("convergence_512_slopes", "state"),
-       .reason = too_large},
-      {.id = "control_slope_against_512",
-       .problems = {two_link},
-       .where = figure,
-       .states = against_512,
-       .judge = is_of_order_two("convergence_512_slopes", "control"),
-       .reason = too_large},
-      {.id = "objective_evolution",
-       .where = {"(not shown in the paper)", "fig:twolink_obj a)"},
-       .states = "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
-       .judge = objective_evolution},
-      {.id = "variable_ratio",
-       .where = {"section 4.2.1, rem:savings", "section 4.2.2, rem:savings"},
-       .states = {"DMOC uses 3/5 of the variables of collocation", "DMOC uses 2/3 of the variables"},
-       .judge = variable_ratio},
-      {.id = "reference_step",
-       .where = {"section 4.2.1", "section 4.2.2"},
-       .states = {"h = 2.9e-3 at N = 1024", "h = 1.9e-3 at N = 512"},
-       .judge = reference_step},
+      {"state_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence_slopes", "state")},
+      {"control_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence_slopes", "control")},
+      {"state_slope_against_512", only_two_link, figure, Whose::paper, against_512,
+       is_of_order_two("convergence_512_slopes", "state"), too_large},
+      {"control_slope_against_512", only_two_link, figure, Whose::paper, against_512,
+       is_of_order_two("convergence_512_slopes", "control"), too_large},
+      {"objective_evolution", of_paper, Wording("(not shown in the paper)", "fig:twolink_obj a)"), Whose::paper,
+       "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
+       objective_evolution},
+      {"variable_ratio", of_paper, Wording("section 4.2.1, rem:savings", "section 4.2.2, rem:savings"), Whose::paper,
+       Wording("DMOC uses 3/5 of the variables of collocation", "DMOC uses 2/3 of the variables"), variable_ratio},
+      {"reference_step", of_paper, Wording("section 4.2.1", "section 4.2.2"), Whose::paper,
+       Wording("h = 2.9e-3 at N = 1024", "h = 1.9e-3 at N = 512"), reference_step},
   };
 }
 

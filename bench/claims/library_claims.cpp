@@ -10,8 +10,8 @@ namespace dmocbench {
 
 namespace {
 
-/// Holds if there are at least two minima that more than one method ends in: what one discretisation alone has may be
-/// spurious.
+/// Holds if there are at least two minima that more than one method ends in: a minimum of one discretisation alone may
+/// be spurious.
 std::optional<Finding> local_minima(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("local_minima_minima", problem);
   if (rows.empty()) return Finding{"no table local_minima_minima.csv"};
@@ -38,7 +38,7 @@ std::optional<Finding> best_minimum_share(const ResultTables& tables, const std:
 }
 
 /// Holds if, by every solver, a competitor of DMOC's is the best on more instances than any of collocation's. Solvers
-/// are not compared with each other: what they count and how fast they are is no property of a method.
+/// are not compared with each other: their counters and speed are no property of a method.
 Predicate dmoc_best_by(const std::string& measure) {
   return [wins = "wins_" + measure, measure](const ResultTables& tables, const std::string&) -> std::optional<Finding> {
     const Selection rows = tables.rows("profile");
@@ -66,26 +66,17 @@ Predicate dmoc_best_by(const std::string& measure) {
 }  // namespace
 
 Claims minima_claims() {
-  return {{.id = "local_minima",
-           .where = "section 4.1, Global Minima",
-           .states = "local minima depend on the initial guess",
-           .judge = local_minima},
-          {.id = "best_minimum_share",
-           .where = "section 4.1, Global Minima",
-           .whose = Whose::ours,
-           .states = "(not stated) one method finds the best minimum more often than another",
-           .judge = best_minimum_share}};
+  return {{"local_minima", of_paper, "section 4.1, Global Minima", Whose::paper,
+           "local minima depend on the initial guess", local_minima},
+          {"best_minimum_share", of_paper, "section 4.1, Global Minima", Whose::ours,
+           "(not stated) one method finds the best minimum more often than another", best_minimum_share}};
 }
 
 Claims library_claims() {
   Claims claims;
   for (const std::string& measure : profile_measures()) {
-    claims.push_back({.id = "dmoc_best_by_" + measure,
-                      .problems = {"library"},
-                      .where = "rem:savings",
-                      .states = "DMOC needs less than collocation",
-                      .judge = dmoc_best_by(measure),
-                      .is_optional = true});
+    claims.push_back({"dmoc_best_by_" + measure, Problems(1, "library"), "rem:savings", Whose::paper,
+                      "DMOC needs less than collocation", dmoc_best_by(measure), "", true});
   }
   return claims;
 }

@@ -54,9 +54,7 @@ std::string in_words(const Selection& orders) {
 /// Whether orders are as expected, if other things hold too; `floor` if no order could be fitted.
 ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true) {
   const Selection fitted = orders.where([](const Row& row) { return fitted_order(row).has_value(); });
-  const auto is_expected = [](const Row& row) {
-    return std::abs(*fitted_order(row) - expected_order(row)) < near_order;
-  };
+  const auto is_expected = [](const Row& row) { return has_order(row, expected_order(row)); };
   if (!others_hold || !std::ranges::all_of(fitted, is_expected)) return ClaimVerdict::differs;
   return fitted.empty() ? ClaimVerdict::floor : ClaimVerdict::reproduced;
 }
@@ -85,9 +83,7 @@ std::optional<Finding> order_of_stage_controls(const ResultTables& tables, const
            fitted_order(row);
   });
   if (orders.empty()) return std::nullopt;
-  const auto is_lower = [](const Row& row) {
-    return std::abs(*fitted_order(row) - (row.number("stages", 0.0) + 1.0)) < near_order;
-  };
+  const auto is_lower = [](const Row& row) { return has_order(row, row.number("stages", 0.0) + 1.0); };
   const auto words = [](const Row& row) {
     return fmt::format("gauss {}: {:.2f}", row.text("stages"), *fitted_order(row));
   };
@@ -98,23 +94,17 @@ std::optional<Finding> order_of_stage_controls(const ResultTables& tables, const
 }  // namespace
 
 Claims order_claims() {
-  return {{.id = "order_of_convergence",
-           .where = "main_theorem",
-           .states = "order kappa for state, costate and u(x, psi) at the nodes",
-           .judge = order_of_convergence},
-          {.id = "order_of_adjoint_scheme",
-           .where = "th:orderapp, eq:stateco5-eq:stateco9",
-           .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
-           .judge = order_of_adjoint_scheme}};
+  return {{"order_of_convergence", of_paper, "main_theorem", Whose::paper,
+           "order kappa for state, costate and u(x, psi) at the nodes", order_of_convergence},
+          {"order_of_adjoint_scheme", of_paper, "th:orderapp, eq:stateco5-eq:stateco9", Whose::paper,
+           "the adjoint scheme is that of the states with both halves exchanged, and has its order",
+           order_of_adjoint_scheme}};
 }
 
 Claims stage_control_claims() {
   // Not the orbit: its costate is nearly constant, and so the low-order terms of its stages are too small to be seen.
-  return {{.id = "order_of_stage_controls",
-           .problems = {two_link},
-           .where = "remark behind main_theorem",
-           .states = "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages",
-           .judge = order_of_stage_controls}};
+  return {{"order_of_stage_controls", only_two_link, "remark behind main_theorem", Whose::paper,
+           "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages", order_of_stage_controls}};
 }
 
 }  // namespace dmocbench

@@ -26,7 +26,7 @@ struct Benchmark {
 /// By name.
 using Benchmarks = std::map<std::string, Benchmark>;
 
-/// The repetitions in what Google Benchmark writes as JSON (`--benchmark_out`); aggregates and benchmarks that failed
+/// The repetitions in a JSON file of Google Benchmark (`--benchmark_out`); aggregates and benchmarks that failed
 /// are left out. Throws `Error` that names `file` if the text is something else.
 [[nodiscard]] Benchmarks parse_benchmarks(const std::string& text, const std::filesystem::path& file);
 
@@ -34,7 +34,7 @@ using Benchmarks = std::map<std::string, Benchmark>;
 using BenchmarkSamples = std::map<std::string, std::vector<double>>;
 
 /// A single file gives all its repetitions. Of several runs of one program each counts as one repetition, its median:
-/// what lasts for a whole run, such as the place of arrays in memory, is noise too.
+/// effects that last for a whole run, such as the place of arrays in memory, are noise too.
 ///
 /// Throws `Error` that names the file if it cannot be read, is not of Google Benchmark, holds no repetition, has no
 /// benchmark with this counter (the sentence lists the counters there are), or a value is not above zero; and if there

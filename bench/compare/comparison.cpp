@@ -5,9 +5,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "bench/experiment/column.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 
@@ -57,12 +60,8 @@ double exact_probability(const std::vector<std::size_t>& ranks, std::size_t chos
     }
   }
   double as_far = 0.0;
-  double total = 0.0;
-  for (std::size_t s = 0; s <= all; ++s) {
-    total += ways[chosen][s];
-    if (distance(s, balanced) >= far) as_far += ways[chosen][s];
-  }
-  return as_far / total;
+  for (std::size_t s = 0; s <= all; ++s) as_far += distance(s, balanced) >= far ? ways[chosen][s] : 0.0;
+  return as_far / std::accumulate(ways[chosen].begin(), ways[chosen].end(), 0.0);
 }
 
 /// The same by the normal distribution with the variance of a sum of ranks that are drawn without replacement.
@@ -113,21 +112,16 @@ std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const Bench
 }
 
 Table comparison_table(const std::vector<SpeedComparison>& comparisons) {
-  Table table({"benchmark", "repetitions_before", "repetitions_after", "median_before", "median_after", "ratio",
-               "probability", "verdict"});
-  for (const SpeedComparison& comparison : comparisons) {
-    Row row;
-    row.set("benchmark", Cell(comparison.name));
-    row.set("repetitions_before", Cell(static_cast<long long>(comparison.repetitions_before)));
-    row.set("repetitions_after", Cell(static_cast<long long>(comparison.repetitions_after)));
-    row.set("median_before", Cell(comparison.median_before));
-    row.set("median_after", Cell(comparison.median_after));
-    row.set("ratio", Cell(comparison.ratio));
-    row.set("probability", Cell(comparison.probability));
-    row.set("verdict", Cell(std::string(name_of(comparison.verdict))));
-    table.append(row);
-  }
-  return table;
+  const Columns<SpeedComparison> columns{
+      {"benchmark", "", "its name", &SpeedComparison::name},
+      {"repetitions_before", "", "number of repetitions, or of runs", &SpeedComparison::repetitions_before},
+      {"repetitions_after", "", "the same of what is compared with it", &SpeedComparison::repetitions_after},
+      {"median_before", "", "of the counter", &SpeedComparison::median_before},
+      {"median_after", "", "of the counter", &SpeedComparison::median_after},
+      {"ratio", "", "median after over median before", &SpeedComparison::ratio},
+      {"probability", "", "of a difference like this by chance", &SpeedComparison::probability},
+      {"verdict", "", "of the comparison", [](const SpeedComparison& c) { return name_of(c.verdict); }}};
+  return table_of(columns, comparisons);
 }
 
 std::string comparison_text(const std::vector<SpeedComparison>& comparisons) {
@@ -144,12 +138,9 @@ std::string comparison_text(const std::vector<SpeedComparison>& comparisons) {
                         comparison.median_before, comparison.median_after, comparison.ratio, comparison.probability,
                         name_of(comparison.verdict));
   }
-  std::string separator;
-  for (const auto& [verdict, count] : counts) {
-    text += fmt::format("{}{} {}", separator, count, name_of(verdict));
-    separator = ", ";
-  }
-  return text + "\n";
+  std::vector<std::string> verdicts;
+  for (const auto& [verdict, count] : counts) verdicts.push_back(fmt::format("{} {}", count, name_of(verdict)));
+  return fmt::format("{}{}\n", text, fmt::join(verdicts, ", "));
 }
 
 double mann_whitney(std::span<const double> first, std::span<const double> second) {

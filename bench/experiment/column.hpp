@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "bench/experiment/table.hpp"
+#include "methods/diagnostics/convergence_order.hpp"
 
 namespace dmocbench {
 
@@ -49,8 +51,8 @@ template <class Record>
 [[nodiscard]] std::string describe(const Columns<Record>& columns) {
   std::string text;
   for (const Column<Record>& column : columns) {
-    text +=
-        fmt::format("  {}{}: {}\n", column.name, column.unit.empty() ? "" : " [" + column.unit + "]", column.meaning);
+    const std::string unit = column.unit.empty() ? "" : " [" + column.unit + "]";
+    text += fmt::format("  {}{}: {}\n", column.name, unit, column.meaning);
   }
   return text;
 }
@@ -87,6 +89,36 @@ template <class... Members>
 template <class Object, class... Members>
 [[nodiscard]] auto of(const Object& object, Members... members) {
   return [&object, members...](const auto& /*record*/) { return member(object, members...); };
+}
+
+/// What a row is about where nothing is solved.
+struct Scheme {
+  std::string problem;
+  std::string method;
+  std::string tableau;
+  Eigen::Index stages = 0;
+};
+
+/// The columns that tell `Record::scheme`.
+template <class Record>
+[[nodiscard]] Columns<Record> scheme_columns() {
+  constexpr auto scheme = &Record::scheme;
+  return {{"problem", "", "name of the problem", from(scheme, &Scheme::problem)},
+          {"method", "", "family of elements, or another integrator", from(scheme, &Scheme::method)},
+          {"tableau", "", "family of Butcher tableaus", from(scheme, &Scheme::tableau)},
+          {"stages", "", "number of stages s", from(scheme, &Scheme::stages)}};
+}
+
+/// The columns that tell a fitted order.
+template <class Record>
+[[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
+  return {
+      {"slope", "", "fitted order", from(fit, &FittedOrder::slope)},
+      {"standard_error", "", "of the order; empty with two points",
+       [fit](const Record& record) { return (record.*fit).points > 2 ? Cell((record.*fit).standard_error) : Cell(); }},
+      {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
+      {"coarsest", "", "largest step used", from(fit, &FittedOrder::coarsest)},
+      {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
 }
 
 }  // namespace dmocbench

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,78 +13,71 @@ namespace dmocbench {
 
 namespace {
 
-constexpr int exit_bad_input = 2;
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+template <class Value>
+CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const std::string& help) {
+  CLI::Option* option = app.add_option(names, value, help)->capture_default_str();
+  return option->get_default_str() == "[]" ? option->default_str("") : option;
 }
 
-int report_error(const CLI::App& app, const std::string& sentence) {
-  fmt::print(stderr, "{}: {}\n", app.get_name(), one_line(sentence));
-  return exit_bad_input;
+int report_error(const std::string& name, std::string sentence) {
+  std::ranges::replace(sentence, '\n', ' ');
+  fmt::print(stderr, "{}: {}\n", name, sentence);
+  return 2;
 }
 
 }  // namespace
 
-CommandLine::CommandLine(const std::string& description, const std::string& name)
-    : parser_(std::make_unique<CLI::App>(description, name)) {}
-
-CommandLine::~CommandLine() = default;
-
-CommandLine::Option& CommandLine::Option::comma_separated() {
-  option_.delimiter(',');
-  return *this;
+template <class Value>
+void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
+  add(app_, names, value, help)->required(!names.starts_with('-'));
 }
+template void CommandLine::option(const std::string&, int&, const std::string&);
+template void CommandLine::option(const std::string&, double&, const std::string&);
+template void CommandLine::option(const std::string&, std::string&, const std::string&);
+template void CommandLine::option(const std::string&, std::filesystem::path&, const std::string&);
+template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
 
 template <class Number>
-CommandLine::Option& CommandLine::Option::range(Number least, Number largest) {
-  option_.check(CLI::Range(least, largest));
-  return *this;
+void CommandLine::number(const std::string& names, Number& value, std::type_identity_t<Number> least,
+                         std::type_identity_t<Number> largest, const std::string& help) {
+  using Limit = std::conditional_t<std::is_floating_point_v<Number>, double, long long>;
+  add(app_, names, value, help)->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
 }
-template CommandLine::Option& CommandLine::Option::range(int, int);
-template CommandLine::Option& CommandLine::Option::range(long long, long long);
-template CommandLine::Option& CommandLine::Option::range(double, double);
-
-CommandLine::Option& CommandLine::Option::required() {
-  option_.required();
-  return *this;
-}
-
-CommandLine::Option& CommandLine::Option::shows_default() {
-  option_.capture_default_str();
-  return *this;
-}
+template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
+template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&);
+template void CommandLine::number(const std::string&, std::uint64_t&, std::uint64_t, std::uint64_t, const std::string&);
+template void CommandLine::number(const std::string&, double&, double, double, const std::string&);
 
 template <class Value>
-CommandLine::Option CommandLine::option(const std::string& names, Value& value, const std::string& help) {
-  return Option(*parser_->add_option(names, value, help));
+void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
+  add(app_, names, values, help)->delimiter(',');
 }
-template CommandLine::Option CommandLine::option(const std::string&, int&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, long long&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, std::uint64_t&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, double&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, std::string&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, std::filesystem::path&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, std::vector<int>&, const std::string&);
-template CommandLine::Option CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+template void CommandLine::list(const std::string&, std::vector<int>&, const std::string&);
+template void CommandLine::list(const std::string&, std::vector<std::string>&, const std::string&);
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
-  parser_->add_flag(names, value, help);
+  app_.add_flag(names, value, help);
 }
 
-void CommandLine::footer(const std::string& text) { parser_->footer(text); }
+void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
-int run_program(CommandLine& line, int argc, char** argv, const std::function<int()>& body) {
-  CLI::App& app = *line.parser_;
+std::vector<std::string> CommandLine::parse() {
+  app_.parse(argc_, argv_);
+  return {argv_, argv_ + argc_};
+}
+
+int run_program(const std::string& name, const std::string& description, int argc, char** argv,
+                const std::function<int(CommandLine&)>& body) {
+  CLI::App app(description, name);
   try {
-    app.parse(argc, argv);
-    return body();
+    CommandLine line(app, argc, argv);
+    return body(line);
+  } catch (const CLI::Success& request) {  // --help
+    return app.exit(request);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help
-    return report_error(app, std::string(error.what()) + "; --help lists the options");
+    return report_error(name, std::string(error.what()) + "; --help lists the options");
   } catch (const std::exception& error) {
-    return report_error(app, error.what());
+    return report_error(name, error.what());
   }
 }
 

@@ -1,62 +1,52 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name is CLI11's
 class App;
-class Option;
 }  // namespace CLI
 
 namespace dmocbench {
 
-/// The options of a program: names, where their values go, what `--help` says.
+/// The options of a program: their names, where their values go, what `--help` says of them and of the values they
+/// have by default.
 ///
-/// CLI11 stands behind it, in command_line.cpp alone: its headers take a compiler longer than most programs do.
+/// CLI11 is behind it, in command_line.cpp alone: its headers take a compiler longer than most programs do.
 class CommandLine {
  public:
-  /// `name` is the program's, in front of every complaint.
-  CommandLine(const std::string& description, const std::string& name);
-  ~CommandLine();
-  CommandLine(const CommandLine&) = delete;
-  CommandLine& operator=(const CommandLine&) = delete;
-  CommandLine(CommandLine&&) = delete;
-  CommandLine& operator=(CommandLine&&) = delete;
-
-  /// An option that is registered, to say more about it.
-  class Option {
-   public:
-    /// Values may stand in one argument, with commas between them.
-    Option& comma_separated();
-    /// The least and the largest value; for int, long long and double.
-    template <class Number>
-    Option& range(Number least, Number largest);
-    /// It has to be given.
-    Option& required();
-    /// `--help` shows the value as it is now.
-    Option& shows_default();
-
-   private:
-    friend class CommandLine;
-    explicit Option(CLI::Option& option) : option_(option) {}
-    CLI::Option& option_;
-  };
-
-  /// Reads into `value`: int, long long, std::uint64_t, double, string, path, and vectors of int or string.
+  /// Reads into `value`: int, double, string, path, and a vector of strings (the option may be repeated). A name
+  /// without dashes is that of an argument that has to be given.
   template <class Value>
-  Option option(const std::string& names, Value& value, const std::string& help);
-  /// `names` as in "--polish,!--no-polish", where what follows an exclamation mark says no.
+  void option(const std::string& names, Value& value, const std::string& help);
+  /// Reads a number between `least` and `largest`: int, long long, std::uint64_t or double.
+  template <class Number>
+  void number(const std::string& names, Number& value, std::type_identity_t<Number> least,
+              std::type_identity_t<Number> largest, const std::string& help);
+  /// Reads values with commas between them: int or string.
+  template <class Value>
+  void list(const std::string& names, std::vector<Value>& values, const std::string& help);
+  /// `names` as in "--polish,!--no-polish", where an exclamation mark stands before a name that says no.
   void flag(const std::string& names, bool& value, const std::string& help);
-  /// What `--help` says behind the options.
+  /// Text behind the options in `--help`.
   void footer(const std::string& text);
+  /// The values are known from here on; the name of the program and all its arguments.
+  std::vector<std::string> parse();
 
  private:
-  friend int run_program(CommandLine& line, int argc, char** argv, const std::function<int()>& body);
-  std::unique_ptr<CLI::App> parser_;
+  friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
+                         const std::function<int(CommandLine&)>& body);
+  CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
+  CLI::App& app_;
+  int argc_;
+  char** argv_;
 };
 
-/// Parses a command line and runs `body`; every error becomes one line on standard error and exit code 2.
-int run_program(CommandLine& line, int argc, char** argv, const std::function<int()>& body);
+/// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
+/// standard error, with the program's `name` in front, and exit code 2.
+int run_program(const std::string& name, const std::string& description, int argc, char** argv,
+                const std::function<int(CommandLine&)>& body);
 
 }  // namespace dmocbench

@@ -1,19 +1,21 @@
 #include "bench/experiment/experiment.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "bench/experiment/interrupt.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/progress.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/error.hpp"
@@ -27,26 +29,25 @@ constexpr int exit_some_failed = 1;
 constexpr int exit_interrupted = 130;
 constexpr int most_jobs = 256;
 
-/// The cases of the curve that begins at `first`.
-std::vector<Case> curve_at(const std::vector<Case>& cases, std::size_t first) {
-  const auto begin = cases.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, std::find_if_not(begin, cases.end(), [&](const Case& other) { return other.same_curve(*begin); })};
+void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
+
+/// Cases in a row that differ in their grid only, together.
+std::vector<std::vector<Case>> curves_of(std::span<const Case> cases) {
+  std::vector<std::vector<Case>> curves;
+  for (const Case& the_case : cases) {
+    if (curves.empty() || !curves.back().front().same_curve(the_case)) curves.emplace_back();
+    curves.back().push_back(the_case);
+  }
+  return curves;
 }
 
 std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
   std::vector<Case> result;
-  for (std::size_t first = 0; first < cases.size();) {
-    const std::vector<Case> curve = curve_at(cases, first);
+  for (const std::vector<Case>& curve : curves_of(cases)) {
     const std::vector<Case> variants = experiment.variants(curve);
     result.insert(result.end(), variants.begin(), variants.end());
-    first += curve.size();
   }
   return result;
-}
-
-SolverOptions with_interrupt(SolverOptions options) {
-  options.stop_requested = interrupt_requested;
-  return options;
 }
 
 /// One run of an experiment: its cases, its table, its files.
@@ -55,18 +56,17 @@ class Run {
   Run(Experiment& experiment, const std::vector<std::string>& command_line)
       : experiment_(experiment),
         options_(experiment.options()),
-        solver_options_(with_interrupt(solver_options(options_))),
+        solver_options_(solver_options(options_)),
         cases_(with_variants(experiment, expand_cases(options_))),
         starts_(options_.start, solver_options_),
         columns_(core_columns() + experiment.columns()),
         names_(names_of(columns_)),
         rows_(cases_.size()),
         prefix_(options_.out / options_.name),
-        metadata_(describe_run(command_line)),
-        progress_(cases_.size()) {
+        metadata_(describe_run(command_line)) {
     experiment_.check(cases_);
     starts_.check(cases_);
-    starts_.on_progress = [this](const std::string& activity) { progress_.show(activity); };
+    starts_.on_progress = [this](const std::string& activity) { show(activity); };
     for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_));
   }
 
@@ -80,49 +80,56 @@ class Run {
     } else {
       solve_part(0, cases_.size());
     }
-    write_table();
-    const Table table = this->table();
+    const Table table = write_table();
+    const auto failures = std::ranges::count_if(
+        table.rows(), [](const Row& row) { return !is_solved(status_named(row.text("status"))); });
+    const auto other_branch =
+        std::ranges::count_if(table.rows(), [](const Row& row) { return row.text("branch") == "other"; });
     const bool complete = !interrupt_requested();
     if (complete) experiment_.finish(table, prefix_, metadata_);
     metadata_["complete"] = complete;
     metadata_["rows"] = table.rows().size();
-    metadata_["not_solved"] = failures_;
-    metadata_["on_another_branch"] = other_branch_;
+    metadata_["not_solved"] = failures;
+    metadata_["on_another_branch"] = other_branch;
     write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
     fmt::print("{}: {} rows, {} not solved, {} on another branch: {}\n", experiment_.card().name, table.rows().size(),
-               failures_, other_branch_, table_file().string());
+               failures, other_branch, table_file().string());
     if (!complete) return exit_interrupted;
-    return failures_ > 0 ? exit_some_failed : exit_solved;
+    return failures > 0 ? exit_some_failed : exit_solved;
   }
 
  private:
   [[nodiscard]] std::filesystem::path table_file() const { return prefix_.string() + ".csv"; }
 
-  [[nodiscard]] Table table() const {
+  /// Writes and returns all rows so far in the order of the cases.
+  Table write_table() const {
     Table table(names_);
     for (const auto& row : rows_) {
       if (row) table.append(*row);
     }
+    if (!table.rows().empty()) write_file(table_file(), table.csv());
     return table;
   }
 
-  /// All rows in the order of the cases.
-  void write_table() const {
-    const Table table = this->table();
-    if (!table.rows().empty()) write_file(table_file(), table.csv());
+  void show(const std::string& activity) const {
+    if (!terminal_) return;
+    erase_line(terminal_.get());
+    fmt::print(terminal_.get(), "[{}/{}] {}", done_ + 1, cases_.size(), activity);
+    std::fflush(terminal_.get());
   }
 
   void solve_part(std::size_t first, std::size_t end) {
-    while (first < end && !interrupt_requested()) {
-      const std::vector<Case> curve = curve_at(cases_, first);
+    for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
       solve_curve(curve, first);
       first += curve.size();
     }
   }
 
   void solve_curve(const std::vector<Case>& curve, std::size_t first) {
-    for (const std::size_t position : experiment_.solving_order(curve)) {
+    const std::size_t solved_first = experiment_.solved_first(curve);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
       if (interrupt_requested()) return;
+      const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
       SolvedCase solved = solve(curve[position], options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
       experiment_.complete(solved);
@@ -135,12 +142,13 @@ class Run {
     try {
       const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
                         .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
-      progress_.show(the_case.label());
-      const SolverOptions options = experiment_.options_for(the_case, solver_options_);
-      return solve_case(the_case, start, *experiment_.solver_for(the_case, options), options.tolerance, repeats,
-                        experiment_.card().polishes);
+      show(the_case.label());
+      return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
+                        repeats, experiment_.card().polishes);
     } catch (const NoStart& reason) {
-      return unsolved_case(the_case, reason.what());
+      SolvedCase unsolved{.the_case = the_case};
+      unsolved.solution.message = reason.what();
+      return unsolved;
     }
   }
 
@@ -185,8 +193,6 @@ class Run {
 
   /// The table on disk has every finished row, in the order of solving until the end.
   void keep(Row row, std::size_t number) {
-    if (!is_solved(status_named(row.text("status")))) ++failures_;
-    if (row.text("branch") == "other") ++other_branch_;
     const std::string line = row.csv(names_);
     rows_[number] = std::move(row);
     if (std::exchange(has_file_, true)) {
@@ -194,7 +200,7 @@ class Run {
     } else {
       write_table();
     }
-    progress_.advance();
+    ++done_;
   }
 
   /// A process per problem; its rows come back in a file.
@@ -221,7 +227,7 @@ class Run {
       for (const Row& row : part.rows()) {
         if (number == heads[i + 1]) throw Error("a process wrote more rows than it had cases");
         keep(row, number++);
-        progress_.show(row.text("problem"));
+        show(row.text("problem"));
       }
     };
     for_each_in_processes(heads.size() - 1, static_cast<std::size_t>(options_.jobs), work, collect);
@@ -237,34 +243,52 @@ class Run {
   std::vector<std::optional<Row>> rows_;
   std::filesystem::path prefix_;
   nlohmann::ordered_json metadata_;
-  Progress progress_;
+  /// Standard error if it is a terminal, where one line says what is being solved; it is erased at the end.
+  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_{::isatty(STDERR_FILENO) == 1 ? stderr : nullptr,
+                                                             erase_line};
+  std::size_t done_ = 0;   ///< cases
   bool has_file_ = false;  ///< a row has been written to the table's file
-  std::size_t failures_ = 0;
-  std::size_t other_branch_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::size_t> Experiment::solving_order(const std::vector<Case>& curve) const {
-  std::vector<std::size_t> order(curve.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  return order;
+// NOLINTNEXTLINE(performance-unnecessary-value-param): overrides change the options
+std::unique_ptr<Solver> Experiment::solver_for(const Case& the_case, SolverOptions options) {
+  return make_solver(the_case.solver, options);
 }
 
-int run_experiment(Experiment& experiment, int argc, char** argv) {
-  const ExperimentCard& card = experiment.card();
-  CommandLine line(card.description, card.name);
-  line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
-  add_options(line, experiment.options());
-  if (card.problems_are_independent) {
-    line.option("--jobs", experiment.options().jobs,
-                "problems worked on at the same time, each in a process of its own")
-        .range(1, most_jobs)
-        .shows_default();
+std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
+                                   const std::vector<std::string>& chosen) {
+  for (const std::string& name : chosen) {
+    if (std::ranges::count(known, name) > 0) continue;
+    throw Error(fmt::format("{} takes {}, not {}", option, fmt::join(known, known.size() == 2 ? " or " : ", "), name));
   }
-  experiment.add_options(line);
-  return run_program(line, argc, argv,
-                     [&] { return Run(experiment, std::vector<std::string>(argv, argv + argc)).run(); });
+  std::vector<std::string> names;
+  std::ranges::copy_if(known, std::back_inserter(names),
+                       [&](const std::string& name) { return std::ranges::count(chosen, name) > 0; });
+  return names;
+}
+
+std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants) {
+  std::vector<Case> cases;
+  for (const std::string& variant : variants) {
+    for (const Case& of_curve : curve) cases.emplace_back(of_curve).variant = variant;
+  }
+  return cases;
+}
+
+int run_experiment(Experiment&& experiment, int argc, char** argv) {
+  const ExperimentCard& card = experiment.card();
+  return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
+    line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
+    add_options(line, experiment.options());
+    if (card.problems_are_independent) {
+      line.number("--jobs", experiment.options().jobs, 1, most_jobs,
+                  "problems worked on at the same time, each in a process of its own");
+    }
+    experiment.add_options(line);
+    return Run(experiment, line.parse()).run();
+  });
 }
 
 }  // namespace dmocbench

@@ -7,9 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/options.hpp"
-#include "bench/experiment/solve_case.hpp"
 
 namespace dmocbench {
 
@@ -31,6 +29,7 @@ struct ExperimentCard {
 /// experiment adds its own columns and files.
 class Experiment {
  public:
+  explicit Experiment(ExperimentCard card) : card_(std::move(card)) { card_.options.name = card_.name; }
   virtual ~Experiment() = default;
   Experiment(const Experiment&) = delete;
   Experiment& operator=(const Experiment&) = delete;
@@ -46,19 +45,15 @@ class Experiment {
   virtual void add_options(CommandLine& /*line*/) {}
   /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
   [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
-  /// The solver's options for one case; by default those of the command line.
-  [[nodiscard]] virtual SolverOptions options_for(const Case& /*the_case*/, SolverOptions common) { return common; }
-  /// The solver of a case with those options; by default the one of its name.
-  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, const SolverOptions& options) const {
-    return make_solver(the_case.solver, options);
-  }
+  /// The solver of a case, with the options of the command line; by default the one of its name.
+  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options);
   /// The motion that a case starts from; by default the one that --start names.
   [[nodiscard]] virtual Motion start_for(const Case& /*the_case*/, Motion chosen) const { return chosen; }
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}
-  /// The order in which the cases of one curve (intervals ascending) are solved; the default is ascending.
-  [[nodiscard]] virtual std::vector<std::size_t> solving_order(const std::vector<Case>& curve) const;
-  /// Measures what the own columns tell of a solved case. Called in the order of solving.
+  /// The case of one curve (intervals ascending) that is solved first, before the others in ascending order.
+  [[nodiscard]] virtual std::size_t solved_first(const std::vector<Case>& /*curve*/) const { return 0; }
+  /// Measures the values of the own columns for a solved case. Called in the order of solving.
   virtual void complete(SolvedCase& /*solved*/) {}
   /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
   /// table.
@@ -66,14 +61,20 @@ class Experiment {
                       nlohmann::ordered_json& /*metadata*/) {}
 
  protected:
-  explicit Experiment(ExperimentCard card) : card_(std::move(card)) { card_.options.name = card_.name; }
-
   ExperimentCard card_;
 };
+
+/// The chosen names in the order of `known`, each once. Throws `Error` on one that is not known: "OPTION takes a or b,
+/// not c".
+[[nodiscard]] std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
+                                                 const std::vector<std::string>& chosen);
+
+/// A curve once for each of some variants.
+[[nodiscard]] std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants);
 
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
 /// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
 /// (finished rows are kept).
-int run_experiment(Experiment& experiment, int argc, char** argv);
+int run_experiment(Experiment&& experiment, int argc, char** argv);
 
 }  // namespace dmocbench

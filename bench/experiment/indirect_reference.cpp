@@ -27,9 +27,7 @@ Json parameters_of(const Problem& problem) {
 
 Json columns_of(const Eigen::MatrixXd& matrix) {
   Json columns = Json::array();
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    columns.push_back(std::vector<double>(matrix.col(j).begin(), matrix.col(j).end()));
-  }
+  for (const auto& column : matrix.colwise()) columns.push_back(std::vector<double>(column.begin(), column.end()));
   return columns;
 }
 
@@ -37,9 +35,9 @@ Eigen::MatrixXd matrix_of(const Json& columns) {
   const auto values = columns.get<std::vector<std::vector<double>>>();
   if (values.empty()) return {};
   Eigen::MatrixXd matrix(values.front().size(), values.size());
-  for (std::size_t j = 0; j < values.size(); ++j) {
-    if (values[j].size() != values.front().size()) throw Error("columns differ in length");
-    matrix.col(static_cast<Eigen::Index>(j)) = Eigen::Map<const Eigen::VectorXd>(values[j].data(), matrix.rows());
+  for (Eigen::Index j = 0; const std::vector<double>& column : values) {
+    if (std::ssize(column) != matrix.rows()) throw Error("columns differ in length");
+    matrix.col(j++) = Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.rows());
   }
   return matrix;
 }
@@ -78,23 +76,6 @@ void require_near(const Problem& problem, const IndirectSolution& solution, cons
               "grids");
 }
 
-IndirectSolution solution_in(const Json& file, const Problem& problem) {
-  CollocatedExtremal extremal;
-  extremal.stages = file.at("stages").get<int>();
-  extremal.horizon = file.at("horizon").get<double>();
-  extremal.cost = file.at("scaled_cost").get<double>();
-  extremal.nodes = matrix_of(file.at("nodes"));
-  extremal.rates = matrix_of(file.at("slopes"));
-  extremal.algebraic = matrix_of(file.at("algebraic"));
-  const Json& agreement = file.at("agreement");
-  return {problem,
-          std::move(extremal),
-          {.state = agreement.at("state").get<double>(),
-           .costate = agreement.at("costate").get<double>(),
-           .control = agreement.at("control").get<double>(),
-           .cost = agreement.at("cost").get<double>()}};
-}
-
 /// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
 std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
                                               const Trajectory& direct) {
@@ -103,45 +84,52 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   try {
     const Json file = Json::parse(read_file(path));
     if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
-    IndirectSolution solution = solution_in(file, problem);
+    CollocatedExtremal extremal;
+    extremal.stages = file.at("stages");
+    extremal.horizon = file.at("horizon");
+    extremal.cost = file.at("scaled_cost");
+    extremal.nodes = matrix_of(file.at("nodes"));
+    extremal.rates = matrix_of(file.at("slopes"));
+    extremal.algebraic = matrix_of(file.at("algebraic"));
+    const Json& agreement = file.at("agreement");
+    IndirectSolution solution(problem, std::move(extremal),
+                              {.state = agreement.at("state"),
+                               .costate = agreement.at("costate"),
+                               .control = agreement.at("control"),
+                               .cost = agreement.at("cost")});
     if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
     return solution;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const std::exception&) {
     return std::nullopt;  // a file that is not ours is written anew
-  } catch (const Error&) {
-    return std::nullopt;
   }
 }
 
-}  // namespace
+using Entry = CheckedIndirectSolution;
+constexpr auto solution_of = &Entry::solution;
+constexpr auto agreement_of = &IndirectSolution::agreement;
+constexpr auto extremal_of = &IndirectSolution::extremal;
+const Columns<Entry> reference_columns{
+    {"problem", "", "name of the problem", from(&Entry::problem)},
+    {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
+    {"certified_digits", "", "digits that two runs of different order and grid share",
+     from(solution_of, &IndirectSolution::certified_digits)},
+    {"state_agreement", "", "relative difference of their states",
+     from(solution_of, agreement_of, &IndirectAgreement::state)},
+    {"costate_agreement", "", "of their costates", from(solution_of, agreement_of, &IndirectAgreement::costate)},
+    {"control_agreement", "", "of their controls", from(solution_of, agreement_of, &IndirectAgreement::control)},
+    {"cost_agreement", "", "of their costs", from(solution_of, agreement_of, &IndirectAgreement::cost)},
+    {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
+     from(solution_of, &IndirectSolution::hamiltonian_drift)},
+    {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
+    {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
+    {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
+    {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
+    {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
+};
 
-const Columns<IndirectReference::Entry>& IndirectReference::columns() {
-  constexpr auto solution = &Entry::solution;
-  constexpr auto agreement = &IndirectSolution::agreement;
-  constexpr auto extremal = &IndirectSolution::extremal;
-  static const Columns<Entry> columns{
-      {"problem", "", "name of the problem", from(&Entry::problem)},
-      {"cost", "cost", "optimal cost", from(solution, &IndirectSolution::cost)},
-      {"certified_digits", "", "digits that two runs of different order and grid share",
-       from(solution, &IndirectSolution::certified_digits)},
-      {"state_agreement", "", "relative difference of their states",
-       from(solution, agreement, &IndirectAgreement::state)},
-      {"costate_agreement", "", "of their costates", from(solution, agreement, &IndirectAgreement::costate)},
-      {"control_agreement", "", "of their controls", from(solution, agreement, &IndirectAgreement::control)},
-      {"cost_agreement", "", "of their costs", from(solution, agreement, &IndirectAgreement::cost)},
-      {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
-       from(solution, &IndirectSolution::hamiltonian_drift)},
-      {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
-      {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
-      {"stages", "", "Gauss points per interval", from(solution, extremal, &CollocatedExtremal::stages)},
-      {"intervals", "", "number of intervals", from(solution, extremal, &CollocatedExtremal::intervals)},
-      {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
-  };
-  return columns;
-}
-
-IndirectReference::Entry IndirectReference::find(const Problem& problem, const Trajectory& direct) const {
-  const std::filesystem::path path = folder_ / (problem.name() + "_indirect.json");
+/// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
+Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / (problem.name() + "_indirect.json");
   std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
   std::optional<double> seconds;
   if (!solution) {
@@ -156,45 +144,43 @@ IndirectReference::Entry IndirectReference::find(const Problem& problem, const T
   entry.replay_error = replay_error(problem, entry.solution.trajectory(), replay_tolerance).norm();
   entry.shooting_defect = shooting_defect(problem, entry.solution);
   const IndirectPoint start = entry.solution.at(0.0);
-  const auto add_costate = [&](const std::string& prefix, const Eigen::VectorXd& values) {
-    Eigen::Index i = 0;
-    for (const std::string& name : problem.configuration_names()) {
-      entry.initial_costate.emplace_back(prefix + name, values[i++]);
+  for (const auto& [prefix, costate] : {std::pair("psi_q_", start.psi_q), std::pair("psi_p_", start.psi_p)}) {
+    for (Eigen::Index i = 0; const std::string& name : problem.configuration_names()) {
+      entry.initial_costate.emplace_back(prefix + name, costate[i++]);
     }
-  };
-  add_costate("psi_q_", start.psi_q);
-  add_costate("psi_p_", start.psi_p);
+  }
   return entry;
 }
 
+}  // namespace
+
 const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
-  auto known = entries_.find(problem.name());
-  if (known == entries_.end()) {
-    known = entries_.emplace(problem.name(), find(problem, direct)).first;
-  } else {
-    require_near(problem, known->second.solution, direct);
-  }
+  const auto known = known_.find(problem.name());
+  if (known == known_.end())
+    return known_.emplace(problem.name(), solution_near(problem, direct, folder_)).first->second.solution;
+  require_near(problem, known->second.solution, direct);
   return known->second.solution;
 }
 
 Table IndirectReference::table() const {
-  std::vector<std::string> names = names_of(columns());
-  std::vector<Row> rows;
-  for (const auto& [problem, entry] : entries_) {
-    rows.push_back(row_of(columns(), entry));
+  std::vector<std::string> names = names_of(reference_columns);
+  for (const auto& [problem, entry] : known_) {
     for (const auto& [name, value] : entry.initial_costate) {
-      rows.back().set(name, value);
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
     }
   }
   Table table(names);
-  for (Row& row : rows) table.append(std::move(row));
+  for (const auto& [problem, entry] : known_) {
+    Row row = row_of(reference_columns, entry);
+    for (const auto& [name, value] : entry.initial_costate) row.set(name, value);
+    table.append(std::move(row));
+  }
   return table;
 }
 
 nlohmann::ordered_json IndirectReference::metadata() const {
   Json references = Json::array();
-  for (const auto& [problem, entry] : entries_) {
+  for (const auto& [problem, entry] : known_) {
     references.push_back({{"problem", problem},
                           {"cost", entry.solution.cost()},
                           {"certified_digits", entry.solution.certified_digits()},
@@ -208,7 +194,7 @@ nlohmann::ordered_json IndirectReference::metadata() const {
 std::vector<std::string> IndirectReference::notes() const {
   constexpr double wanted_digits = 11.0;
   std::vector<std::string> notes;
-  for (const auto& [problem, entry] : entries_) {
+  for (const auto& [problem, entry] : known_) {
     const double digits = entry.solution.certified_digits();
     if (digits >= wanted_digits) continue;
     notes.push_back(

@@ -16,6 +16,16 @@
 
 namespace dmocbench {
 
+/// The indirect solution of a problem, and checks of it.
+struct CheckedIndirectSolution {
+  std::string problem;
+  IndirectSolution solution;
+  std::optional<double> seconds;  ///< none where a file was used
+  double replay_error = 0.0;
+  double shooting_defect = 0.0;
+  std::vector<std::pair<std::string, double>> initial_costate;  ///< with the names of their columns
+};
+
 /// Indirect solutions that errors are measured against, one per problem, kept in the output folder.
 ///
 /// PROBLEM_indirect.json holds all numbers of a solution. It is used again if it was made with the same parameters, its
@@ -30,8 +40,8 @@ class IndirectReference {
   /// is on another branch.
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
-  /// A row per problem that was asked for: the columns of `columns`, then the costate at t = 0, psi_q_NAME and
-  /// psi_p_NAME of every configuration.
+  /// A row per problem that was asked for; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of
+  /// every configuration.
   [[nodiscard]] Table table() const;
   /// The same for metadata: an array with an object per problem.
   [[nodiscard]] nlohmann::ordered_json metadata() const;
@@ -39,21 +49,8 @@ class IndirectReference {
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  /// A problem's solution and what is said of it.
-  struct Entry {
-    std::string problem;
-    IndirectSolution solution;
-    std::optional<double> seconds;  ///< none where a file was used
-    double replay_error = 0.0;
-    double shooting_defect = 0.0;
-    std::vector<std::pair<std::string, double>> initial_costate;  ///< with the names of their columns
-  };
-
-  [[nodiscard]] static const Columns<Entry>& columns();
-  [[nodiscard]] Entry find(const Problem& problem, const Trajectory& direct) const;
-
   std::filesystem::path folder_;
-  std::map<std::string, Entry> entries_;
+  std::map<std::string, CheckedIndirectSolution> known_;  // by problem
 };
 
 }  // namespace dmocbench

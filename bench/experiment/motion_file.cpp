@@ -10,51 +10,45 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::VectorXd column(const Table& table, const std::string& name, const std::filesystem::path& file) {
-  Eigen::VectorXd values(std::ssize(table.rows()));
-  Eigen::Index k = 0;
-  for (const Row& row : table.rows()) {
-    const auto value = row.number(name);
-    if (!value) {
-      throw Error(fmt::format("{}: column {} is missing or has a field that is not a number", file.string(), name));
-    }
-    values[k++] = *value;
-  }
-  return values;
-}
-
+/// The columns PREFIX NAME of the table in a file.
 Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& names, const std::string& prefix,
                         const std::filesystem::path& file) {
   Eigen::MatrixXd values(std::ssize(table.rows()), std::ssize(names));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    values.col(static_cast<Eigen::Index>(i)) = column(table, prefix + names[i], file);
+  for (Eigen::Index k = 0; const Row& row : table.rows()) {
+    for (Eigen::Index i = 0; const std::string& name : names) {
+      const auto value = row.number(prefix + name);
+      if (!value) {
+        throw Error(
+            fmt::format("{}: column {} is missing or has a field that is not a number", file.string(), prefix + name));
+      }
+      values(k, i++) = *value;
+    }
+    ++k;
   }
   return values;
 }
 
-/// Quantities over time, a column each, named with a prefix.
+/// Quantities over time: a column each, with a prefix before its name; no rows where there are none.
 struct Series {
   std::string prefix;
   std::vector<std::string> names;
-  Eigen::MatrixXd values;  ///< a row per time; empty if there are none
+  Eigen::MatrixXd values;
 };
 
 Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all) {
   std::vector<std::string> header{time};
-  for (const Series& series : all) {
-    for (const std::string& name : series.names) header.push_back(series.prefix + name);
-  }
-  Table table(header);
-  for (Eigen::Index k = 0; k < times.size(); ++k) {
-    Row row;
-    row.set(time, times[k]);
-    for (const Series& series : all) {
-      for (Eigen::Index i = 0; i < series.values.cols(); ++i) {
-        row.set(series.prefix + series.names[static_cast<std::size_t>(i)], series.values(k, i));
+  std::vector<Row> rows(static_cast<std::size_t>(times.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].set(time, times[static_cast<Eigen::Index>(k)]);
+  for (const auto& [prefix, names, values] : all) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      header.push_back(prefix + names[i]);
+      for (Eigen::Index k = 0; k < values.rows(); ++k) {
+        rows[static_cast<std::size_t>(k)].set(header.back(), values(k, static_cast<Eigen::Index>(i)));
       }
     }
-    table.append(std::move(row));
   }
+  Table table(header);
+  for (Row& row : rows) table.append(std::move(row));
   return table;
 }
 
@@ -111,8 +105,8 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
   // One control per stage time, joined linearly: the trajectory of a one-stage method, whatever wrote the file.
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
-  trajectory.node_times = column(nodes, "t", nodes_file);
-  trajectory.stage_times = column(stages, "t", stages_file);
+  trajectory.node_times = columns(nodes, {"t"}, "", nodes_file);
+  trajectory.stage_times = columns(stages, {"t"}, "", stages_file);
   if (trajectory.node_times.size() < 2 || trajectory.stage_times.size() == 0) {
     throw Error(fmt::format("{} holds no motion", nodes_file.string()));
   }

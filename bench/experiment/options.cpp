@@ -1,12 +1,17 @@
 #include "bench/experiment/options.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <ranges>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/experiment/interval_list.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
@@ -16,29 +21,41 @@ namespace dmocbench {
 
 namespace {
 
+long long parse_count(std::string_view option, std::string_view text) {
+  const auto count = parsed<long long>(text);
+  if (!count || *count < 1 || *count > Grid::most_intervals) {
+    throw Error(fmt::format("{}: \"{}\" is not a whole number between 1 and {}", option, text, Grid::most_intervals));
+  }
+  return *count;
+}
+
+/// Cuts off what stands before the separator and moves `rest` behind it.
+std::string_view take_part(std::string_view& rest, char separator) {
+  const std::size_t end = std::min(rest.find(separator), rest.size());
+  const std::string_view part = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return part;
+}
+
 /// The chosen names in the order of `known`, each once; all if none is chosen. Throws `Error` on one that is not known.
-std::vector<std::string> in_order(const char* kind, const std::vector<std::string>& chosen,
+std::vector<std::string> in_order(const std::string& kind, const std::vector<std::string>& chosen,
                                   const std::vector<std::string>& known) {
+  if (chosen.empty()) return known;
+  std::set<std::size_t> positions;
   for (const std::string& name : chosen) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw Error(fmt::format("there is no {} \"{}\"; choose one of {}", kind, name, fmt::join(known, ", ")));
-    }
+    positions.insert(position_of(known, std::identity(), name, "there is no " + kind));
   }
-  std::vector<std::string> result;
-  for (const std::string& name : known) {
-    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end()) result.push_back(name);
-  }
-  return result;
+  std::vector<std::string> names;
+  for (const std::size_t position : positions) names.push_back(known[position]);
+  return names;
 }
 
 std::vector<Grid> make_grids(const ExperimentOptions& options) {
-  std::vector<Grid> grids;
   if (!options.grid_file.empty()) {
     const std::vector<double> times = parse_node_times(read_file(options.grid_file));
-    grids.push_back(
-        Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()))));
-    return grids;
+    return {Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)))};
   }
+  std::vector<Grid> grids;
   for (const long long count : parse_intervals("--intervals", options.intervals)) grids.push_back(Grid::uniform(count));
   return grids;
 }
@@ -59,78 +76,56 @@ std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   return tableaus;
 }
 
-bool is_offered(const std::string& tableau, int stages) {
-  const std::vector<int> known = tableau_stages(tableau);
-  return std::find(known.begin(), known.end(), stages) != known.end();
-}
+/// A family of tableaus and a number of stages.
+using FamilyAndStages = std::pair<std::string, int>;
 
-/// Throws `Error` if none of the tableaus is offered with one of the numbers of stages.
-void require_offered(const std::vector<std::string>& tableaus, const std::vector<int>& stages) {
-  for (const int s : stages) {
-    if (std::any_of(tableaus.begin(), tableaus.end(), [&](const auto& tableau) { return is_offered(tableau, s); })) {
-      continue;
+/// The chosen families with those of the chosen numbers of stages that each is offered with, ascending. Throws `Error`
+/// if no family is offered with one of the numbers.
+std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
+  const auto families = in_order("tableau", chosen_tableaus(options), tableau_names());
+  std::vector<FamilyAndStages> schemes;
+  for (const std::string& family : families) {
+    for (const int stages : tableau_stages(family)) {
+      if (std::ranges::count(options.stages, stages) > 0) schemes.emplace_back(family, stages);
     }
-    const std::string& tableau = tableaus.front();
-    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", tableau,
-                            fmt::join(tableau_stages(tableau), ", "), s));
   }
-}
-
-/// The chosen numbers of stages that a tableau is offered with, ascending, each once.
-std::vector<int> sorted_stages(std::vector<int> stages, const std::string& tableau) {
-  std::sort(stages.begin(), stages.end());
-  stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
-  std::erase_if(stages, [&](int s) { return !is_offered(tableau, s); });
-  return stages;
-}
-
-/// Throws `Error` if a problem is not well posed or the coarsest grid too coarse. All methods have as many degrees of
-/// freedom on a grid, and more stages have more, so that one transcription per tableau tells.
-void require_enough_intervals(const std::shared_ptr<const Problem>& problem, const std::string& method,
-                              const std::string& tableau, int stages, const Grid& coarsest, CostForm form) {
-  static_cast<void>(
-      Case{.problem = problem, .method = method, .tableau = tableau, .stages = stages, .grid = coarsest, .form = form}
-          .transcribe());
+  for (const int stages : options.stages) {
+    if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
+    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", families.front(),
+                            fmt::join(tableau_stages(families.front()), ", "), stages));
+  }
+  return schemes;
 }
 
 }  // namespace
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
-  line.option("--problem", options.problems, "problems, as `list` names them; all: every one")
-      .comma_separated()
-      .shows_default();
-  line.option("--method", options.methods, "methods: dmoc, hamiltonian, tangent; default: all").comma_separated();
-  line.option("--tableau", options.tableaus, "families of Butcher tableaus").comma_separated().shows_default();
+  line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
+  const std::string unless_given = options.methods.empty() ? "; default: all" : "";
+  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent" + unless_given);
+  line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.option("--controls", options.controls,
               "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
-              "the tables then call lobatto_shared")
-      .shows_default();
-  line.option("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with")
-      .comma_separated()
-      .shows_default();
-  line.option("--solver", options.solvers, "solvers, as `list` names them").comma_separated().shows_default();
-  line.option("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them")
-      .comma_separated()
-      .shows_default();
+              "the tables then call lobatto_shared");
+  line.list("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with");
+  line.list("--solver", options.solvers, "solvers, as `list` names them");
+  line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
   line.option("--intervals", options.intervals,
-              "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed")
-      .shows_default();
+              "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
   line.option("--grid", options.grid_file,
               "file with relative node times from 0 to 1, one per line; replaces --intervals");
   line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
   line.option("--form", options.form,
-              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)")
-      .shows_default();
+              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
   line.option("--start", options.start,
               "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
-              "X_nodes.csv written by solve")
-      .shows_default();
-  line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program").shows_default();
-  line.option("--iterations", options.most_iterations, "largest number of iterations of a solver").shows_default();
+              "X_nodes.csv written by solve");
+  line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
+  line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
-  line.option("--repeats", options.repeats, "solves per row; times are medians").shows_default();
-  line.option("--out", options.out, "folder for the results").shows_default();
-  line.option("--name", options.name, "name of the table and the files beside it").shows_default();
+  line.option("--repeats", options.repeats, "solves per row; times are medians");
+  line.option("--out", options.out, "folder for the results");
+  line.option("--name", options.name, "name of the table and the files beside it");
   line.flag("--verbose", options.verbose, "show the solver's own output");
 }
 
@@ -139,6 +134,7 @@ SolverOptions solver_options(const ExperimentOptions& options) {
   result.tolerance = options.tolerance;
   result.most_iterations = options.most_iterations;
   result.verbose = options.verbose;
+  result.stop_requested = interrupt_requested;
   for (const std::string& text : options.passed_on) {
     const auto [name, value] = parse_assignment("--option", text);
     result.passed_on.emplace(name, value);
@@ -156,23 +152,18 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
   for (const std::string& setting : settings) {
     const auto [name, text] = parse_assignment("--set", setting);
     const double value = parse_number(fmt::format("--set {}", name), text);
-    bool known = false;
-    for (const auto& problem : problems) {
-      const auto& parameters = problem->parameters();
-      const bool has = std::any_of(parameters.begin(), parameters.end(),
-                                   [wanted = name](const Parameter& parameter) { return parameter.name == wanted; });
-      if (has) problem->set_parameter(name, value);
-      known = known || has;
-    }
-    if (!known) problems.back()->set_parameter(name, value);  // throws with the names there are
+    const auto has_parameter = [name = name](const std::shared_ptr<Problem>& problem) {
+      return std::ranges::count(problem->parameters(), name, &Parameter::name) > 0;
+    };
+    if (std::ranges::none_of(problems, has_parameter)) problems.back()->set_parameter(name, value);  // throws
+    for (const auto& problem : problems | std::views::filter(has_parameter)) problem->set_parameter(name, value);
   }
   return {problems.begin(), problems.end()};
 }
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto methods = in_order("method", options.methods, element_names());
-  const auto tableaus = in_order("tableau", chosen_tableaus(options), tableau_names());
-  require_offered(tableaus, options.stages);
+  const auto schemes = chosen_schemes(options);
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
@@ -185,19 +176,20 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const CostForm form = cost_form_named(options.form);
   std::vector<Case> cases;
   for (const auto& problem : selected_problems(options.problems, options.settings)) {
-    for (const std::string& tableau : tableaus) {
-      const std::vector<int> stages = sorted_stages(options.stages, tableau);
-      if (!stages.empty())
-        require_enough_intervals(problem, methods.front(), tableau, stages.front(), grids.front(), form);
+    // All methods have as many degrees of freedom on a grid, and more stages have more: one program per family tells
+    // whether the problem is well posed and the coarsest grid fine enough.
+    std::set<std::string> checked;
+    for (const auto& [tableau, stages] : schemes) {
+      if (!checked.insert(tableau).second) continue;
+      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), "", form};
+      static_cast<void>(coarsest.transcribe());
     }
     for (const std::string& method : methods) {
-      for (const std::string& tableau : tableaus) {
-        for (const int stages : sorted_stages(options.stages, tableau)) {
-          for (const std::string& solver : solvers) {
-            for (const std::string& derivatives : back_ends) {
-              for (const Grid& grid : grids) {
-                cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
-              }
+      for (const auto& [tableau, stages] : schemes) {
+        for (const std::string& solver : solvers) {
+          for (const std::string& derivatives : back_ends) {
+            for (const Grid& grid : grids) {
+              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
             }
           }
         }
@@ -205,6 +197,48 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     }
   }
   return cases;
+}
+
+std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
+  std::set<long long> counts;
+  std::string_view rest = text;
+  do {
+    std::string_view entry = take_part(rest, ',');
+    if (entry.find(':') == std::string_view::npos) {
+      counts.insert(parse_count(option, entry));
+      continue;
+    }
+    const std::string whole(entry);
+    const long long first = parse_count(option, take_part(entry, ':'));
+    const long long last = parse_count(option, entry);
+    if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
+    for (long long count = first; count <= last; count *= 2) counts.insert(count);
+  } while (!rest.empty());
+  return {counts.begin(), counts.end()};
+}
+
+std::vector<double> parse_node_times(std::string_view text) {
+  std::vector<double> times;
+  for (int line = 1; !text.empty(); ++line) {
+    std::string_view entry = take_part(text, '\n');
+    while (!entry.empty() && (entry.back() == '\r' || entry.back() == ' ')) entry.remove_suffix(1);
+    if (!entry.empty()) times.push_back(parse_number(fmt::format("--grid, line {}", line), entry));
+  }
+  return times;
+}
+
+std::pair<std::string_view, std::string_view> parse_assignment(std::string_view option, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw Error(fmt::format("{} takes name=value, got \"{}\"", option, text));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+double parse_number(std::string_view wanted_for, std::string_view text) {
+  const auto value = parsed<double>(text);
+  if (!value) throw Error(fmt::format("{}: \"{}\" is not a number", wanted_for, text));
+  return *value;
 }
 
 }  // namespace dmocbench

@@ -5,6 +5,12 @@
 
 namespace dmocbench {
 
+/// From now on Ctrl-C (SIGINT) and SIGTERM ask for a stop instead of ending the program; a second one ends it.
+void listen_for_interrupt();
+
+/// True once a stop has been asked for.
+[[nodiscard]] bool interrupt_requested() noexcept;
+
 /// Calls `work(i)` for i = 0 .. count - 1, each in a process of its own, at most `jobs` of them at a time, and
 /// `done(i)` here after each has ended. Processes, not threads: the sparse factorisation below Ipopt is not made for
 /// threads.

@@ -15,8 +15,15 @@ namespace dmocbench {
 
 namespace {
 
-/// False, with errno set, if not all could be written.
+/// A descriptor; negative, with errno set, if the file cannot be opened.
+int open_to_write(const std::filesystem::path& path, int flags) {
+  constexpr mode_t mode = 0644;
+  return ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, mode);  // NOLINT(cppcoreguidelines-pro-type-vararg)
+}
+
+/// False, with errno set, if not all could be written or the file is not open.
 bool write_all(int descriptor, std::string_view content) {
+  if (descriptor < 0) return false;
   while (!content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
@@ -26,39 +33,16 @@ bool write_all(int descriptor, std::string_view content) {
   return true;
 }
 
-/// An open file that is closed, and removed unless kept, at the end of its scope.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(std::filesystem::path path)
-      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open is one
-      : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  TemporaryFile(TemporaryFile&&) = delete;
-  TemporaryFile& operator=(TemporaryFile&&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!kept_) ::unlink(path_.c_str());
-  }
-
-  /// False, with errno set, if anything went wrong.
-  [[nodiscard]] bool write(std::string_view content) const {
-    // A full disk may show itself only when the content is forced out.
-    return descriptor_ >= 0 && write_all(descriptor_, content) && ::fsync(descriptor_) == 0;
-  }
-
-  [[nodiscard]] bool rename_to(const std::filesystem::path& target) {
-    kept_ = ::rename(path_.c_str(), target.c_str()) == 0;
-    return kept_;
-  }
-
- private:
-  std::filesystem::path path_;
-  int descriptor_;
-  bool kept_ = false;
-};
-
 std::string reason() { return std::strerror(errno); }  // NOLINT(concurrency-mt-unsafe): one thread writes
+
+/// Closes what was written to `path`; undoes it and throws, by errno, if it is not whole.
+void close_or_undo(int descriptor, bool is_whole, const std::filesystem::path& path, const auto& undo) {
+  const std::string failure = is_whole ? "" : reason();
+  if (descriptor >= 0) ::close(descriptor);
+  if (is_whole) return;
+  undo();
+  throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
+}
 
 }  // namespace
 
@@ -75,23 +59,21 @@ void prepare_folder(const std::filesystem::path& folder) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
-  TemporaryFile file(path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid()));
-  if (!file.write(content) || !file.rename_to(path)) {
-    throw Error(fmt::format("cannot write {}: {}", path.string(), reason()));
-  }
+  const std::filesystem::path temporary =
+      path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
+  const int descriptor = open_to_write(temporary, O_CREAT | O_TRUNC);
+  // A full disk may show itself only when the content is forced out.
+  const bool is_whole =
+      write_all(descriptor, content) && ::fsync(descriptor) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
+  close_or_undo(descriptor, is_whole, path, [&] { ::unlink(temporary.c_str()); });
 }
 
 void append_to_file(const std::filesystem::path& path, std::string_view line) {
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): open is one
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  const bool is_whole = descriptor >= 0 && write_all(descriptor, line);
-  const std::string failure = is_whole ? "" : reason();
-  if (descriptor >= 0) ::close(descriptor);
-  if (is_whole) return;
-  if (descriptor >= 0) std::filesystem::resize_file(path, size, ignored);
-  throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
+  const int descriptor = open_to_write(path, O_APPEND);
+  close_or_undo(descriptor, write_all(descriptor, line), path,
+                [&] { std::filesystem::resize_file(path, size, ignored); });
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <vector>
 
+#include <fmt/format.h>
+
+#include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/violation_between_nodes.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
@@ -22,10 +25,9 @@ void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
   std::vector<Solution> solutions{solver.solve(*solved.program, solved.start)};
   solved.solution = solutions.front();
   for (int i = 1; i < repeats && is_solved(solved.solution.status); ++i) {
-    solutions.push_back(solver.solve(*solved.program, solved.start));
-    if (solutions.back().status != Status::interrupted) continue;
-    solutions.pop_back();
-    break;
+    const Solution again = solver.solve(*solved.program, solved.start);
+    if (again.status == Status::interrupted) break;
+    solutions.push_back(again);
   }
   set_median_times(solved, solutions);
 }
@@ -41,7 +43,7 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
   return settle(*exact, tolerance, solution);
 }
 
-/// A number of the program's.
+/// A column's getter: a number of the program's.
 auto count(std::size_t (*of_program)(const Transcription&)) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(*solved.program)) : Cell(); };
 }
@@ -57,6 +59,26 @@ Cell largest_step(const SolvedCase& solved) {
 }
 
 }  // namespace
+
+std::unique_ptr<Transcription> Case::transcribe() const {
+  return std::make_unique<Transcription>(*problem, *make_element(method), make_tableau(tableau, stages), grid,
+                                         derivatives, form);
+}
+
+std::string Case::label() const {
+  return fmt::format("{} {} {} {} {} {}{}{} N = {}", problem->name(), method, tableau, stages, solver, derivatives,
+                     variant.empty() ? "" : " ", variant, intervals());
+}
+
+std::string Case::file_label() const {
+  return fmt::format("{}_{}_{}{}_{}{}", problem->name(), method, tableau, stages, intervals(),
+                     derivatives == "tape" ? "" : "_" + derivatives);
+}
+
+bool Case::same_curve(const Case& other) const {
+  return problem == other.problem && method == other.method && tableau == other.tableau && stages == other.stages &&
+         solver == other.solver && derivatives == other.derivatives && variant == other.variant;
+}
 
 const Columns<SolvedCase>& core_columns() {
   using P = const Transcription&;
@@ -93,12 +115,6 @@ const Columns<SolvedCase>& core_columns() {
   return columns;
 }
 
-SolvedCase unsolved_case(const Case& the_case, const std::string& reason) {
-  SolvedCase result{.the_case = the_case};
-  result.solution.message = reason;
-  return result;
-}
-
 void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
   const auto times = [&](const auto& time_of) {
     std::vector<double> seconds;
@@ -111,11 +127,6 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) 
   solved.solution.evaluation_seconds = median(times([](const Solution& s) { return s.evaluation_seconds; }));
   if (!solved.solution.linear_seconds) return;
   solved.solution.linear_seconds = median(times([](const Solution& s) { return s.linear_seconds.value_or(0.0); }));
-}
-
-SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                      bool polishes) {
-  return solve_case(the_case, start, *make_solver(the_case.solver, options), options.tolerance, repeats, polishes);
 }
 
 SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
@@ -150,9 +161,8 @@ bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
   const double stretch = branch.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
   double distance = 0.0;
   for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
-    const Eigen::VectorXd difference =
-        trajectory.q.row(k).transpose() - branch.at(trajectory.node_times[k] * stretch).q;
-    distance = std::max(distance, difference.lpNorm<Eigen::Infinity>());
+    const Eigen::VectorXd q = branch.at(trajectory.node_times[k] * stretch).q;
+    distance = std::max(distance, (trajectory.q.row(k).transpose() - q).lpNorm<Eigen::Infinity>());
   }
   return distance < share * range.maxCoeff();
 }
@@ -160,5 +170,40 @@ bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
 bool is_usable(const SolvedCase& solved) { return solved.solution.status == Status::solved && solved.branch == "same"; }
 
 bool is_usable(const Row& row) { return row.text("status") == "solved" && row.text("branch") == "same"; }
+
+std::optional<ReplayError> replay(SolvedCase& solved) {
+  try {
+    return replay_error(*solved.the_case.problem, *solved.trajectory);
+  } catch (const Error& error) {
+    solved.note(error.what());
+    return std::nullopt;
+  }
+}
+
+IndependentChecks check_independently(SolvedCase& solved) {
+  const Problem& problem = *solved.the_case.problem;
+  const Trajectory& trajectory = *solved.trajectory;
+  IndependentChecks checks{.replay = replay(solved),
+                           .violation_between_nodes = violation_between_nodes(problem, trajectory),
+                           .free_horizon_residual = {}};
+  if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
+    checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
+  }
+  return checks;
+}
+
+Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay) {
+  return {"replay_error", "", "distance from the final state when the controls are replayed",
+          of(replay, &ReplayError::norm)};
+}
+
+Columns<SolvedCase> columns_of(const IndependentChecks& checks) {
+  return {replay_error_column(checks.replay),
+          {"replay_cost", "cost", "cost of the replayed motion", of(checks.replay, &ReplayError::cost)},
+          {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
+           of(checks.violation_between_nodes)},
+          {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",
+           of(checks.free_horizon_residual)}};
+}
 
 }  // namespace dmocbench

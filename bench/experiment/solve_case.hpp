@@ -5,14 +5,41 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiment/case.hpp"
 #include "bench/experiment/column.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/mechanics/problem.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/grid.hpp"
 #include "methods/transcription/interpolation.hpp"
 #include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
+
+/// One solve: a problem, a method with its tableau, a solver, its derivatives and a grid.
+struct Case {
+  std::shared_ptr<const Problem> problem;
+  std::string method;
+  std::string tableau;
+  int stages = 1;
+  std::string solver = {};
+  std::string derivatives = "tape";  ///< the back end that the solver sees
+  Grid grid = Grid::uniform(1);
+  std::string variant = {};  ///< what an experiment varies besides; empty in most
+  CostForm form = CostForm::bolza;
+
+  [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
+  /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
+  [[nodiscard]] std::unique_ptr<Transcription> transcribe() const;
+  /// "orbital_transfer dmoc gauss 1 ipopt tape N = 64".
+  [[nodiscard]] std::string label() const;
+  /// The same as part of a file's name: "orbital_transfer_dmoc_gauss1_64", with the derivatives behind if they
+  /// are not those of the tape.
+  [[nodiscard]] std::string file_label() const;
+  /// True if both differ in their grid only: points of one curve.
+  [[nodiscard]] bool same_curve(const Case& other) const;
+};
 
 /// Everything an experiment may want to know of one solve.
 struct SolvedCase {
@@ -41,20 +68,14 @@ struct Start {
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
-/// part of the result; its message names what the point misses most. The solver sees the case's derivatives; residuals
-/// and status are those of the exact ones whatever they are, so that wrong derivatives cannot confirm themselves.
-/// Throws `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
-[[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const SolverOptions& options, int repeats,
-                                    bool polishes = false);
-/// The same by another solver than the one of the case's name.
+/// part of the result; its message names what the point violates most. The solver sees the case's derivatives;
+/// residuals and status are those of the exact ones, so that wrong derivatives cannot confirm themselves. Throws
+/// `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
-                                    int repeats, bool polishes);
+                                    int repeats, bool polishes = false);
 
 /// Replaces the times of a solve by the medians of several.
 void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
-
-/// A case that could not start: status "not run", the reason as its message.
-[[nodiscard]] SolvedCase unsolved_case(const Case& the_case, const std::string& reason);
 
 /// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
@@ -62,5 +83,23 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// True of solves that were answered on the wanted branch: what curves, orders and claims are made of.
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
 [[nodiscard]] bool is_usable(const Row& row);
+
+/// Checks of a trajectory that rely on neither solver nor discretisation. What cannot be computed stays empty.
+struct IndependentChecks {
+  std::optional<ReplayError> replay;              ///< the controls integrated on the continuous equations
+  std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
+  std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
+};
+
+/// The controls of the case's trajectory replayed; none, with the reason in the row's message, if that fails.
+[[nodiscard]] std::optional<ReplayError> replay(SolvedCase& solved);
+
+[[nodiscard]] IndependentChecks check_independently(SolvedCase& solved);
+
+/// The columns that tell `checks`.
+[[nodiscard]] Columns<SolvedCase> columns_of(const IndependentChecks& checks);
+
+/// The column replay_error alone.
+[[nodiscard]] Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay);
 
 }  // namespace dmocbench

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
+#include <filesystem>
+#include <numbers>
+#include <random>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,12 +24,26 @@ namespace {
 constexpr long long final_intervals = 144;
 constexpr std::array guess_intervals{48LL, 96LL, 144LL};
 
-/// Solves a case from a motion; none if it does not converge.
-std::optional<Trajectory> solve(const Case& the_case, const Motion& start, const SolverOptions& options) {
-  const auto program = the_case.transcribe();
-  const Solution solution = make_solver(the_case.solver, options)->solve(*program, sample(*program, start));
-  if (!is_solved(solution.status)) return std::nullopt;
-  return read_trajectory(*program, solution.primal, solution.multipliers);
+/// The scheme and grid of a solve; equal for solves with the same answer.
+std::string scheme_and_grid(const std::string& method, const std::string& tableau, int stages, std::size_t intervals) {
+  return fmt::format("{} {} {} {}", method, tableau, stages, intervals);
+}
+
+/// The scheme and grid of the solve that wrote a node file, as the metadata beside it tell; empty if none do.
+std::string origin_of(const std::filesystem::path& nodes_file) {
+  if (!std::filesystem::exists(nodes_file)) return {};
+  const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const auto metadata = nlohmann::json::parse(read_file(entry.path()), nullptr, false);
+    if (!metadata.is_object() || !metadata.contains("motions")) continue;
+    for (const auto& motion : metadata["motions"]) {
+      if (motion.value("nodes", "") != nodes_file.filename().string()) continue;
+      return scheme_and_grid(motion.value("method", ""), motion.value("tableau", ""), motion.value("stages", 0),
+                             motion.value("intervals", std::size_t{0}));
+    }
+  }
+  return {};
 }
 
 /// A replay that leaves the set where the equations make sense has no error to speak of: infinity.
@@ -45,6 +60,26 @@ double replayed(const Problem& problem, const Trajectory& trajectory) {
 bool falls_as_predicted(double coarse, double fine, int order) {
   constexpr double solver_floor = 1e-8;
   return fine < solver_floor || fine <= coarse * std::pow(2.0, 0.5 - order);
+}
+
+/// Evenly distributed between -1 and 1, the same numbers with every standard library.
+double even(std::mt19937_64& engine) {
+  constexpr int kept_bits = 53;
+  return std::ldexp(static_cast<double>(engine() >> (64 - kept_bits)), 1 - kept_bits) - 1.0;
+}
+
+/// The range of every q_i along a motion; 1 where it does not move.
+Eigen::VectorXd ranges(const Motion& motion) {
+  constexpr int samples = 64;
+  Eigen::VectorXd lowest = motion.at(0.0).q;
+  Eigen::VectorXd highest = lowest;
+  for (int i = 1; i <= samples; ++i) {
+    const Eigen::VectorXd q = motion.at(motion.horizon * i / samples).q;
+    lowest = lowest.cwiseMin(q);
+    highest = highest.cwiseMax(q);
+  }
+  const Eigen::VectorXd range = highest - lowest;
+  return (range.array() > 0.0).select(range, 1.0);
 }
 
 }  // namespace
@@ -68,31 +103,13 @@ const Motion& StartProvider::motion_in_file(const Problem& problem) {
   return files_.emplace(problem.name(), read_motion(problem, kind_)).first->second;
 }
 
-std::optional<StartProvider::Origin> StartProvider::origin_of(const std::filesystem::path& nodes_file) {
-  if (!std::filesystem::exists(nodes_file)) return std::nullopt;
-  const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    const auto metadata = nlohmann::json::parse(read_file(entry.path()), nullptr, false);
-    if (!metadata.is_object() || !metadata.contains("motions")) continue;
-    for (const auto& motion : metadata["motions"]) {
-      if (motion.value("nodes", "") != nodes_file.filename().string()) continue;
-      return Origin{.method = motion.value("method", ""),
-                    .tableau = motion.value("tableau", ""),
-                    .stages = motion.value("stages", 0),
-                    .intervals = motion.value("intervals", std::size_t{0})};
-    }
-  }
-  return std::nullopt;
-}
-
 Motion StartProvider::motion_for(const Case& the_case) {
   if (kind_ == "guess") return guessed_motion(*the_case.problem);
   if (kind_ != "common") {
     const Motion& motion = motion_in_file(*the_case.problem);
-    const bool own = origin_ && origin_->method == the_case.method && origin_->tableau == the_case.tableau &&
-                     origin_->stages == the_case.stages && origin_->intervals == the_case.intervals();
-    if (!own) return motion;
+    if (origin_ != scheme_and_grid(the_case.method, the_case.tableau, the_case.stages, the_case.intervals())) {
+      return motion;
+    }
     throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
                               kind_, the_case.label()));
   }
@@ -110,42 +127,42 @@ std::optional<Motion> StartProvider::branch_for(const Case& the_case) {
   }
 }
 
-const StartProvider::CommonStart& StartProvider::common_start(const Case& the_case) {
-  const Key key{the_case.problem->name(), the_case.tableau, the_case.stages};
-  const auto found = common_.find(key);
-  if (found != common_.end()) return found->second;
-  if (const auto none = without_.find(key); none != without_.end()) throw NoStart(none->second);
-  try {
-    return common_.emplace(key, find_common_start(the_case)).first->second;
-  } catch (const NoStart& reason) {
-    without_.emplace(key, reason.what());  // to look again would take as long and find as little
-    throw;
-  }
+Trajectory StartProvider::solve(const Case& the_case) {
+  const Start start{motion_for(the_case), branch_for(the_case)};
+  const SolvedCase solved = solve_case(the_case, start, *make_solver(the_case.solver, options_), options_.tolerance, 1);
+  if (!solved.trajectory || !is_usable(solved)) throw Error(the_case.label() + " could not be solved");
+  return *solved.trajectory;
 }
 
-StartProvider::CommonStart StartProvider::find_common_start(const Case& the_case) const {
+const StartProvider::CommonStart& StartProvider::common_start(const Case& the_case) {
+  const Key key{the_case.problem->name(), the_case.tableau, the_case.stages};
+  auto known = common_.find(key);
+  if (known == common_.end()) known = common_.emplace(key, find_common_start(the_case)).first;
+  if (!known->second) throw NoStart(known->second.error());
+  return *known->second;
+}
+
+StartProvider::FoundStart StartProvider::find_common_start(const Case& the_case) const {
   struct Candidate {
     std::string method;
     Trajectory trajectory;
   };
   const Problem& problem = *the_case.problem;
   const Motion guess = guessed_motion(problem);
-  const auto require_time = [&] {
-    if (options_.stop_requested && options_.stop_requested()) throw NoStart("interrupted");
-  };
+  const auto is_interrupted = [&] { return options_.stop_requested && options_.stop_requested(); };
   const auto solve_on = [&](const std::string& method, long long intervals, const Motion& start) {
-    const Case candidate{.problem = the_case.problem,
-                         .method = method,
-                         .tableau = the_case.tableau,
-                         .stages = the_case.stages,
-                         .solver = "ipopt",
-                         .grid = Grid::uniform(intervals)};
-    return solve(candidate, start, options_);
+    Case candidate{.problem = the_case.problem, .method = method, .tableau = the_case.tableau};
+    candidate.stages = the_case.stages;
+    candidate.grid = Grid::uniform(intervals);
+    const auto program = candidate.transcribe();
+    const Solution solution = make_solver("ipopt", options_)->solve(*program, sample(*program, start));
+    return is_solved(solution.status) ? std::optional(read_trajectory(*program, solution.primal, solution.multipliers))
+                                      : std::nullopt;
   };
   std::vector<Candidate> candidates;
   for (const std::string& method : element_names()) {
     for (const long long intervals : guess_intervals) {
-      require_time();
+      if (is_interrupted()) return tl::unexpected<std::string>("interrupted");
       if (on_progress) {
         on_progress(fmt::format("{} {} {}: common start, {} on {} intervals", problem.name(), the_case.tableau,
                                 the_case.stages, method, intervals));
@@ -159,19 +176,43 @@ StartProvider::CommonStart StartProvider::find_common_start(const Case& the_case
   }
   std::ranges::sort(candidates, {}, [](const Candidate& candidate) { return candidate.trajectory.cost; });
   for (const Candidate& candidate : candidates) {
-    require_time();
+    if (is_interrupted()) return tl::unexpected<std::string>("interrupted");
     Motion motion = smooth_motion(candidate.trajectory);
     const auto finer = solve_on(candidate.method, 2 * final_intervals, motion);
     if (!finer) continue;
     if (falls_as_predicted(replayed(problem, candidate.trajectory), replayed(problem, *finer),
                            candidate.trajectory.tableau.order)) {
-      return {candidate.method, std::move(motion), smooth_motion(*finer)};
+      return CommonStart{candidate.method, std::move(motion), smooth_motion(*finer)};
     }
   }
-  throw NoStart(
+  return tl::unexpected(
       fmt::format("{} has no common start: from its guess no method finds a motion on {} intervals that a replay "
                   "confirms; try --start guess, or a file written by solve",
                   problem.name(), final_intervals));
+}
+
+Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number) {
+  constexpr Eigen::Index modes = 3;
+  if (number == 0) return motion;
+  std::seed_seq mixed{seed, number};
+  std::mt19937_64 engine(mixed);
+  const Eigen::VectorXd range = ranges(motion);
+  Eigen::MatrixXd amplitudes(range.size(), modes);
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    for (Eigen::Index i = 0; i < range.size(); ++i) {
+      amplitudes(i, k) = amplitude * range[i] * even(engine) / static_cast<double>(k + 1);
+    }
+  }
+  const auto at = [motion, amplitudes](double t) {
+    MotionPoint point = motion.at(t);
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
+      point.q += amplitudes.col(k) * std::sin(frequency * t);
+      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
+    }
+    return point;
+  };
+  return {at, motion.horizon};
 }
 
 }  // namespace dmocbench

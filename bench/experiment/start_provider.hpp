@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -8,14 +8,16 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/experiment/case.hpp"
+#include <tl/expected.hpp>
+
+#include "bench/experiment/solve_case.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/interpolation.hpp"
 
 namespace dmocbench {
 
-/// There is no motion that a case could start from; what() says why.
+/// There is no motion that a case could start from; the sentence says why.
 class NoStart : public Error {
  public:
   using Error::Error;
@@ -44,6 +46,9 @@ class StartProvider {
   /// the problem's guess, which is on no branch. None if there is no common start.
   [[nodiscard]] std::optional<Motion> branch_for(const Case& the_case);
 
+  /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch.
+  [[nodiscard]] Trajectory solve(const Case& the_case);
+
   /// Told what is being solved on the way to a common start.
   std::function<void(const std::string&)> on_progress;
 
@@ -53,26 +58,23 @@ class StartProvider {
     Motion motion;  // solved on coarse_intervals
     Motion finer;   // the same branch on twice as many
   };
+  using FoundStart = tl::expected<CommonStart, std::string>;  // or why there is none
   using Key = std::tuple<std::string, std::string, int>;
-  /// The solve that wrote a node file, as the metadata beside it tells.
-  struct Origin {
-    std::string method;
-    std::string tableau;
-    int stages = 0;
-    std::size_t intervals = 0;
-  };
-
   [[nodiscard]] const CommonStart& common_start(const Case& the_case);
-  [[nodiscard]] CommonStart find_common_start(const Case& the_case) const;
-  [[nodiscard]] static std::optional<Origin> origin_of(const std::filesystem::path& nodes_file);
+  [[nodiscard]] FoundStart find_common_start(const Case& the_case) const;
   [[nodiscard]] const Motion& motion_in_file(const Problem& problem);
 
   std::string kind_;
   SolverOptions options_;
-  std::map<Key, CommonStart> common_;
-  std::map<Key, std::string> without_;   // and why
+  std::map<Key, FoundStart> common_;
   std::map<std::string, Motion> files_;  // the file's motion, by the problem it was read for
-  std::optional<Origin> origin_;         // of the file
+  std::string origin_;                   // the scheme and grid of the solve that wrote the file; empty if nothing tells
 };
+
+/// A motion with smooth random curves added: to every q_i a sum of three sines that vanish at both ends, their
+/// amplitudes drawn evenly between -a and a times the range of that q_i along the motion (1 where it has none) and
+/// falling as 1/k, with their derivatives added to the velocity. The control stays. The same `seed` and `number` give
+/// the same curves on every machine; number 0 is the motion itself.
+[[nodiscard]] Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number);
 
 }  // namespace dmocbench

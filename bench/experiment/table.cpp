@@ -1,8 +1,10 @@
 #include "bench/experiment/table.hpp"
 
-#include <fmt/format.h>
+#include <ranges>
 
-#include "bench/experiment/interval_list.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -62,15 +64,12 @@ std::string Row::text(std::string_view column) const {
 std::optional<double> Row::number(std::string_view column) const { return parsed<double>(text(column)); }
 
 std::string Row::csv(const std::vector<std::string>& columns) const {
-  std::string line;
-  for (const std::string& column : columns) line += (&column == columns.data() ? "" : ",") + quoted(text(column));
-  return line + '\n';
+  const auto field = [this](const std::string& column) { return quoted(text(column)); };
+  return fmt::format("{}\n", fmt::join(columns | std::views::transform(field), ","));
 }
 
 std::string Table::csv() const {
-  std::string text;
-  for (const std::string& column : columns_) text += (&column == columns_.data() ? "" : ",") + quoted(column);
-  text += '\n';
+  std::string text = fmt::format("{}\n", fmt::join(columns_ | std::views::transform(quoted), ","));
   for (const Row& row : rows_) text += row.csv(columns_);
   return text;
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "methods/runtime/parsed.hpp"
+
 namespace dmocbench {
 
 /// A field of a table as it is written: a number with all its digits (%.17g), a text, or nothing.

@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <variant>
 #include <vector>
 
 #include <adolc/adolc.h>
@@ -9,76 +9,46 @@
 
 #include "bench/speed/interval_benchmark.hpp"
 #include "methods/error.hpp"
-#include "methods/expression/replay.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
 
-/// Records a schedule with the fewest operations that ADOL-C can do with: constants stay numbers, and no value is
-/// copied. (`replay<adouble>` would record both.)
-class Recorder {
- public:
-  Recorder(const Schedule& schedule, const adouble* inputs) : schedule_(schedule), inputs_(inputs) {
-    computed_.reserve(schedule.steps().size());  // places_ points into it
-    for (const Schedule::Step& step : schedule.steps()) places_.push_back(record(step));
-  }
-
-  [[nodiscard]] const adouble& output() const { return *places_[schedule_.outputs().front()]; }
-
- private:
-  [[nodiscard]] std::optional<double> constant(std::uint32_t position) const {
-    const Schedule::Step& step = schedule_.steps()[position];
-    return step.operation == Operation::constant ? std::optional(step.value) : std::nullopt;
-  }
-
-  template <class Value>
-  const adouble* keep(const Value& value) {
-    return &computed_.emplace_back(value);
-  }
-
-  const adouble* record(const Schedule::Step& step) {
-    if (step.operation == Operation::constant) return nullptr;
-    if (step.operation == Operation::input) return &inputs_[step.input_index];
-    const adouble* x = places_[step.left];
-    switch (step.operation) {
-      case Operation::negate:
-        return keep(-*x);
-      case Operation::reciprocal:
-        return keep(1.0 / *x);
-      case Operation::square_root:
-        return keep(sqrt(*x));
-      case Operation::sine:
-        return keep(sin(*x));
-      case Operation::cosine:
-        return keep(cos(*x));
-      case Operation::add:
-        return record_binary(step, std::plus<>());
-      case Operation::subtract:
-        return record_binary(step, std::minus<>());
-      case Operation::multiply:
-        return record_binary(step, std::multiplies<>());
-      case Operation::divide:
-        return record_binary(step, std::divides<>());
-      default:
-        throw Error("no problem of this benchmark has the operation " + std::string(name_of(step.operation)));
-    }
-  }
-
-  template <class Operator>
-  const adouble* record_binary(const Schedule::Step& step, Operator combine) {
-    const auto left = constant(step.left);
-    const auto right = constant(step.right);
-    const adouble* x = places_[step.left];
-    const adouble* y = places_[step.right];
-    return left ? keep(combine(*left, *y)) : right ? keep(combine(*x, *right)) : keep(combine(*x, *y));
-  }
-
-  const Schedule& schedule_;
-  const adouble* inputs_;
-  std::vector<adouble> computed_;
-  std::vector<const adouble*> places_;  // null for constants
-};
+/// Adds the only output of a schedule to `sum`, recorded with the fewest operations that ADOL-C can do with: constants
+/// stay numbers, and no value is copied. (`replay<adouble>` would record both.)
+void record(const Schedule& schedule, const adouble* inputs, adouble& sum) {
+  using Value = std::variant<double, const adouble*>;
+  std::vector<adouble> computed;
+  computed.reserve(schedule.steps().size());  // `values` points into it
+  std::vector<Value> values;
+  const auto keep = [&](const auto& result) -> Value { return &computed.emplace_back(result); };
+  const auto variable = [&](std::uint32_t position) -> const adouble& {
+    return *std::get<const adouble*>(values[position]);
+  };
+  const auto combined = [&](const Schedule::Step& step, auto combine) {
+    const double* left = std::get_if<double>(&values[step.left]);
+    const double* right = std::get_if<double>(&values[step.right]);
+    if (left != nullptr) return keep(combine(*left, variable(step.right)));
+    if (right != nullptr) return keep(combine(variable(step.left), *right));
+    return keep(combine(variable(step.left), variable(step.right)));
+  };
+  const auto record_step = [&](const Schedule::Step& step) -> Value {
+    if (step.operation == Operation::constant) return step.value;
+    if (step.operation == Operation::input) return &inputs[step.input_index];
+    if (step.operation == Operation::negate) return keep(-variable(step.left));
+    if (step.operation == Operation::reciprocal) return keep(1.0 / variable(step.left));
+    if (step.operation == Operation::square_root) return keep(sqrt(variable(step.left)));
+    if (step.operation == Operation::sine) return keep(sin(variable(step.left)));
+    if (step.operation == Operation::cosine) return keep(cos(variable(step.left)));
+    if (step.operation == Operation::add) return combined(step, std::plus<>());
+    if (step.operation == Operation::subtract) return combined(step, std::minus<>());
+    if (step.operation == Operation::multiply) return combined(step, std::multiplies<>());
+    if (step.operation == Operation::divide) return combined(step, std::divides<>());
+    throw Error("no problem of this benchmark has the operation " + std::string(name_of(step.operation)));
+  };
+  for (const Schedule::Step& step : schedule.steps()) values.push_back(record_step(step));
+  sum += variable(schedule.outputs().front());
+}
 
 /// The Hessian of the Lagrangian of one or more intervals by ADOL-C's driver hess_mat.
 ///
@@ -93,26 +63,19 @@ class AdolcHessian {
   /// `tag` is ADOL-C's number of the tape. Record small tapes before large ones: a small one that is recorded after a
   /// large one runs several times slower, as if it carried the large one's variables.
   AdolcHessian(short tag, const Schedule& lagrangian, const LocalInputs& inputs, std::size_t intervals)
-      : tag_(tag),
-        intervals_(intervals),
-        input_count_(inputs.count()),
-        directions_(inputs.unknowns),
-        seed_(intervals * input_count_ * directions_),
-        result_(seed_.size()) {
-    for (std::size_t row = 0; row < intervals * input_count_; ++row) {
-      seed_rows_.push_back(seed_.data() + row * directions_);
-      result_rows_.push_back(result_.data() + row * directions_);
-      const std::size_t input = row % input_count_;
-      if (input < directions_) seed_rows_.back()[input] = 1.0;
-    }
+      : tag_(tag), input_count_(static_cast<Eigen::Index>(inputs.count())) {
+    const auto count = static_cast<Eigen::Index>(intervals);
+    const auto directions = static_cast<Eigen::Index>(inputs.unknowns);
+    seed_ = Matrix::Identity(input_count_, directions).replicate(count, 1);
+    result_.resizeLike(seed_);
+    for (auto row : seed_.rowwise()) seed_rows_.push_back(row.data());
+    for (auto row : result_.rowwise()) result_rows_.push_back(row.data());
     trace_on(tag);
     {
-      std::vector<adouble> independents(intervals * input_count_);
+      std::vector<adouble> independents(seed_rows_.size());
       for (adouble& independent : independents) independent <<= 1.0;
       adouble sum = 0.0;
-      for (std::size_t k = 0; k < intervals; ++k) {
-        sum += Recorder(lagrangian, independents.data() + k * input_count_).output();
-      }
+      for (std::size_t k = 0; k < intervals; ++k) record(lagrangian, &independents[k * inputs.count()], sum);
       double value = 0.0;
       sum >>= value;
     }
@@ -124,28 +87,29 @@ class AdolcHessian {
     // The driver takes its point as double* and only reads it.
     double* independents =
         const_cast<double*>(point.inputs_of(first).data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-    const int status = hess_mat(tag_, static_cast<int>(intervals_ * input_count_), static_cast<int>(directions_),
-                                independents, seed_rows_.data(), result_rows_.data());
+    const int status = hess_mat(tag_, static_cast<int>(seed_.rows()), static_cast<int>(seed_.cols()), independents,
+                                seed_rows_.data(), result_rows_.data());
     if (status < 0) throw Error("ADOL-C's hess_mat failed");
   }
   /// ∂²ℓ/∂z_i∂z_j of interval `first` + `offset` of the last evaluation.
   [[nodiscard]] double entry(std::size_t offset, std::size_t i, std::size_t j) const {
-    return result_rows_[offset * input_count_ + i][j];
+    return result_(static_cast<Eigen::Index>(offset) * input_count_ + static_cast<Eigen::Index>(i),
+                   static_cast<Eigen::Index>(j));
   }
 
  private:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
   short tag_;
-  std::size_t intervals_;
-  std::size_t input_count_;  // of one interval
-  std::size_t directions_;
-  std::vector<double> seed_;
-  std::vector<double> result_;
+  Eigen::Index input_count_;  // of one interval
+  Matrix seed_;
+  Matrix result_;
   std::vector<double*> seed_rows_;
   std::vector<double*> result_rows_;
 };
 
 void register_hessian(const std::string& quantity, short tag, const BenchmarkedFormulas& point, std::size_t intervals) {
-  const Schedule lagrangian = lagrangian_of(point.functions());
+  const Schedule& lagrangian = point.functions().lagrangian;
   const auto adolc = std::make_shared<AdolcHessian>(tag, lagrangian, point.functions().inputs, intervals);
   const LocalMatrix& hessian = point.functions().hessian;
   require_agreement(point, hessian.schedule, "ADOL-C", [&](std::size_t interval) {

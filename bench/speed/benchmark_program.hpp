@@ -11,6 +11,9 @@
 
 namespace dmocbench::speed {
 
+/// Tables by the suffixes of their files: "_machine" goes to FILE_machine.csv.
+using TablesBySuffix = std::vector<std::pair<std::string, Table>>;
+
 /// A program of Google Benchmark that can write its results as tables.
 struct BenchmarkProgram {
   std::string name;
@@ -18,8 +21,7 @@ struct BenchmarkProgram {
   std::string csv;             ///< what `--csv` writes, for `--help`
   std::string default_filter;  ///< of the benchmarks that run without flags; a "-" in front excludes
   std::function<void()> register_benchmarks;
-  /// The tables of a run by the suffixes of their files: "_machine" goes to FILE_machine.csv.
-  std::function<std::vector<std::pair<std::string, Table>>(const Benchmarks&)> tables;
+  std::function<TablesBySuffix(const Benchmarks&)> tables;  ///< of a run
 
   /// Reads the command line, `--csv FILE` and the flags of Google Benchmark, runs the benchmarks and writes the tables,
   /// each whole or not at all. Returns the exit code; every error is one line on standard error.

@@ -1,5 +1,8 @@
 #include "bench/speed/benchmarked_formulas.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -13,26 +16,18 @@ namespace dmocbench::speed {
 
 namespace {
 
-/// Numbers around 1: no radius vanishes, and every angle is an ordinary one.
-class Numbers {
- public:
-  double next() { return distribution_(generator_); }
-  Eigen::VectorXd vector(std::size_t size) {
-    return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [this] { return next(); });
-  }
-
- private:
-  std::mt19937_64 generator_{1};
-  std::uniform_real_distribution<double> distribution_{0.5, 1.5};
-};
+/// Numbers around 1, the same on every run: no radius vanishes, and every angle is an ordinary one.
+Eigen::VectorXd random_numbers(std::mt19937_64& generator, std::size_t size) {
+  std::uniform_real_distribution<double> distribution(0.5, 1.5);
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return distribution(generator); });
+}
 
 Grid uneven_grid() {
-  Numbers numbers;
+  std::mt19937_64 generator(1);
   Eigen::VectorXd nodes(static_cast<Eigen::Index>(BenchmarkedFormulas::intervals + 1));
-  nodes[0] = 0.0;
-  for (Eigen::Index k = 1; k < nodes.size(); ++k) nodes[k] = nodes[k - 1] + numbers.next();
-  const double length = nodes[nodes.size() - 1];
-  return Grid::from_nodes(nodes / length);
+  nodes << 0.0, random_numbers(generator, BenchmarkedFormulas::intervals);
+  std::partial_sum(nodes.begin(), nodes.end(), nodes.begin());
+  return Grid::from_nodes(nodes / nodes[nodes.size() - 1]);
 }
 
 std::unique_ptr<Problem> problem_of(const Formulas& formulas) {
@@ -41,22 +36,15 @@ std::unique_ptr<Problem> problem_of(const Formulas& formulas) {
   return problem;
 }
 
-/// The outputs of a schedule in this thread's graph, where equal ones are shared.
-std::vector<Expression> expressions_of(const Schedule& schedule) {
-  std::vector<Expression> inputs;
-  for (std::size_t i = 0; i < schedule.input_count(); ++i) inputs.push_back(Expression::input(i));
-  return replay<Expression>(schedule, inputs);
-}
-
 }  // namespace
 
 BenchmarkedFormulas::BenchmarkedFormulas(Formulas formulas)
     : formulas_(std::move(formulas)),
       program_(*problem_of(formulas_), *make_element(formulas_.method), gauss_tableau(formulas_.stages),
                uneven_grid()) {
-  Numbers numbers;
-  x_ = numbers.vector(program_.variable_count());
-  multipliers_ = numbers.vector(program_.constraint_count());
+  std::mt19937_64 generator(1);
+  x_ = random_numbers(generator, program_.variable_count());
+  multipliers_ = random_numbers(generator, program_.constraint_count());
   const auto bound = program_.bind(x_, multipliers_, objective_factor);
   columns_.assign(bound.begin(), bound.end());
   for (std::size_t k = 0; k < intervals; ++k) {
@@ -64,21 +52,13 @@ BenchmarkedFormulas::BenchmarkedFormulas(Formulas formulas)
   }
 }
 
-Schedule lagrangian_of(const IntervalFunctions& functions) {
-  const LocalInputs& inputs = functions.inputs;
-  const std::vector<Expression> constraints = expressions_of(functions.rows.schedule);
-  Expression sum = Expression::input(inputs.objective_factor()) * expressions_of(functions.cost).front();
-  for (std::size_t r = 0; r < constraints.size(); ++r) {
-    sum += Expression::input(inputs.multiplier(functions.rows.places[r])) * constraints[r];
-  }
-  return Schedule(std::vector<Expression>{sum});
-}
-
 Schedule fused(const BenchmarkedFormulas& formulas) {
+  // In this thread's graph, where equal expressions are shared.
   std::vector<Expression> all;
   for (const Schedule* part : formulas.schedules()) {
-    const std::vector<Expression> outputs = expressions_of(*part);
-    all.insert(all.end(), outputs.begin(), outputs.end());
+    std::vector<Expression> inputs;
+    for (std::size_t i = 0; i < part->input_count(); ++i) inputs.push_back(Expression::input(i));
+    std::ranges::copy(replay<Expression>(*part, inputs), std::back_inserter(all));
   }
   return Schedule(all);
 }

@@ -15,7 +15,7 @@
 
 namespace dmocbench::speed {
 
-/// Which formulas are timed.
+/// A choice of formulas.
 struct Formulas {
   std::string problem;          ///< a name of the registry
   int links = 0;                ///< of the problem `link_chain`; 0 for all others
@@ -23,7 +23,7 @@ struct Formulas {
   int stages = 1;               ///< of the Gauss tableau
 };
 
-/// What is timed: a problem by a method on a grid of uneven steps, at a random point.
+/// A problem by a method on a grid of uneven steps, at a random point.
 ///
 /// The time of an evaluation depends on the formulas, not on the numbers; with random ones no comparison of values
 /// (`require_agreement`) is trivially right.
@@ -68,11 +68,7 @@ using FormulasOfPaper = std::vector<std::unique_ptr<BenchmarkedFormulas>>;
 /// The names of `BenchmarkedFormulas::schedules`.
 inline constexpr std::array quantities{"residual", "jacobian", "hessian"};
 
-/// An interval's share of the Lagrangian, ℓ = factor · cost + multipliers · constraints, with common subexpressions
-/// shared.
-[[nodiscard]] Schedule lagrangian_of(const IntervalFunctions& functions);
-
-/// Residual, Jacobian and Hessian by one schedule: what the three have in common is computed once.
+/// Residual, Jacobian and Hessian by one schedule: common subexpressions are computed once.
 [[nodiscard]] Schedule fused(const BenchmarkedFormulas& formulas);
 
 }  // namespace dmocbench::speed

@@ -38,7 +38,7 @@ void register_program_benchmarks();
 /// level of memory.
 void register_machine_benchmarks();
 
-/// What a benchmark measures. Its name is WAY/QUANTITY/PROBLEM[_LINKS][/METHOD/gauss_STAGES][/INSTRUCTION_SET].
+/// The subject of a benchmark. Its name is WAY/QUANTITY/PROBLEM[_LINKS][/METHOD/gauss_STAGES][/INSTRUCTION_SET].
 struct IntervalBenchmark {
   std::string way;            ///< "tape", "program", "hand", ...
   std::string quantity = {};  ///< "residual", "jacobian", "hessian", "separate", ...
@@ -47,7 +47,7 @@ struct IntervalBenchmark {
   std::string instruction_set = {};  ///< empty: none of its own
 };
 
-/// What an evaluation takes and gives, per interval.
+/// Operations and memory traffic of an evaluation, per interval.
 struct Work {
   std::size_t operations = 0;  ///< of the formulas
   double bytes = 0.0;          ///< of arrays read and written, each once; 0: not counted
@@ -57,7 +57,7 @@ struct Work {
 [[nodiscard]] Work work_of(const Schedule& schedule, const BenchmarkedFormulas& point,
                            std::optional<double> numbers_written = {});
 
-/// What is timed: `evaluate` treats all intervals once.
+/// A timed call: `evaluate` treats all intervals once.
 struct Evaluation {
   std::function<void()> evaluate;
   Work work = {};
@@ -66,59 +66,31 @@ struct Evaluation {
 /// One after the other.
 [[nodiscard]] Evaluation one_by_one(const std::vector<Evaluation>& evaluations);
 
-/// Hands a benchmark to Google Benchmark; `make` is called at the begin of every repetition.
-void register_benchmark(const IntervalBenchmark& what, std::function<Evaluation()> make);
-void register_benchmark(const IntervalBenchmark& what, const Evaluation& evaluation);
+/// Hands a benchmark to Google Benchmark; `make` is called at the beginning of every repetition.
+void register_benchmark(const IntervalBenchmark& benchmark, std::function<Evaluation()> make);
+void register_benchmark(const IntervalBenchmark& benchmark, const Evaluation& evaluation);
+
+/// Writes the outputs of a schedule for all intervals, a column per output.
+using ColumnWriter = std::function<void(std::span<double* const> outputs)>;
+[[nodiscard]] ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set);
+
+/// An evaluation that writes the outputs of a schedule to columns of its own. Throws as `require_agreement`.
+[[nodiscard]] Evaluation checked_evaluation(const BenchmarkedFormulas& point, const Schedule& schedule,
+                                            const std::string& name, const ColumnWriter& write,
+                                            double tolerance = 1e-10);
+
+/// Hands residual, Jacobian and Hessian to Google Benchmark, evaluated one by one and one after the other ("separate").
+/// `writer(i)` makes the evaluation of the i-th of `quantities`. Throws as `require_agreement`.
+void register_quantities(IntervalBenchmark benchmark, const BenchmarkedFormulas& point,
+                         const std::function<ColumnWriter(std::size_t i)>& writer, double tolerance = 1e-10);
 
 /// Memory that begins with a cache line, eight numbers each.
 struct alignas(64) CacheLine {
   std::array<double, 8> numbers{};
 };
 
-/// Memory for columns of one number per interval.
-///
-/// Columns begin with a cache line, but not a power of two apart: else they would compete for the same few lines of the
-/// first-level cache. (In a program they stand as the pattern has it.)
-class IntervalColumns {
- public:
-  explicit IntervalColumns(std::size_t count) : lines_(count * stride) {
-    for (std::size_t j = 0; j < count; ++j) columns_.push_back(lines_[j * stride].numbers.data());
-  }
-
-  [[nodiscard]] std::span<double* const> columns() const noexcept { return columns_; }
-  /// The numbers of one interval.
-  [[nodiscard]] std::vector<double> row(std::size_t interval) const {
-    std::vector<double> numbers;
-    for (const double* column : columns_) numbers.push_back(column[interval]);
-    return numbers;
-  }
-
- private:
-  static constexpr std::size_t stride =
-      (BenchmarkedFormulas::intervals + Tape::block_width) / CacheLine{}.numbers.size();
-  std::vector<CacheLine> lines_;
-  std::vector<double*> columns_;
-};
-
-/// A tape with memory for its outputs: one column per output, nothing assembled.
-class TapeRun {
- public:
-  TapeRun(const Schedule& schedule, InstructionSet set)
-      : tape_(schedule, set), workspace_(tape_), outputs_(tape_.output_count()) {}
-
-  void evaluate(std::span<const Tape::Input> inputs) {
-    tape_.evaluate(BenchmarkedFormulas::intervals, inputs, outputs_.columns(), workspace_);
-  }
-  [[nodiscard]] std::vector<double> row(std::size_t interval) const { return outputs_.row(interval); }
-
- private:
-  Tape tape_;
-  Tape::Workspace workspace_;
-  IntervalColumns outputs_;
-};
-
 /// Throws `Error` unless `values`, the outputs of a schedule on an interval, are the tape's to `tolerance` times the
-/// interval's largest: what is wrong is not timed.
+/// interval's largest: wrong results are not timed.
 void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
                        const std::function<std::vector<double>(std::size_t interval)>& values,
                        double tolerance = 1e-10);

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "bench/speed/interval_benchmark.hpp"
-#include "bench/speed/interval_tables.hpp"
 #include "bench/speed/kernels.hpp"
+#include "bench/speed/speed_tables.hpp"
 
 namespace dmocbench::speed {
 
@@ -23,20 +23,16 @@ struct MemoryLevel {
   std::size_t triad_size = 0;  ///< bytes of the three arrays by which its rate is measured
 };
 
-/// What the system tells, or a common size where it does not.
+/// The value that the system reports, or a common size where it reports none.
 std::size_t size_or(int name, std::size_t common) {
   const long told = ::sysconf(name);
   return told > 0 ? static_cast<std::size_t>(told) : common;
 }
 
-void measure_arithmetic(benchmark::State& state, const Kernels& kernels) {
-  constexpr std::size_t turns = 10000;
-  for ([[maybe_unused]] auto turn : state) benchmark::DoNotOptimize(kernels.arithmetic(turns));
-  const auto operations = static_cast<double>(turns * kernels.operations_of_a_turn);
-  state.counters[operations_per_second] = benchmark::Counter(operations, benchmark::Counter::kIsIterationInvariantRate);
-}
+/// A rate of so many in every iteration.
+benchmark::Counter per_iteration(double count) { return {count, benchmark::Counter::kIsIterationInvariantRate}; }
 
-/// `memory` is that of all triads and grows as needed: the largest takes an eighth of what the machine has.
+/// All triads share `memory`, which grows as needed, up to an eighth of the machine's.
 void measure_triad(benchmark::State& state, TriadLoop triad, std::size_t bytes, std::vector<CacheLine>& memory) {
   constexpr std::size_t block = 8;  // arrays a few blocks of lines long, for loops without a rest
   const std::size_t lines = bytes / (3 * block * sizeof(CacheLine)) * block;
@@ -52,8 +48,7 @@ void measure_triad(benchmark::State& state, TriadLoop triad, std::size_t bytes, 
     triad(size, a, b, c, 0.5);
     benchmark::ClobberMemory();
   }
-  const auto moved = static_cast<double>(3 * sizeof(double) * size);
-  state.counters[bytes_per_second] = benchmark::Counter(moved, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters[bytes_per_second] = per_iteration(static_cast<double>(3 * sizeof(double) * size));
 }
 
 std::vector<MemoryLevel> memory_levels() {
@@ -80,12 +75,16 @@ void register_machine_benchmarks() {
     const std::string label = fmt::format("instruction_set={} limit=", name_of(set));
     benchmark::RegisterBenchmark(fmt::format("machine/arithmetic/{}", name_of(set)).c_str(),
                                  [kernels, label](benchmark::State& state) {
-                                   measure_arithmetic(state, kernels);
+                                   constexpr std::size_t turns = 10000;
+                                   for ([[maybe_unused]] auto turn : state)
+                                     benchmark::DoNotOptimize(kernels.arithmetic(turns));
+                                   const auto operations = static_cast<double>(turns * kernels.operations_of_a_turn);
+                                   state.counters[operations_per_second] = per_iteration(operations);
                                    state.SetLabel(label + "arithmetic");
                                  });
     std::size_t smaller = 0;  // the capacity of the level before
     for (const MemoryLevel& level : memory_levels()) {
-      // Keys are columns of `machine_table`, and what says which arrays a level holds.
+      // Keys are columns of `machine_table`, and the sizes of the arrays that a level holds.
       const std::string of_level = fmt::format("{}{} array_bytes={} more_than_bytes={} up_to_bytes={}", label,
                                                level.name, level.triad_size, smaller, level.capacity);
       smaller = level.capacity;

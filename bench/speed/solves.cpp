@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -16,14 +15,14 @@
 #include <malloc.h>
 #endif
 
+#include "bench/experiment/solve_case.hpp"
 #include "bench/speed/benchmark_program.hpp"
-#include "bench/speed/solve_tables.hpp"
+#include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
 
@@ -51,41 +50,17 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
   }
 };
 
-/// How much memory of this process was in use at most since the object was made, beyond what was then; Linux tells.
-/// Memory that others freed before is handed back to the system first, so that it does not hide what is taken again;
-/// pages that the heap cannot hand back do hide some hundred kilobytes.
-class PeakMemory {
- public:
-  PeakMemory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-    std::ofstream references("/proc/self/clear_refs");
-    references << "5" << std::flush;  // the peak becomes what is in use now, proc(5)
-    if (references.good()) before_ = bytes_of("VmRSS:");
+/// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; none where the system does not tell.
+std::optional<double> bytes_of(const std::string& name) {
+  std::ifstream report("/proc/self/status");
+  for (std::string word; report >> word;) {
+    double kilobytes = 0.0;
+    if (word == name && report >> kilobytes) return 1024.0 * kilobytes;
   }
-  /// In bytes; none where the system does not tell.
-  [[nodiscard]] std::optional<double> growth() const {
-    const auto peak = bytes_of("VmHWM:");
-    if (!before_ || !peak) return std::nullopt;
-    return std::max(0.0, *peak - *before_);
-  }
+  return std::nullopt;
+}
 
- private:
-  /// A line "NAME:   1234 kB" of the kernel's report on this process.
-  static std::optional<double> bytes_of(const std::string& name) {
-    std::ifstream report("/proc/self/status");
-    for (std::string word; report >> word;) {
-      double kilobytes = 0.0;
-      if (word == name && report >> kilobytes) return 1024.0 * kilobytes;
-    }
-    return std::nullopt;
-  }
-
-  std::optional<double> before_;
-};
-
-/// What is solved, and by what.
+/// A solve that is timed.
 struct SolveCase {
   std::string problem;
   std::string method;
@@ -99,20 +74,19 @@ struct TimedProgram {
   std::unique_ptr<Transcription> program;
   Eigen::VectorXd start;
   double seconds = 0.0;
-};
 
-TimedProgram make_program(const SolveCase& solve) {
-  const std::unique_ptr<Problem> problem = solve.problem == TwoLinkManipulatorBounded::own_name
-                                               ? std::make_unique<TwoLinkManipulatorBounded>()
-                                               : make_problem(solve.problem);
-  TimedProgram made;
-  const auto begin = Clock::now();
-  made.program = std::make_unique<Transcription>(*problem, *make_element(solve.method), make_tableau("gauss", 1),
-                                                 Grid::uniform(solve.intervals), "tape");
-  made.seconds = seconds_since(begin);
-  made.start = sample(*made.program, guessed_motion(*problem));
-  return made;
-}
+  explicit TimedProgram(const SolveCase& solve) {
+    const std::shared_ptr<const Problem> problem = solve.problem == TwoLinkManipulatorBounded::own_name
+                                                       ? std::make_shared<TwoLinkManipulatorBounded>()
+                                                       : std::shared_ptr<const Problem>(make_problem(solve.problem));
+    const auto begin = Clock::now();
+    program =
+        Case{.problem = problem, .method = solve.method, .tableau = "gauss", .grid = Grid::uniform(solve.intervals)}
+            .transcribe();
+    seconds = seconds_since(begin);
+    start = sample(*program, guessed_motion(*problem));
+  }
+};
 
 std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
   SolverOptions options;
@@ -120,12 +94,23 @@ std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
   return make_solver(solve.solver, options);
 }
 
-/// Of a solve of its own, which is not timed: handing back memory to the system makes the next solve slower.
+/// How much memory of this process was in use at most while a program was made and solved, beyond what was before; none
+/// where the system does not tell.
+///
+/// Memory that others freed before is handed back to the system first, so that it does not hide what is taken again;
+/// pages that the heap cannot hand back do hide some hundred kilobytes. The solve is one of its own, which is not
+/// timed: handing back memory makes the next solve slower.
 std::optional<double> peak_bytes(const SolveCase& solve) {
-  const PeakMemory memory;
-  const TimedProgram made = make_program(solve);
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+  std::ofstream references("/proc/self/clear_refs");
+  references << "5" << std::flush;  // the peak becomes what is in use now, proc(5)
+  const auto before = references.good() ? bytes_of("VmRSS:") : std::nullopt;
+  const TimedProgram made(solve);
   (void)make_solver_of(solve)->solve(*made.program, made.start);
-  return memory.growth();
+  const auto peak = bytes_of("VmHWM:");
+  return before && peak ? std::optional(std::max(0.0, *peak - *before)) : std::nullopt;
 }
 
 /// Every turn of the timed loop is one solve. What a solver looks up in the program before its first iteration is part
@@ -134,7 +119,7 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
 /// Every repetition makes the program anew. So making it is measured as often as solving it, the place of its arrays is
 /// part of the noise that the repetitions tell, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
-  const TimedProgram made = make_program(solve);
+  const TimedProgram made(solve);
   const auto solver = make_solver_of(solve);
   Solution solution;
   double seconds = 0.0;
@@ -193,24 +178,18 @@ void add_grid(const std::string& part, SolveCase solve) {
 
 /// The paper's problems and, with inequalities, a third on every grid; every other problem of the library on one.
 void register_solves() {
-  const std::vector<std::string> methods{"dmoc", "hamiltonian", "tangent"};
   const std::vector<std::string> papers = paper_problem_names();
   std::vector<std::string> on_all_grids = papers;
   on_all_grids.emplace_back(TwoLinkManipulatorBounded::own_name);
   for (const std::string& problem : on_all_grids) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : element_names()) {
       for (const int intervals : {64, 1024, 16384, 65536, 262144, 1048576}) add_grid("", {problem, method, intervals});
     }
   }
   for (const std::string& problem : problem_names()) {
     if (std::ranges::find(papers, problem) != papers.end()) continue;
-    for (const std::string& method : methods) add_grid("library/", {problem, method, 1024});
+    for (const std::string& method : element_names()) add_grid("library/", {problem, method, 1024});
   }
-}
-
-std::vector<std::pair<std::string, Table>> tables_of(const Benchmarks& benchmarks) {
-  const Table solves = solve_table(benchmarks);
-  return {{"", solves}, {"_ratios", solve_ratios(solves)}, {"_exponents", solve_exponents(solves)}};
 }
 
 }  // namespace
@@ -218,13 +197,18 @@ std::vector<std::pair<std::string, Table>> tables_of(const Benchmarks& benchmark
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace): the program's own
+  using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
+  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
   // Without flags it takes seconds: long grids and the library are left out.
-  const BenchmarkProgram program{.name = "solves",
-                                 .description = "Times of whole solves by interior_point and by Ipopt.",
-                                 .csv = "write FILE, a row per benchmark, FILE_ratios and FILE_exponents",
-                                 .default_filter = "^[^/]*/[^/]*/(64|1024)/",
-                                 .register_benchmarks = register_solves,
-                                 .tables = tables_of};
+  const BenchmarkProgram program{
+      .name = "solves",
+      .description = "Times of whole solves by interior_point and by Ipopt.",
+      .csv = "write FILE, a row per benchmark, FILE_ratios and FILE_exponents",
+      .default_filter = "^[^/]*/[^/]*/(64|1024)/",
+      .register_benchmarks = register_solves,
+      .tables = [](const Benchmarks& benchmarks) -> TablesBySuffix {
+        const Table solves = solve_table(benchmarks);
+        return {{"", solves}, {"_ratios", solve_ratios(solves)}, {"_exponents", solve_exponents(solves)}};
+      }};
   return program.run({argv, static_cast<std::size_t>(argc)});
 }

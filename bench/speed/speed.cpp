@@ -1,13 +1,8 @@
 // Times of exact derivatives per interval: the tape, the assembled program, formulas written by hand, a replay number
 // by number, ADOL-C; and what the machine can do at most.
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/interval_benchmark.hpp"
-#include "bench/speed/interval_tables.hpp"
+#include "bench/speed/speed_tables.hpp"
 #include "problems/registry.hpp"
 
 int main(int argc, char** argv) {
@@ -35,8 +30,7 @@ int main(int argc, char** argv) {
           },
       .tables =
           [](const Benchmarks& benchmarks) {
-            return std::vector<std::pair<std::string, Table>>{{"", interval_table(benchmarks)},
-                                                              {"_machine", machine_table(benchmarks)}};
+            return TablesBySuffix{{"", interval_table(benchmarks)}, {"_machine", machine_table(benchmarks)}};
           }};
   return program.run({argv, static_cast<std::size_t>(argc)});
 }

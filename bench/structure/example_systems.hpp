@@ -26,13 +26,6 @@ class ExampleSystem : public Problem {
   ExampleSystem(std::string name, std::vector<std::string> names, BoundaryState start, double horizon)
       : name_(std::move(name)), names_(std::move(names)), start_(std::move(start)), horizon_(horizon) {}
 
-  /// (first, second).
-  static ExpressionVector pair(const Expression& first, const Expression& second) {
-    ExpressionVector both(2);
-    both << first, second;
-    return both;
-  }
-
  private:
   std::string name_;
   std::vector<std::string> names_;
@@ -49,9 +42,11 @@ class RadialThrust final : public ExampleSystem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * (x.v[0] * x.v[0] + x.q[0] * x.q[0] * x.v[1] * x.v[1]) + 1.0 / x.q[0];
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return pair(x.u[0], 0.0); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector{{x.u[0], 0.0}};
+  }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    return pair(0.0, 1.0);
+    return ExpressionVector{{0.0, 1.0}};
   }
 };
 
@@ -67,9 +62,11 @@ class MeridianPendulum final : public ExampleSystem {
     const Expression sine = sin(x.q[0]);
     return 0.5 * (x.v[0] * x.v[0] + sine * sine * x.v[1] * x.v[1]) + cos(x.q[0]);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return pair(x.u[0], 0.0); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return ExpressionVector{{x.u[0], 0.0}};
+  }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
-    return pair(0.0, 1.0);
+    return ExpressionVector{{0.0, 1.0}};
   }
 };
 
@@ -87,9 +84,7 @@ class Kepler final : public ExampleSystem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 1.0 / sqrt(x.q[0] * x.q[0] + x.q[1] * x.q[1]);
   }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    return pair(x.u[0] * x.q[0], x.u[0] * x.q[1]);
-  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u[0] * x.q; }
 };
 
 }  // namespace dmocbench

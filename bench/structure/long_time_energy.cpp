@@ -8,7 +8,7 @@
 #include <boost/numeric/odeint.hpp>
 
 #include "bench/structure/example_systems.hpp"
-#include "methods/diagnostics/energy_balance.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -35,23 +35,21 @@ Stepper discrete_mechanics(const Problem& problem, const Tableau& tableau, doubl
   };
 }
 
-using PhaseVector = std::vector<double>;
+using PhaseVector = std::vector<double>;  // q, then v
 
 template <class Method>
 Stepper explicit_method(const Problem& problem, Method method, double h) {
   const auto motion = std::make_shared<EquationsOfMotion>(TracedProblem(problem));
   const Eigen::VectorXd no_control = Eigen::VectorXd::Zero(problem.control_size());
   return [=](Eigen::VectorXd& q, Eigen::VectorXd& v) mutable {
-    PhaseVector state{q[0], q[1], v[0], v[1]};
+    PhaseVector state(q.begin(), q.end());
+    state.insert(state.end(), v.begin(), v.end());
     const auto equations = [&](const PhaseVector& x, PhaseVector& rate, double t) {
-      const Eigen::Map<const Eigen::VectorXd> at(x.data(), 2);
-      const Eigen::Map<const Eigen::VectorXd> velocity(x.data() + 2, 2);
-      const Eigen::VectorXd acceleration = motion->acceleration(at, velocity, no_control, t);
-      rate.assign({x[2], x[3], acceleration[0], acceleration[1]});
+      motion->write_rate(x, no_control, t, rate);
     };
     method.do_step(equations, state, 0.0, h);
-    q << state[0], state[1];
-    v << state[2], state[3];
+    std::copy_n(state.begin(), q.size(), q.begin());
+    std::copy_n(state.begin() + q.size(), v.size(), v.begin());
   };
 }
 
@@ -110,33 +108,23 @@ std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int ste
 EnergyBehaviour energy_behaviour(const std::vector<PeriodEnergy>& periods) {
   if (periods.size() < 3) throw Error("a drift needs at least three periods");
   EnergyBehaviour behaviour;
-  const auto count = static_cast<double>(periods.size());
-  double mean_time = 0.0;
-  double mean_energy = 0.0;
   double smallest = periods.front().smallest;
   double largest = periods.front().largest;
-  for (const PeriodEnergy& period : periods) {
-    smallest = std::min(smallest, period.smallest);
-    largest = std::max(largest, period.largest);
-    if (period.period < first_periods) behaviour.oscillation = largest - smallest;
-    mean_time += static_cast<double>(period.period) / count;
-    mean_energy += period.mean / count;
+  Eigen::ArrayXd times(periods.size());
+  Eigen::ArrayXd means(periods.size());
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    smallest = std::min(smallest, periods[i].smallest);
+    largest = std::max(largest, periods[i].largest);
+    if (periods[i].period < first_periods) behaviour.oscillation = largest - smallest;
+    times[static_cast<Eigen::Index>(i)] = static_cast<double>(periods[i].period);
+    means[static_cast<Eigen::Index>(i)] = periods[i].mean;
   }
-  double xx = 0.0;
-  double xy = 0.0;
-  for (const PeriodEnergy& period : periods) {
-    const double x = static_cast<double>(period.period) - mean_time;
-    xx += x * x;
-    xy += x * (period.mean - mean_energy);
-  }
-  behaviour.drift_per_period = xy / xx;
-  double squares = 0.0;
-  for (const PeriodEnergy& period : periods) {
-    const double x = static_cast<double>(period.period) - mean_time;
-    const double residual = period.mean - mean_energy - behaviour.drift_per_period * x;
-    squares += residual * residual;
-  }
-  behaviour.standard_error = std::sqrt(squares / (count - 2.0) / xx);
+  times -= times.mean();
+  means -= means.mean();
+  const double spread = times.square().sum();
+  behaviour.drift_per_period = (times * means).sum() / spread;
+  const double residual = (means - behaviour.drift_per_period * times).square().sum();
+  behaviour.standard_error = std::sqrt(residual / (static_cast<double>(periods.size()) - 2.0) / spread);
   behaviour.range = largest - smallest;
   behaviour.change = periods.back().mean - periods.front().mean;
   return behaviour;

@@ -32,7 +32,7 @@ struct PeriodEnergy {
 [[nodiscard]] std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int steps_per_period,
                                                          long long periods);
 
-/// What is seen of it: oscillation within a period, drift of the period's mean.
+/// Oscillation of the energy within a period, and drift of its mean over the periods.
 struct EnergyBehaviour {
   double oscillation = 0.0;       ///< max - min over the watched periods among the first ten
   double range = 0.0;             ///< max - min over all watched periods: the oscillation again, unless energy drifts

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/experiment/common_columns.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
@@ -18,45 +18,33 @@ namespace dmocbench {
 
 namespace {
 
-using Map = OneStepMap<double>;
-
 struct Invariant {
   std::shared_ptr<const Problem> problem;
   bool orthogonal;
   double amplitude;  ///< of the controls
-  Eigen::VectorXd q;
-  Eigen::VectorXd v;
+  BoundaryState start;
   double step;
 };
 
+const BoundaryState bent_links{Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)};
+
 /// Systems whose L is invariant under ξ; ξ is constant for all of them.
 std::vector<Invariant> invariant_systems() {
-  std::vector<Invariant> systems;
-  const auto add = [&](std::shared_ptr<const Problem> problem, bool orthogonal, double amplitude,
-                       const BoundaryState& start, double step) {
-    systems.push_back({std::move(problem), orthogonal, amplitude, start.q, start.v, step});
-  };
   const auto radial = std::make_shared<RadialThrust>();
-  add(radial, true, 0.3, radial->initial_state(), 0.05);
   const auto pendulum = std::make_shared<MeridianPendulum>();
-  add(pendulum, true, 0.5, pendulum->initial_state(), 0.05);
-  add(make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05);
   std::shared_ptr<Problem> links = make_problem("two_link_manipulator");
   links->set_parameter("gravity", 0.0);
-  add(links, false, 1.0, {Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)}, 0.02);
-  return systems;
+  return {{radial, true, 0.3, radial->initial_state(), 0.05},
+          {pendulum, true, 0.5, pendulum->initial_state(), 0.05},
+          {make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05},
+          {links, false, 1.0, bent_links, 0.02}};
 }
 
 /// Neither smooth nor random: the theorem asks nothing of the controls.
 Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step, double amplitude) {
-  Eigen::MatrixXd controls(stages, m);
-  for (Eigen::Index i = 0; i < stages; ++i) {
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const double phase = 1.0 + 7.3 * step + 2.1 * static_cast<double>(i) + 3.7 * static_cast<double>(j);
-      controls(i, j) = amplitude * std::sin(phase);
-    }
-  }
-  return controls;
+  return Eigen::MatrixXd::NullaryExpr(stages, m, [=](Eigen::Index i, Eigen::Index j) {
+    return amplitude * std::sin(1.0 + 7.3 * step + 2.1 * static_cast<double>(i) + 3.7 * static_cast<double>(j));
+  });
 }
 
 /// Every method with every tableau.
@@ -75,27 +63,33 @@ void for_all_maps(const Visit& visit) {
 bool is_discrete_mechanics(const Element& element) { return element.node_state() == NodeState::configuration; }
 
 /// The momentum along one simulated motion and the forces that change it.
-struct MomentumBalance {
+struct Forced {
+  Scheme scheme;
+  const char* force = "";
+  int steps = 0;
+  double h = 0.0;
   double change = 0.0;
   double work = 0.0;
-  std::optional<double> work_of_discrete_forces;  ///< of DMOC
+  std::optional<double> work_of_discrete_forces = {};  ///< of DMOC
   double defect = 0.0;
+  double defect_in_long_double = 0.0;
 };
 
+/// All but the defect in long double.
 template <class Scalar>
-MomentumBalance simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
+Forced simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
   using Vector = typename OneStepMap<Scalar>::Vector;
   const Problem& problem = *system.problem;
   const TracedProblem traced(problem);
   const OneStepMap<Scalar> map(traced, element, tableau);
   const DiscreteLagrangian discrete(problem, tableau);
   const ExpressionVector generator = *problem.symmetry(input_vector(0, problem.configuration_size()));
-  Vector xi(generator.size());
-  for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = generator[i].constant_value().value();
+  const Vector xi = Vector::NullaryExpr(generator.size(),
+                                        [&](Eigen::Index i) { return Scalar(generator[i].constant_value().value()); });
 
-  Vector q = system.q.cast<Scalar>();
-  Vector p = LegendreTransform(traced).momentum(system.q, system.v, 0.0).template cast<Scalar>();
-  Vector velocity = system.v.cast<Scalar>();
+  Vector q = system.start.q.cast<Scalar>();
+  Vector p = LegendreTransform(traced).momentum(system.start.q, system.start.v, 0.0).template cast<Scalar>();
+  Vector velocity = system.start.v.cast<Scalar>();
   const Scalar first = p.dot(xi);
   const Scalar h = system.step;
   Scalar work = 0.0;
@@ -116,22 +110,16 @@ MomentumBalance simulate(const Invariant& system, const Element& element, const 
     work += step.impulse.dot(xi);
     defect = std::max(defect, std::abs(p.dot(xi) - first - work));
   }
-  MomentumBalance balance{.change = static_cast<double>(p.dot(xi) - first),
-                          .work = static_cast<double>(work),
-                          .work_of_discrete_forces = {},
-                          .defect = static_cast<double>(defect)};
-  if (is_discrete_mechanics(element)) balance.work_of_discrete_forces = static_cast<double>(work_of_discrete_forces);
-  return balance;
+  Forced result{.scheme = {problem.name(), element.name(), tableau.family, tableau.stages()},
+                .force = system.orthogonal ? "orthogonal" : "along",
+                .steps = steps,
+                .h = system.step,
+                .change = static_cast<double>(p.dot(xi) - first),
+                .work = static_cast<double>(work),
+                .defect = static_cast<double>(defect)};
+  if (is_discrete_mechanics(element)) result.work_of_discrete_forces = static_cast<double>(work_of_discrete_forces);
+  return result;
 }
-
-struct Forced {
-  Scheme scheme;
-  const char* force = "";
-  int steps = 0;
-  double h = 0.0;
-  MomentumBalance balance;
-  double defect_in_long_double = 0.0;
-};
 
 struct Unforced {
   Scheme scheme;
@@ -140,24 +128,14 @@ struct Unforced {
   double rounding = 0.0;
 };
 
-Forced forced(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
-  return {.scheme = {system.problem->name(), element.name(), tableau.family, tableau.stages()},
-          .force = system.orthogonal ? "orthogonal" : "along",
-          .steps = steps,
-          .h = system.step,
-          .balance = simulate<double>(system, element, tableau, steps),
-          .defect_in_long_double = simulate<long double>(system, element, tableau, steps).defect};
-}
-
 Unforced unforced(const Problem& problem, const BoundaryState& start, double h, const Element& element,
                   const Tableau& tableau) {
   constexpr int states = 8;
   const TracedProblem traced(problem);
-  const Map map(traced, element, tableau);
+  const OneStepMap<double> map(traced, element, tableau);
   LegendreTransform legendre(traced);
   const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
-  double defect = 0.0;
-  double rounding = 0.0;
+  Unforced result{.scheme = {problem.name(), element.name(), tableau.family, tableau.stages()}, .h = h};
   for (int k = 0; k < states; ++k) {
     Eigen::VectorXd q = start.q;
     Eigen::VectorXd v = start.v;
@@ -165,14 +143,11 @@ Unforced unforced(const Problem& problem, const BoundaryState& start, double h, 
       q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
       v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
     }
-    const Map::Matrix d = map.jacobian(map.advance(q, legendre.momentum(q, v, 0.0), v, no_control, h, 0.0));
-    defect = std::max(defect, symplecticity_defect(d));
-    rounding = std::max(rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
+    const Eigen::MatrixXd d = map.jacobian(map.advance(q, legendre.momentum(q, v, 0.0), v, no_control, h, 0.0));
+    result.defect = std::max(result.defect, symplecticity_defect(d));
+    result.rounding = std::max(result.rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
   }
-  return {.scheme = {problem.name(), element.name(), tableau.family, tableau.stages()},
-          .h = h,
-          .defect = defect,
-          .rounding = rounding};
+  return result;
 }
 
 }  // namespace
@@ -181,19 +156,19 @@ Table noether_table(int steps) {
   std::vector<Forced> rows;
   for (const Invariant& system : invariant_systems()) {
     for_all_maps([&](const Element& element, const Tableau& tableau) {
-      rows.push_back(forced(system, element, tableau, steps));
+      rows.push_back(simulate<double>(system, element, tableau, steps));
+      rows.back().defect_in_long_double = simulate<long double>(system, element, tableau, steps).defect;
     });
   }
-  constexpr auto balance = &Forced::balance;
   const Columns<Forced> columns{
       {"force", "", "orthogonal to the group action, or along it", &Forced::force},
       {"steps", "", "number of steps", &Forced::steps},
       {"h", "", "step", &Forced::h},
-      {"momentum_change", "", "J_N - J_0", from(balance, &MomentumBalance::change)},
-      {"work", "", "sum of h b_i f·xi", from(balance, &MomentumBalance::work)},
+      {"momentum_change", "", "J_N - J_0", &Forced::change},
+      {"work", "", "sum of h b_i f·xi", &Forced::work},
       {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
-       from(balance, &MomentumBalance::work_of_discrete_forces)},
-      {"defect", "", "max over k of |J_k - J_0 - work|", from(balance, &MomentumBalance::defect)},
+       &Forced::work_of_discrete_forces},
+      {"defect", "", "max over k of |J_k - J_0 - work|", &Forced::defect},
       {"defect_in_long_double", "", "the same with 64 bits of mantissa: rounding shrinks, discretisation stays",
        &Forced::defect_in_long_double},
   };
@@ -209,7 +184,7 @@ Table symplecticity_table() {
   };
   add(Kepler(), Kepler().initial_state(), 0.1);
   add(*make_problem("orbital_transfer"), RadialThrust().initial_state(), 0.2);
-  add(*make_problem("two_link_manipulator"), {Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)}, 0.1);
+  add(*make_problem("two_link_manipulator"), bent_links, 0.1);
   const Columns<Unforced> columns{
       {"h", "", "step", &Unforced::h},
       {"defect", "", "largest entry of D^T Omega D - Omega over some states", &Unforced::defect},

@@ -23,18 +23,17 @@ int agreeing_digits(double one, double other) {
 
 RouteAgreement agreement_of_routes(const std::vector<double>& objectives,
                                    const std::optional<ReferenceOptimum>& reference) {
-  RouteAgreement agreement{
-      .routes = objectives.size(), .digits = double_precision, .reference_digits = 0, .confirmed = {}};
-  for (const double one : objectives) {
-    for (const double other : objectives) agreement.digits = std::min(agreement.digits, agreeing_digits(one, other));
-  }
-  if (objectives.size() < 2) agreement.digits = 0;
-  if (!reference || objectives.empty()) return agreement;
-  agreement.reference_digits = double_precision;
-  for (const double one : objectives) {
-    agreement.reference_digits = std::min(agreement.reference_digits, agreeing_digits(one, reference->objective));
-  }
+  const auto digits_shared_with = [&](double other) {
+    int digits = double_precision;
+    for (const double one : objectives) digits = std::min(digits, agreeing_digits(one, other));
+    return digits;
+  };
+  RouteAgreement agreement{.routes = objectives.size()};
+  if (reference && !objectives.empty()) agreement.reference_digits = digits_shared_with(reference->objective);
   if (objectives.size() < 2) return agreement;
+  agreement.digits = double_precision;
+  for (const double one : objectives) agreement.digits = std::min(agreement.digits, digits_shared_with(one));
+  if (!reference) return agreement;
   if (agreement.reference_digits >= reference->digits) {
     agreement.confirmed = "yes";
   } else if (agreement.digits > 0 && agreement.reference_digits >= agreement.digits) {

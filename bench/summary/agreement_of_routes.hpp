@@ -16,7 +16,7 @@ struct RouteAgreement {
   int reference_digits = 0;  ///< that all routes share with the reference, 0 .. 16
   /// "yes": all routes confirm every digit that the reference states; "to N digits": they confirm it as far as they
   /// agree among themselves, which is less; "no": they do not; "" without a reference or with less than two routes.
-  std::string confirmed;
+  std::string confirmed = {};
 };
 
 /// floor(-log10 of the relative difference) of two numbers, between 0 and 16.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "methods/diagnostics/convergence_order.hpp"
@@ -15,7 +16,7 @@ constexpr long long reference_factor = 4;
 /// Smaller errors come from the solver's tolerance (1e-10) and rounding, not from the grid; relative to the cost for
 /// errors of the cost. Used against a finer grid, where no floor can be measured.
 constexpr double rounding_level = 1e-11;
-/// Against an exact solution: how far above the floor an error shows the order, and how many such grids make a slope.
+/// Against an exact solution: how far above the floor an error shows the order, and how many such grids make a fit.
 constexpr double above_floor = 100.0;
 constexpr std::size_t fewest_grids = 4;
 
@@ -36,8 +37,6 @@ const ColumnNames table_columns{"problem",        "method", "tableau",  "stages"
 /// Rows that agree in these differ in their grid only.
 const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
 
-double intervals_of(const Row& row) { return row.number("intervals", 0.0); }
-
 /// The number of intervals from which errors fall as their order says. It was found by trial: for the two-link
 /// manipulator it grows with the order.
 double asymptotic_from(const Row& head) {
@@ -46,9 +45,13 @@ double asymptotic_from(const Row& head) {
   return head.text("tableau") == "gauss" && head.text("stages") == "4" ? 96.0 : 64.0;
 }
 
-Selection with_asymptotic_error(const Selection& curve, const std::string& column) {
-  const double start = asymptotic_from(curve.front());
-  return curve.usable().with_number(column).where([&](const Row& row) { return intervals_of(row) >= start; });
+/// The usable rows with an error on grids of so many intervals.
+Selection with_error(const Selection& curve, const std::string& column, double coarsest,
+                     double finest = std::numeric_limits<double>::infinity()) {
+  return curve.usable().with_number(column).where([&](const Row& row) {
+    const double intervals = row.number("intervals", 0.0);
+    return intervals >= coarsest && intervals <= finest;
+  });
 }
 
 std::vector<GridError> errors_of(const Selection& rows, const std::string& column) {
@@ -57,20 +60,14 @@ std::vector<GridError> errors_of(const Selection& rows, const std::string& colum
   return errors;
 }
 
-/// The orders with which the error falls from grid to grid.
-std::vector<double> orders_between(const std::vector<GridError>& errors) {
-  std::vector<double> orders;
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    orders.push_back(std::log(errors[i - 1].error / errors[i].error) / std::log(errors[i - 1].step / errors[i].step));
-  }
-  return orders;
-}
-
 /// The median of the errors on the finest grids, where they fall from grid to grid with less than half the upper
 /// quartile of all such orders; none if they fall to the end.
 std::optional<double> measured_floor(const std::vector<GridError>& errors) {
   if (errors.size() < fewest_grids) return std::nullopt;
-  const std::vector<double> orders = orders_between(errors);
+  std::vector<double> orders;
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    orders.push_back(std::log(errors[i - 1].error / errors[i].error) / std::log(errors[i - 1].step / errors[i].step));
+  }
   std::vector<double> sorted = orders;
   const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 3 / 4);
   std::ranges::nth_element(sorted, quartile);
@@ -85,7 +82,7 @@ std::optional<double> measured_floor(const std::vector<GridError>& errors) {
 std::optional<double> smallest_floor(const std::vector<Selection>& curves, const std::string& column) {
   std::optional<double> smallest;
   for (const Selection& curve : curves) {
-    const auto floor = measured_floor(errors_of(with_asymptotic_error(curve, column), column));
+    const auto floor = measured_floor(errors_of(with_error(curve, column, asymptotic_from(curve.front())), column));
     if (floor) smallest = std::min(*floor, smallest.value_or(*floor));
   }
   return smallest;
@@ -99,7 +96,7 @@ struct Fit {
 };
 
 Fit above_the_floor(const Selection& curve, const std::string& column, const std::optional<double>& floor) {
-  const Selection asymptotic = with_asymptotic_error(curve, column);
+  const Selection asymptotic = with_error(curve, column, asymptotic_from(curve.front()));
   const double limit = above_floor * floor.value_or(0.0);
   bool is_above = true;  // errors behind the first grid at the floor are noise
   Fit fit{.grids = asymptotic.where([&](const Row& row) {
@@ -112,10 +109,11 @@ Fit above_the_floor(const Selection& curve, const std::string& column, const std
 }
 
 Fit in_range(const Selection& curve, const std::string& column, const FitRange& range) {
-  return {.grids = curve.usable().with_number(column).where([&](const Row& row) {
+  const auto coarsest = static_cast<double>(range.coarsest);
+  const auto finest = static_cast<double>(range.finest);
+  return {.grids = with_error(curve, column, coarsest, finest).where([&](const Row& row) {
     const double scale = column == "objective_error" ? std::abs(row.number("objective", 0.0)) : 1.0;
-    return intervals_of(row) >= static_cast<double>(range.coarsest) &&
-           intervals_of(row) <= static_cast<double>(range.finest) && row.number(column, 0.0) >= rounding_level * scale;
+    return row.number(column, 0.0) >= rounding_level * scale;
   })};
 }
 
@@ -132,7 +130,7 @@ void append_fit(Table& table, const std::string& quantity, const std::string& co
     row.set("finest", fit.grids.back().text("intervals"));
     row.set("coarsest", fit.grids.front().text("intervals"));
   }
-  row.set("points", static_cast<long long>(fit.grids.size()));
+  row.set("points", fit.grids.size());
   row.set("floor", fit.floor);
   row.set("verdict", fit.verdict);
   table.append(std::move(row));
@@ -142,21 +140,16 @@ void append_fit(Table& table, const std::string& quantity, const std::string& co
 FitRange range_against_grid(const Selection& curve, const std::optional<FitRange>& range, long long reference,
                             std::vector<std::string>& notes) {
   const Row& head = curve.front();
-  const double reference_intervals = reference > 0 ? static_cast<double>(reference) : curve.max(intervals_of);
-  if (!range) {
-    constexpr long long one_stage = 32;
-    constexpr long long several_stages = 64;
-    return {head.text("stages") == "1" ? one_stage : several_stages,
-            static_cast<long long>(reference_intervals) / reference_factor};
-  }
-  if (static_cast<double>(range->finest) * reference_factor > reference_intervals) {
+  const auto finest = static_cast<long long>(curve.sorted_by("intervals").back().number("intervals", 0.0));
+  const long long reference_intervals = reference > 0 ? reference : finest;
+  if (range && range->finest * reference_factor > reference_intervals) {
     notes.push_back(
         fmt::format("{} {} {} {}: slopes are fitted up to N = {}, less than {} times coarser than the reference N = "
                     "{}: they are too large",
                     head.text("problem"), head.text("method"), head.text("tableau"), head.text("stages"), range->finest,
                     reference_factor, reference_intervals));
   }
-  return *range;
+  return range.value_or(FitRange{head.text("stages") == "1" ? 32 : 64, reference_intervals / reference_factor});
 }
 
 }  // namespace

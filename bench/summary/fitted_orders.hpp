@@ -17,21 +17,21 @@ struct FitRange {
 /// Stands for a number of intervals where errors are measured against an exact solution.
 constexpr long long exact_reference = -1;
 
-/// Fitted orders of convergence, and what a reader should know about them.
+/// Fitted orders of convergence, with notes for the reader.
 struct FittedOrders {
   /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points,floor,verdict; finest and
   /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope",
-  /// "floor" where too few grids lie above the floor (such a row has no slope), or "few grids" where there are too few
+  /// "floor" where too few grids lie above the floor (such a row has no order), or "few grids" where there are too few
   /// of them anyway. `floor` is empty where none was measured.
   Table table;
   std::vector<std::string> notes;
 };
 
-/// Slopes of log(error) over log(step) for every curve and every error of a convergence table.
+/// Orders, the slopes of log(error) over log(step), for every curve and every error of a convergence table.
 ///
 /// Against a finer grid: without a range, grids from N = 32 (64 with more than one stage) to a quarter of the reference
 /// are used. Against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which makes the
-/// slope of finer grids too large; a range that goes beyond gets a note. Errors at the level of rounding are left out.
+/// order of finer grids too large; a range that goes beyond gets a note. Errors at the level of rounding are left out.
 /// `reference` is the reference's number of intervals, 0 for the finest grid of a curve.
 ///
 /// Against an `exact_reference` grids are used from the start of the asymptotic range (`asymptotic_from`) as long as
@@ -41,7 +41,7 @@ struct FittedOrders {
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);
 
-/// Slopes over the step of a column of differences from DMOC (a table of `equivalence`) for every curve of
+/// Orders of a column of differences from DMOC (a table of `equivalence`) for every curve of
 /// tangent-space collocation, in the columns and by the rules of an exact reference. The floor is the largest such
 /// difference of Hamiltonian collocation on the same problem, which by (th:equi) is rounding.
 [[nodiscard]] Table fit_differences(const Selection& equivalence, const std::string& column);

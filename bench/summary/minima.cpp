@@ -29,10 +29,8 @@ std::vector<Selection> minima_of(const Selection& rows, double separation) {
 }
 
 bool is_confirmed(const Selection& minimum, double confirmed_replay) {
-  return std::ranges::any_of(minimum, [&](const Row& row) {
-    const auto replay = row.number("replay_error");
-    return replay && *replay < confirmed_replay;
-  });
+  return std::ranges::any_of(
+      minimum, [&](const Row& row) { return row.number("replay_error", confirmed_replay) < confirmed_replay; });
 }
 
 /// The lowest confirmed minimum; the end if there is none.
@@ -40,8 +38,6 @@ auto best_of(const std::vector<Selection>& minima, double confirmed_replay) {
   return std::ranges::find_if(minima,
                               [&](const Selection& minimum) { return is_confirmed(minimum, confirmed_replay); });
 }
-
-long long count(const Selection& rows) { return static_cast<long long>(rows.size()); }
 
 }  // namespace
 
@@ -56,11 +52,11 @@ Table distinct_minima(const Selection& rows, double separation, double confirmed
     const auto best = best_of(minima, confirmed_replay);
     for (auto minimum = minima.begin(); minimum != minima.end(); ++minimum) {
       Row row = fields_of(group.front(), group_columns);
-      row.set("minimum", static_cast<long long>(minimum - minima.begin() + 1));
+      row.set("minimum", minimum - minima.begin() + 1);
       row.set("objective", minimum->front().number("objective"));
       row.set("is_best", minimum == best ? "yes" : "no");
       row.set("replay_confirmed", is_confirmed(*minimum, confirmed_replay) ? "yes" : "no");
-      for (const std::string& method : methods) row.set(method, count(minimum->where("method", method)));
+      for (const std::string& method : methods) row.set(method, minimum->where("method", method).size());
       table.append(std::move(row));
     }
   }
@@ -77,12 +73,12 @@ Table best_minimum_shares(const Selection& rows, double separation, double confi
     for (const std::string& method : methods) {
       const Selection starts = group.where("method", method);
       if (starts.empty()) continue;
-      const long long hits = best == minima.end() ? 0 : count(best->where("method", method));
-      const ShareInterval interval = wilson_interval(hits, count(starts));
+      const std::size_t hits = best == minima.end() ? 0 : best->where("method", method).size();
+      const ShareInterval interval = wilson_interval(hits, starts.size());
       Row row = fields_of(starts.front(), group_columns);
       row.set("method", method);
-      row.set("starts", count(starts));
-      row.set("solved", count(starts.where("status", "solved")));
+      row.set("starts", starts.size());
+      row.set("solved", starts.where("status", "solved").size());
       row.set("best", hits);
       row.set("share", static_cast<double>(hits) / static_cast<double>(starts.size()));
       row.set("share_lower", interval.lower);
@@ -93,7 +89,7 @@ Table best_minimum_shares(const Selection& rows, double separation, double confi
   return table;
 }
 
-ShareInterval wilson_interval(long long hits, long long trials) {
+ShareInterval wilson_interval(std::size_t hits, std::size_t trials) {
   constexpr double z = 1.959963984540054;  // 97.5 % of a normal distribution lie below
   const auto n = static_cast<double>(trials);
   const double share = static_cast<double>(hits) / n;

@@ -24,6 +24,6 @@ struct ShareInterval {
   double lower = 0.0;
   double upper = 1.0;
 };
-[[nodiscard]] ShareInterval wilson_interval(long long hits, long long trials);
+[[nodiscard]] ShareInterval wilson_interval(std::size_t hits, std::size_t trials);
 
 }  // namespace dmocbench

@@ -17,22 +17,10 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 const ColumnNames competitor_columns{"method", "tableau", "stages", "solver", "derivatives"};
 
-/// A column that every solved row has.
-constexpr const char* always_told = "objective";
-
 /// What every competitor takes on every instance, by one measure; `never` where it failed, has no row or does not tell.
 struct Contest {
   std::vector<Row> competitors;            // their names, in the order of the rows
   std::vector<std::vector<double>> taken;  // instance, competitor
-
-  /// The instances that every competitor solved.
-  [[nodiscard]] std::vector<std::size_t> common() const {
-    std::vector<std::size_t> instances;
-    for (std::size_t i = 0; i < taken.size(); ++i) {
-      if (std::ranges::max(taken[i]) < never) instances.push_back(i);
-    }
-    return instances;
-  }
 };
 
 Contest contest_of(const Selection& rows, const std::string& measure) {
@@ -96,19 +84,17 @@ Table performance_profiles(const Selection& rows) {
     for (std::size_t who = 0; who < ratios.size(); ++who) {
       std::vector<double>& steps = ratios[who];
       std::ranges::sort(steps);
-      const auto point = [&](double at) {
-        const auto below = std::ranges::upper_bound(steps, at) - steps.begin();
+      std::vector<double> points{1.0};
+      std::ranges::copy_if(steps, std::back_inserter(points), [](double step) { return step > 1.0; });
+      points.push_back(largest);
+      for (const double point : points) {
+        const auto within = std::ranges::upper_bound(steps, point) - steps.begin();
         Row row = contest.competitors[who];
         row.set("measure", measure);
-        row.set("ratio", at);
-        row.set("share", static_cast<double>(below) / static_cast<double>(contest.taken.size()));
+        row.set("ratio", point);
+        row.set("share", static_cast<double>(within) / static_cast<double>(contest.taken.size()));
         table.append(std::move(row));
-      };
-      point(1.0);
-      for (const double step : steps) {
-        if (step > 1.0) point(step);
       }
-      point(largest);
     }
   }
   return table;
@@ -119,16 +105,18 @@ Table profile_summary(const Selection& rows) {
   columns.insert(columns.end(), {"instances", "successes", "common"});
   for (const std::string& measure : profile_measures()) columns.insert(columns.end(), {measure, "wins_" + measure});
   Table table(columns);
-  // Who succeeded where does not depend on what is measured.
-  const Contest successes = contest_of(rows, always_told);
-  const std::vector<std::size_t> common = successes.common();
+  // Who succeeded where does not depend on what is measured; every solved row has an objective.
+  const Contest successes = contest_of(rows, "objective");
+  std::vector<std::size_t> common;
+  for (std::size_t i = 0; i < successes.taken.size(); ++i) {
+    if (std::ranges::max(successes.taken[i]) < never) common.push_back(i);
+  }
   std::vector<Row> summary = successes.competitors;
   for (std::size_t who = 0; who < summary.size(); ++who) {
-    const long long solved =
-        std::ranges::count_if(successes.taken, [&](const std::vector<double>& taken) { return taken[who] < never; });
-    summary[who].set("instances", static_cast<long long>(successes.taken.size()));
-    summary[who].set("successes", solved);
-    summary[who].set("common", static_cast<long long>(common.size()));
+    const auto has_solved = [who](const std::vector<double>& taken) { return taken[who] < never; };
+    summary[who].set("instances", successes.taken.size());
+    summary[who].set("successes", std::ranges::count_if(successes.taken, has_solved));
+    summary[who].set("common", common.size());
   }
   for (const std::string& measure : profile_measures())
     set_measure(contest_of(rows, measure), measure, common, summary);

@@ -1,5 +1,6 @@
 #include "bench/summary/ratios.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -30,6 +31,35 @@ constexpr std::array currencies{
     Currency{"slsqp_seconds", "nlopt", "", "seconds"},
 };
 
+constexpr double steps_per_decade = 2.0;
+/// Columns of the table of equal accuracy, and of the rows that they are read from.
+constexpr std::array costs{std::pair{"intervals", "intervals"}, std::pair{"variables", "free_variables"},
+                           std::pair{"seconds", "seconds"}};
+
+/// A row for every method if all of them reach the error.
+void append_equal_accuracy(Table& table, const std::vector<Selection>& methods, const std::string& quantity,
+                           double error) {
+  Table rows;
+  for (const Selection& method : methods) {
+    Row row = fields_of(method.front(), {"problem", "tableau", "stages", "method"});
+    row.set("quantity", quantity);
+    row.set("error", error);
+    for (const auto& [column, source] : costs) {
+      const auto cost = cost_at_error(error_cost_points(method, quantity + "_error", cost_in(source)), error);
+      if (!cost) return;
+      row.set(column, cost);
+    }
+    rows.append(std::move(row));
+  }
+  const Row& dmoc = Selection(rows).where("method", "dmoc").front();
+  for (Row row : rows.rows()) {
+    for (const std::string cost : {"variables", "seconds"}) {
+      row.set(cost + "_ratio", ratio(row.number(cost), dmoc.number(cost)));
+    }
+    table.append(std::move(row));
+  }
+}
+
 }  // namespace
 
 Cost cost_in(const std::string& column) {
@@ -42,7 +72,7 @@ std::vector<ErrorCostPoint> error_cost_points(const Selection& rows, const std::
   for (const Row& row : rows.usable()) {
     const double error = row.number(error_column, 0.0);
     const double cost_of_row = cost(row).value_or(0.0);
-    if (error > 0.0 && cost_of_row > 0.0) points.push_back({std::log10(error), cost_of_row});
+    if (error > 0.0 && std::isfinite(error) && cost_of_row > 0.0) points.push_back({std::log10(error), cost_of_row});
   }
   return points;
 }
@@ -72,21 +102,37 @@ void set_cost_ratios(Row& result, const Row& row, const Selection& others, const
   result.set("ratio_at_equal_accuracy", ratio(cost(row), at_same_error));
 }
 
+Table equal_accuracy(const Selection& convergence) {
+  Table table({"problem", "tableau", "stages", "quantity", "error", "method", "intervals", "variables", "seconds",
+               "variables_ratio", "seconds_ratio"});
+  for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
+    for (const std::string quantity : {"state", "control"}) {
+      const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
+      if (points.empty()) continue;
+      const auto [smallest, largest] = std::ranges::minmax(points, {}, &ErrorCostPoint::log_error);
+      for (double k = std::floor(largest.log_error * steps_per_decade);
+           k >= std::ceil(smallest.log_error * steps_per_decade); --k) {
+        append_equal_accuracy(table, compared.group_by({"method", "derivatives"}), quantity,
+                              std::pow(10.0, k / steps_per_decade));
+      }
+    }
+  }
+  return table;
+}
+
 Table currency_ratios(const Selection& iterations) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_intervals",
                "ratio_at_equal_accuracy"});
   for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
-    const Selection dmoc = compared.where("method", "dmoc");
-    if (dmoc.empty()) continue;
+    const Selection dmoc = compared.where("method", "dmoc").usable();
     for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
-      if (collocation.front().text("method") == "dmoc") continue;
+      if (collocation.front().text("method") == "dmoc" || compared.where("method", "dmoc").empty()) continue;
       for (const Currency& currency : currencies) {
         if (collocation.front().text("solver") != currency.solver) continue;
         for (const Row& row : collocation.usable().where("crash", currency.crash)) {
           Row result = fields_of(row, {"problem", "method", "tableau", "stages", "intervals"});
           result.set("currency", currency.name);
-          set_cost_ratios(result, row, dmoc.usable().where("crash", currency.crash), cost_in(currency.column),
-                          "replay_error");
+          set_cost_ratios(result, row, dmoc.where("crash", currency.crash), cost_in(currency.column), "replay_error");
           table.append(std::move(result));
         }
       }

@@ -34,6 +34,14 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 void set_cost_ratios(Row& result, const Row& row, const Selection& others, const Cost& cost,
                      const std::string& error_column, double same_log_error = 0.0);
 
+/// What the same accuracy costs each method, from a convergence table:
+/// problem,tableau,stages,quantity,error,method,intervals,variables,seconds,variables_ratio,seconds_ratio.
+///
+/// For errors 10^-k/2 that every method of a problem and tableau reaches within its grids, the number of intervals, of
+/// free variables and the seconds of a solve are read off the method's curve (straight lines in logarithms between
+/// grids). Ratios are to dmoc, where it is there.
+[[nodiscard]] Table equal_accuracy(const Selection& convergence);
+
 /// What collocation costs beside DMOC in every currency of an iterations table:
 /// problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy.
 ///

@@ -32,24 +32,25 @@ class AdjointEquations {
                   }),
         values_(function_.output_count()) {}
 
-  /// Sets rate_q(), rate_p() and control() to the values at this stage.
-  void evaluate(const Trajectory& trajectory, Eigen::Index stage) {
+  struct Values {
+    Eigen::VectorXd rate_q;           ///< φ^q
+    Eigen::VectorXd rate_p;           ///< φ^p
+    Eigen::VectorXd control;          ///< H_u
+    Eigen::VectorXd cost_by_control;  ///< C_u
+  };
+  [[nodiscard]] Values at(const Trajectory& trajectory, Eigen::Index stage) {
     function_.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], values_);
     const Eigen::VectorXd psi_q = trajectory.stage_psi_q.row(stage).transpose();
     const Eigen::VectorXd psi_p = trajectory.stage_psi_p.row(stage).transpose();
     const std::optional<Eigen::VectorXd> rate_p =
         solve_if_invertible(square(2), -(values_.segment(n_, n_) + psi_q + square(1).transpose() * psi_p));
     if (!rate_p) throw Error("the Lagrangian is not regular: L_vv is singular on the motion");
-    rate_p_ = *rate_p;
-    rate_q_ = -(values_.head(n_) + square(0).transpose() * psi_p + square(3).transpose() * rate_p_);
-    cost_by_control_ = values_.segment(2 * n_, m_);
-    control_ = cost_by_control_ + values_.tail(n_ * m_).reshaped(n_, m_).transpose() * psi_p;
+    const Eigen::VectorXd cost_by_control = values_.segment(2 * n_, m_);
+    return {.rate_q = -(values_.head(n_) + square(0).transpose() * psi_p + square(3).transpose() * *rate_p),
+            .rate_p = *rate_p,
+            .control = cost_by_control + values_.tail(n_ * m_).reshaped(n_, m_).transpose() * psi_p,
+            .cost_by_control = cost_by_control};
   }
-
-  [[nodiscard]] const Eigen::VectorXd& rate_q() const { return rate_q_; }                    ///< φ^q
-  [[nodiscard]] const Eigen::VectorXd& rate_p() const { return rate_p_; }                    ///< φ^p
-  [[nodiscard]] const Eigen::VectorXd& control() const { return control_; }                  ///< H_u
-  [[nodiscard]] const Eigen::VectorXd& cost_by_control() const { return cost_by_control_; }  ///< C_u
 
  private:
   /// F_q, F_v, L_vv or L_vq.
@@ -61,26 +62,33 @@ class AdjointEquations {
   Eigen::Index m_;
   PointFunction function_;
   Eigen::VectorXd values_;
-  Eigen::VectorXd rate_q_;
-  Eigen::VectorXd rate_p_;
-  Eigen::VectorXd control_;
-  Eigen::VectorXd cost_by_control_;
 };
 
-void raise(double& largest, double value) { largest = std::max(largest, value); }
-
-/// The residuals of one interval for one half of the scheme. `stages` and `rates` are n × s, `left` and `right` the
-/// costates at the nodes.
-void raise_half(const Eigen::VectorXd& left, const Eigen::VectorXd& right, const Eigen::MatrixXd& stages,
-                const Eigen::MatrixXd& rates, const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double& step,
-                double& stage) {
-  raise(step, (right - left - rates * b).lpNorm<Eigen::Infinity>());
-  // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
-  raise(stage, ((stages - rates.lazyProduct(a.transpose())).colwise() - left).lpNorm<Eigen::Infinity>());
+void raise(double& largest, const Eigen::MatrixXd& values) {
+  largest = std::max(largest, values.lpNorm<Eigen::Infinity>());
 }
 
-double size_of(const Eigen::MatrixXd& values) {
-  return std::max(values.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+/// The residuals of one half of the scheme, relative to the largest costate of the nodes.
+struct HalfResidual {
+  double step = 0.0;
+  double stage = 0.0;
+};
+
+/// `nodes` and `stages` are tables of costates, a row per node and per stage; `rates` has a column h φ_i per stage.
+HalfResidual half_residual(const Eigen::MatrixXd& nodes, const Eigen::MatrixXd& stages, const Eigen::MatrixXd& rates,
+                           const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  HalfResidual residual;
+  const Eigen::Index s = b.size();
+  for (Eigen::Index k = 0; k + 1 < nodes.rows(); ++k) {
+    const Eigen::VectorXd left = nodes.row(k).transpose();
+    const Eigen::MatrixXd own_rates = rates.middleCols(k * s, s);
+    raise(residual.step, nodes.row(k + 1).transpose() - left - own_rates * b);
+    // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
+    raise(residual.stage,
+          (stages.middleRows(k * s, s).transpose() - own_rates.lazyProduct(a.transpose())).colwise() - left);
+  }
+  const double size = std::max(nodes.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+  return {residual.step / size, residual.stage / size};
 }
 
 }  // namespace
@@ -99,35 +107,22 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
   }
   AdjointEquations equations{TracedProblem(problem)};
   const Tableau& tableau = trajectory.tableau;
-  const Eigen::Index s = tableau.stages();
-  const Eigen::Index n = trajectory.q.cols();
-  AdjointResidual residual;
   double control = 0.0;
   double cost_by_control = 0.0;
-  Eigen::MatrixXd rates_q(n, s);
-  Eigen::MatrixXd rates_p(n, s);
-  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
-    const double h = trajectory.step(k);
-    for (Eigen::Index i = 0; i < s; ++i) {
-      equations.evaluate(trajectory, k * s + i);
-      rates_q.col(i) = h * equations.rate_q();
-      rates_p.col(i) = h * equations.rate_p();
-      raise(control, equations.control().lpNorm<Eigen::Infinity>());
-      raise(cost_by_control, equations.cost_by_control().lpNorm<Eigen::Infinity>());
-    }
-    raise_half(trajectory.psi_q.row(k).transpose(), trajectory.psi_q.row(k + 1).transpose(),
-               trajectory.stage_psi_q.middleRows(k * s, s).transpose(), rates_q, coefficients.a_q, tableau.b,
-               residual.step_q, residual.stage_q);
-    raise_half(trajectory.psi_p.row(k).transpose(), trajectory.psi_p.row(k + 1).transpose(),
-               trajectory.stage_psi_p.middleRows(k * s, s).transpose(), rates_p, coefficients.a_p, tableau.b,
-               residual.step_p, residual.stage_p);
+  Eigen::MatrixXd rates_q(trajectory.q.cols(), trajectory.stage_q.rows());
+  Eigen::MatrixXd rates_p(rates_q.rows(), rates_q.cols());
+  for (Eigen::Index stage = 0; stage < rates_q.cols(); ++stage) {
+    const double h = trajectory.step(stage / tableau.stages());
+    const AdjointEquations::Values values = equations.at(trajectory, stage);
+    rates_q.col(stage) = h * values.rate_q;
+    rates_p.col(stage) = h * values.rate_p;
+    raise(control, values.control);
+    raise(cost_by_control, values.cost_by_control);
   }
-  const double size_q = size_of(trajectory.psi_q);
-  const double size_p = size_of(trajectory.psi_p);
-  residual.step_q /= size_q;
-  residual.stage_q /= size_q;
-  residual.step_p /= size_p;
-  residual.stage_p /= size_p;
+  const HalfResidual q = half_residual(trajectory.psi_q, trajectory.stage_psi_q, rates_q, coefficients.a_q, tableau.b);
+  const HalfResidual p = half_residual(trajectory.psi_p, trajectory.stage_psi_p, rates_p, coefficients.a_p, tableau.b);
+  AdjointResidual residual{
+      .step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage, .control = std::nullopt};
   if (!tableau.shares_controls) {
     residual.control = control / std::max(cost_by_control, std::numeric_limits<double>::min());
   }

@@ -7,51 +7,33 @@
 
 namespace dmocbench {
 
-/// Inputs: q_0, q_1, the interior rates, the stage controls, h, t.
-struct DiscreteLagrangian::Formulas {
-  Eigen::Index n;
-  Eigen::Index stages;
-  ExpressionVector stage_equations;
-  std::vector<Expression> outputs;
-
-  Formulas(const Problem& problem, const Tableau& tableau) : n(problem.configuration_size()), stages(tableau.stages()) {
-    const TracedProblem traced(problem);
-    InputCounter counter;
-    IntervalUnknowns unknowns = take_unknowns(counter, traced, NodeState::configuration, stages);
-    unknowns.h = counter.take();
-    unknowns.t = counter.take();
-    const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);
-    stage_equations = trace.stage_equations;
-
-    const ExpressionVector rates = input_vector(static_cast<std::size_t>(2 * n), n * (stages - 1));
-    const auto virtual_work = [&](const ExpressionVector& x) {
-      return work_of_control(traced, trace.stages, x, tableau.b, unknowns.h);
-    };
-    Expression action;
-    for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-      const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-      action += weight * problem.lagrangian(trace.stages[i].state());
-    }
-    outputs.push_back(action);
-    append(outputs, trace.left_rows);
-    append(outputs, trace.right_rows);
-    append(outputs, virtual_work(unknowns.left_q));
-    append(outputs, virtual_work(unknowns.right_q));
-    append(outputs, virtual_work(rates));
-    append(outputs, jacobian(stage_equations, rates));
-    append(outputs, jacobian(stage_equations, unknowns.left_q));
-    append(outputs, jacobian(stage_equations, unknowns.right_q));
-  }
-};
-
 DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& tableau)
-    : DiscreteLagrangian(Formulas(problem, tableau)) {}
+    : n_(problem.configuration_size()), stages_(tableau.stages()) {
+  const TracedProblem traced(problem);
+  InputCounter counter;  // q_0, q_1, the interior rates, the stage controls, h, t
+  IntervalUnknowns unknowns = take_unknowns(counter, traced, NodeState::configuration, stages_);
+  unknowns.h = counter.take();
+  unknowns.t = counter.take();
+  const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);
+  const ExpressionVector& equations = trace.stage_equations;
+  const auto first_rate = static_cast<std::size_t>(2 * n_);
+  const ExpressionVector rates = input_vector(first_rate, equations.size());
+  interior_rates_ = TracedNewton<long double>(equations, first_rate, equations.size());
 
-DiscreteLagrangian::DiscreteLagrangian(const Formulas& formulas)
-    : n_(formulas.n),
-      stages_(formulas.stages),
-      interior_rates_(formulas.stage_equations, static_cast<std::size_t>(2 * n_), formulas.stage_equations.size()),
-      objects_(formulas.outputs) {}
+  Expression action;
+  for (std::size_t i = 0; i < trace.stages.size(); ++i) {
+    const Expression weight = unknowns.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
+    action += weight * problem.lagrangian(trace.stages[i].state());
+  }
+  std::vector<Expression> outputs{action};
+  append(outputs, trace.left_rows);
+  append(outputs, trace.right_rows);
+  for (const ExpressionVector& x : {unknowns.left_q, unknowns.right_q, rates}) {
+    append(outputs, work_of_control(traced, trace.stages, x, tableau.b, unknowns.h));
+  }
+  for (const ExpressionVector& x : {rates, unknowns.left_q, unknowns.right_q}) append(outputs, jacobian(equations, x));
+  objects_ = Schedule(outputs);
+}
 
 DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& q_1, const LongMatrix& controls,
                                        long double h, long double t) const {
@@ -66,27 +48,21 @@ DiscreteObjects DiscreteLagrangian::at(const LongVector& q_0, const LongVector& 
   inputs.push_back(t);
   interior_rates_.solve(inputs);
 
-  const std::vector<long double> values = replay<long double>(objects_, std::span<const long double>(inputs));
+  OutputBlocks<long double> blocks(objects_, inputs);
   const Eigen::Index interior = n_ * (stages_ - 1);
-  const long double* next = values.data();
-  const auto take = [&next](Eigen::Index rows, Eigen::Index columns) {
-    LongMatrix block = Eigen::Map<const LongMatrix>(next, rows, columns);
-    next += rows * columns;
-    return block;
-  };
   DiscreteObjects objects;
-  objects.lagrangian = take(1, 1)(0, 0);
-  objects.left_momentum = -take(n_, 1);
-  objects.right_momentum = take(n_, 1);
-  objects.left_force = take(n_, 1);
-  objects.right_force = take(n_, 1);
+  objects.lagrangian = blocks.take(1)(0, 0);
+  objects.left_momentum = -blocks.take(n_);
+  objects.right_momentum = blocks.take(n_);
+  objects.left_force = blocks.take(n_);
+  objects.right_force = blocks.take(n_);
   if (interior == 0) return objects;
-  const LongVector work_of_rates = take(interior, 1);
+  const LongVector work_of_rates = blocks.take(interior);
   // W[∂Q/∂Q̇]·dQ̇/dq with dQ̇/dq = -(∂R/∂Q̇)⁻¹ ∂R/∂q: one solve with the transposed matrix serves both ends.
-  const LongMatrix rows_by_rates = take(interior, interior);
+  const LongMatrix rows_by_rates = blocks.take(interior, interior);
   const LongVector adjoint = solve_square(LongMatrix(rows_by_rates.transpose()), work_of_rates);
-  const LongMatrix rows_by_left = take(interior, n_);
-  const LongMatrix rows_by_right = take(interior, n_);
+  const LongMatrix rows_by_left = blocks.take(interior, n_);
+  const LongMatrix rows_by_right = blocks.take(interior, n_);
   objects.left_force -= rows_by_left.transpose() * adjoint;
   objects.right_force -= rows_by_right.transpose() * adjoint;
   return objects;

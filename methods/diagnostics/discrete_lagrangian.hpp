@@ -42,9 +42,6 @@ class DiscreteLagrangian {
                                    long double h, long double t) const;
 
  private:
-  struct Formulas;
-  explicit DiscreteLagrangian(const Formulas& formulas);
-
   Eigen::Index n_;
   Eigen::Index stages_;
   TracedNewton<long double> interior_rates_;

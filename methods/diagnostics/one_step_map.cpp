@@ -5,58 +5,38 @@
 
 namespace dmocbench {
 
-/// Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior rates), y = p or v where nodes carry it; the stage
-/// controls; h; t; p_0.
-template <class Scalar>
-struct OneStepMap<Scalar>::Formulas {
-  Eigen::Index n;
-  Eigen::Index unknowns;
-  NodeState node_state;
-  Eigen::Index interior;
-  ExpressionVector residual;
-  std::vector<Expression> reading;
-  std::vector<Expression> derivatives;
-
-  Formulas(const TracedProblem& problem, const Element& element, const Tableau& tableau)
-      : n(problem.configuration_size()), node_state(element.node_state()), interior(tableau.stages() - 1) {
-    InputCounter counter;
-    IntervalUnknowns local = take_unknowns(counter, problem, node_state, tableau.stages());
-    unknowns = static_cast<Eigen::Index>(counter.taken()) - n - tableau.stages() * problem.control_size();
-    local.h = counter.take();
-    local.t = counter.take();
-    const ExpressionVector p_0 = counter.take(n);
-
-    const IntervalTrace trace = element.trace(problem, tableau, local);
-    residual.resize(n + trace.stage_equations.size());
-    residual << trace.left_momentum - p_0, trace.stage_equations;
-    append(reading, trace.right_momentum);
-    ExpressionVector impulse(n);
-    for (std::size_t i = 0; i < trace.stages.size(); ++i) {
-      const Expression weight = local.h * Expression(tableau.b[static_cast<Eigen::Index>(i)]);
-      impulse += weight * problem.at(trace.stages[i]).control_force;
-    }
-    append(reading, impulse);
-    const ExpressionVector w = input_vector(static_cast<std::size_t>(n), unknowns);
-    append(derivatives, dmocbench::jacobian(residual, w));
-    append(derivatives, dmocbench::jacobian(residual, local.left_q));
-    append(derivatives, dmocbench::jacobian(trace.right_momentum, w));
-    append(derivatives, dmocbench::jacobian(trace.right_momentum, local.left_q));
-  }
-};
-
 template <class Scalar>
 OneStepMap<Scalar>::OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau)
-    : OneStepMap(Formulas(problem, element, tableau)) {}
+    : n_(problem.configuration_size()), node_state_(element.node_state()), interior_(tableau.stages() - 1) {
+  // Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior rates), y = p or v where nodes carry it; the stage controls;
+  // h; t; p_0.
+  InputCounter counter;
+  IntervalUnknowns local = take_unknowns(counter, problem, node_state_, tableau.stages());
+  unknowns_ = static_cast<Eigen::Index>(counter.taken()) - n_ - tableau.stages() * problem.control_size();
+  local.h = counter.take();
+  local.t = counter.take();
+  const ExpressionVector p_0 = counter.take(n_);
 
-template <class Scalar>
-OneStepMap<Scalar>::OneStepMap(const Formulas& formulas)
-    : n_(formulas.n),
-      unknowns_(formulas.unknowns),
-      node_state_(formulas.node_state),
-      interior_(formulas.interior),
-      newton_(formulas.residual, static_cast<std::size_t>(n_), unknowns_),
-      reading_(formulas.reading),
-      derivatives_(formulas.derivatives) {}
+  const IntervalTrace trace = element.trace(problem, tableau, local);
+  ExpressionVector residual(n_ + trace.stage_equations.size());
+  residual << trace.left_momentum - p_0, trace.stage_equations;
+  newton_ = TracedNewton<Scalar>(residual, static_cast<std::size_t>(n_), unknowns_);
+  // The impulse is the virtual work along a translation, which moves every stage as it moves q_0.
+  std::vector<std::vector<ConjugatePair>> pairs;
+  for (const ControlledState& stage : trace.stages) {
+    pairs.push_back({{local.left_q, problem.at(stage).control_force}});
+  }
+  std::vector<Expression> reading;
+  append(reading, trace.right_momentum);
+  append(reading, variation(local.left_q, pairs, tableau.b, local.h));
+  reading_ = Schedule(reading);
+  const ExpressionVector w = input_vector(static_cast<std::size_t>(n_), unknowns_);
+  std::vector<Expression> derivatives;
+  for (const ExpressionVector& formulas : {residual, trace.right_momentum}) {
+    for (const ExpressionVector& x : {w, local.left_q}) append(derivatives, dmocbench::jacobian(formulas, x));
+  }
+  derivatives_ = Schedule(derivatives);
+}
 
 template <class Scalar>
 typename OneStepMap<Scalar>::Step OneStepMap<Scalar>::advance(const Vector& q_0, const Vector& p_0,
@@ -82,9 +62,9 @@ typename OneStepMap<Scalar>::Step OneStepMap<Scalar>::advance(const Vector& q_0,
   add(p_0);
   newton_.solve(inputs);
 
-  const std::vector<Scalar> values = replay<Scalar>(reading_, std::span<const Scalar>(inputs));
-  step.p = Eigen::Map<const Vector>(values.data(), n_);
-  step.impulse = Eigen::Map<const Vector>(values.data() + n_, n_);
+  OutputBlocks<Scalar> blocks(reading_, inputs);
+  step.p = blocks.take(n_);
+  step.impulse = blocks.take(n_);
   step.q = Eigen::Map<const Vector>(inputs.data() + (has_second ? 2 * n_ : n_), n_);
   step.mean_velocity = (step.q - q_0) / h;
   return step;
@@ -92,20 +72,14 @@ typename OneStepMap<Scalar>::Step OneStepMap<Scalar>::advance(const Vector& q_0,
 
 template <class Scalar>
 typename OneStepMap<Scalar>::Matrix OneStepMap<Scalar>::jacobian(const Step& step) const {
-  const std::vector<Scalar> values = replay<Scalar>(derivatives_, std::span<const Scalar>(step.inputs));
-  const Scalar* next = values.data();
-  const auto take = [&next](Eigen::Index rows, Eigen::Index columns) {
-    Matrix block = Eigen::Map<const Matrix>(next, rows, columns);
-    next += rows * columns;
-    return block;
-  };
-  const Matrix by_unknowns = take(unknowns_, unknowns_);
+  OutputBlocks<Scalar> blocks(derivatives_, step.inputs);
+  const Matrix by_unknowns = blocks.take(unknowns_, unknowns_);
   Matrix by_start(unknowns_, 2 * n_);
-  by_start.leftCols(n_) = take(unknowns_, n_);
+  by_start.leftCols(n_) = blocks.take(unknowns_, n_);
   by_start.rightCols(n_).setZero();
   by_start.topRightCorner(n_, n_).diagonal().setConstant(Scalar(-1));  // R begins with left momentum - p_0
-  const Matrix momentum_by_unknowns = take(n_, unknowns_);
-  const Matrix momentum_by_left = take(n_, n_);
+  const Matrix momentum_by_unknowns = blocks.take(n_, unknowns_);
+  const Matrix momentum_by_left = blocks.take(n_, n_);
   const Matrix unknowns_by_start = -solve_square(by_unknowns, by_start);
   Matrix result(2 * n_, 2 * n_);
   result.topRows(n_) = unknowns_by_start.middleRows(node_state_ == NodeState::configuration ? 0 : n_, n_);

@@ -40,13 +40,10 @@ class OneStepMap {
   [[nodiscard]] Matrix jacobian(const Step& step) const;
 
  private:
-  struct Formulas;
-  explicit OneStepMap(const Formulas& formulas);
-
-  Eigen::Index n_ = 0;
+  Eigen::Index n_;
   Eigen::Index unknowns_ = 0;
-  NodeState node_state_ = NodeState::configuration;
-  Eigen::Index interior_ = 0;  // number of interior stages, s - 1
+  NodeState node_state_;
+  Eigen::Index interior_;  // number of interior stages, s - 1
   TracedNewton<Scalar> newton_;
   Schedule reading_;      // right momentum, then the impulse
   Schedule derivatives_;  // R by w, R by q_0, right momentum by w, by q_0, column by column

@@ -20,6 +20,8 @@ namespace dmocbench {
 template <class Scalar>
 class TracedNewton {
  public:
+  /// No equations.
+  TracedNewton() = default;
   /// `residual` has `count` entries; the unknowns are the inputs `first` .. `first + count - 1`.
   TracedNewton(const ExpressionVector& residual, std::size_t first, Eigen::Index count) : first_(first), count_(count) {
     if (residual.size() != count) throw Error("Newton's method needs as many equations as unknowns");
@@ -56,9 +58,28 @@ class TracedNewton {
 
  private:
   static constexpr int most_iterations = 50;
-  std::size_t first_;
-  Eigen::Index count_;
+  std::size_t first_ = 0;
+  Eigen::Index count_ = 0;
   Schedule schedule_;  // outputs: R, then ∂R/∂w column by column
+};
+
+/// Hands out the outputs of a schedule as the matrices that were appended to it, one after the other.
+template <class Scalar>
+class OutputBlocks {
+ public:
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  OutputBlocks(const Schedule& schedule, const std::vector<Scalar>& inputs)
+      : values_(replay<Scalar>(schedule, std::span<const Scalar>(inputs))), next_(values_.data()) {}
+
+  [[nodiscard]] Matrix take(Eigen::Index rows, Eigen::Index columns = 1) {
+    next_ += rows * columns;
+    return Eigen::Map<const Matrix>(next_ - rows * columns, rows, columns);
+  }
+
+ private:
+  std::vector<Scalar> values_;
+  const Scalar* next_;
 };
 
 }  // namespace dmocbench

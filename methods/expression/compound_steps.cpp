@@ -2,8 +2,6 @@
 
 #include <unordered_map>
 
-#include "methods/expression/instruction_code.hpp"
-
 namespace dmocbench {
 
 namespace {

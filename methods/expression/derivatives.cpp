@@ -1,13 +1,11 @@
 #include "methods/expression/derivatives.hpp"
 
 #include <algorithm>
-#include <ranges>
-#include <unordered_map>
-#include <unordered_set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "methods/error.hpp"
-#include "methods/expression/node.hpp"
 
 namespace dmocbench {
 
@@ -15,79 +13,52 @@ namespace {
 
 using detail::Node;
 
-/// The nodes of `f` that depend on one of the inputs `x`, operands before their readers.
-std::vector<Node*> active_nodes(const Expression& f, const std::unordered_set<Node*>& x) {
-  std::vector<Node*> reachable;
-  std::unordered_set<Node*> seen;
-  std::vector<Node*> open{f.node()};
-  while (!open.empty()) {
-    Node* node = open.back();
-    open.pop_back();
-    if (!seen.insert(node).second) continue;
-    reachable.push_back(node);
-    for (Node* operand : node->key().operands) {
-      if (operand != nullptr) open.push_back(operand);
-    }
-  }
-  std::sort(reachable.begin(), reachable.end(), [](const Node* a, const Node* b) { return a->serial() < b->serial(); });
-  std::vector<Node*> active;
-  std::unordered_set<Node*> is_active;
-  for (Node* node : reachable) {
-    const auto depends = [&](Node* operand) { return operand != nullptr && is_active.contains(operand); };
-    if (x.contains(node) || depends(node->operand(0)) || depends(node->operand(1))) {
-      is_active.insert(node);
-      active.push_back(node);
-    }
-  }
-  return active;
-}
-
-/// ∂(node)/∂(operand number `which`), as a graph of the node and its operands.
-Expression partial_derivative(Node* node, std::size_t which) {
-  Expression result = Expression::of_node(node);
+/// `adjoint` · ∂(node)/∂(operand number `which`), as a graph of the node and its operands.
+Expression adjoint_of_operand(const Expression& adjoint, Node* node, std::size_t which) {
+  const Expression result = Expression::of_node(node);
   const Expression x = Expression::of_node(node->operand(0));
   switch (node->operation()) {
     case Operation::add:
-      return 1.0;
+      return adjoint;
     case Operation::subtract:
-      return which == 0 ? 1.0 : -1.0;
+      return which == 0 ? adjoint : -adjoint;
     case Operation::multiply:
-      return Expression::of_node(node->operand(1 - which));
+      return adjoint * Expression::of_node(node->operand(1 - which));
     case Operation::negate:
-      return -1.0;
+      return -adjoint;
     case Operation::reciprocal:
-      return -(result * result);
+      return adjoint * -(result * result);
     case Operation::square_root:
-      return 0.5 / result;
+      return adjoint * (0.5 / result);
     case Operation::exponential:
-      return result;
+      return adjoint * result;
     case Operation::logarithm:
-      return 1.0 / x;
+      return adjoint * (1.0 / x);
     case Operation::sine:
-      return cos(x);
+      return adjoint * cos(x);
     case Operation::cosine:
-      return -sin(x);
+      return adjoint * -sin(x);
     case Operation::tangent:
-      return 1.0 + result * result;
+      return adjoint * (1.0 + result * result);
     case Operation::arc_sine:
-      return 1.0 / sqrt(1.0 - x * x);
+      return adjoint * (1.0 / sqrt(1.0 - x * x));
     case Operation::arc_cosine:
-      return -1.0 / sqrt(1.0 - x * x);
+      return adjoint * (-1.0 / sqrt(1.0 - x * x));
     case Operation::arc_tangent:
-      return 1.0 / (1.0 + x * x);
+      return adjoint * (1.0 / (1.0 + x * x));
     case Operation::arc_tangent2: {
       const Expression other = Expression::of_node(node->operand(1));  // atan2(x, other)
       const Expression squared_radius = x * x + other * other;
-      return which == 0 ? other / squared_radius : -x / squared_radius;
+      return adjoint * (which == 0 ? other / squared_radius : -x / squared_radius);
     }
     case Operation::hyperbolic_sine:
-      return cosh(x);
+      return adjoint * cosh(x);
     case Operation::hyperbolic_cosine:
-      return sinh(x);
+      return adjoint * sinh(x);
     case Operation::hyperbolic_tangent:
-      return 1.0 - result * result;
+      return adjoint * (1.0 - result * result);
     case Operation::power:
-      return node->value() * pow(x, node->value() - 1.0);
+      return adjoint * (node->value() * pow(x, node->value() - 1.0));
     case Operation::constant:
     case Operation::input:
     case Operation::divide:
@@ -96,53 +67,88 @@ Expression partial_derivative(Node* node, std::size_t which) {
   throw Error("no derivative rule for this operation");
 }
 
+/// Reverse mode on the common graph of some formulas, one formula after the other.
+class ReverseMode {
+ public:
+  /// Throws `Error` if an entry of `x` is not an input.
+  ReverseMode(std::span<const Expression> formulas, const ExpressionVector& x) : x_(x) {
+    std::vector<Expression> read(formulas.begin(), formulas.end());
+    read.insert(read.end(), x.begin(), x.end());
+    nodes_ = detail::reachable_nodes(read);
+    std::ranges::sort(nodes_, {}, &Node::serial);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i]->set_number(i);
+    adjoints_.resize(nodes_.size());
+
+    first_dependence_.assign(nodes_.size(), x.size());
+    for (Eigen::Index j = x.size() - 1; j >= 0; --j) {
+      if (x[j].node()->operation() != Operation::input) {
+        throw Error("derivatives are taken with respect to inputs, not to formulas");
+      }
+      first_dependence_[x[j].node()->number()] = j;
+    }
+    for (const Node* node : nodes_) {
+      Eigen::Index& first = first_dependence_[node->number()];
+      for (std::size_t which = 0; which < operand_count(node->operation()); ++which) {
+        first = std::min(first, first_dependence_[node->operand(which)->number()]);
+      }
+    }
+  }
+
+  /// ∂f/∂x_j of one of the formulas, j < `count`.
+  ExpressionVector gradient(const Expression& f, Eigen::Index count) {
+    const std::uint32_t last = f.node()->number();
+    if (first_dependence_[last] < count) adjoints_[last] = Expression(1.0);
+    for (std::size_t i = last + 1; i-- > 0;) {
+      if (!adjoints_[i].is_zero() && nodes_[i]->operation() != Operation::input) pass_on(i, count);
+    }
+    ExpressionVector result(count);
+    for (Eigen::Index j = 0; j < count; ++j) result[j] = adjoints_[x_[j].node()->number()];
+    for (const Expression& input : x_) adjoints_[input.node()->number()] = zero_;
+    return result;
+  }
+
+ private:
+  /// Adds the share of node i to the adjoints of its operands.
+  void pass_on(std::size_t i, Eigen::Index count) {
+    const Expression adjoint = std::exchange(adjoints_[i], zero_);
+    for (std::size_t which = 0; which < operand_count(nodes_[i]->operation()); ++which) {
+      const std::uint32_t operand = nodes_[i]->operand(which)->number();
+      if (first_dependence_[operand] < count) adjoints_[operand] += adjoint_of_operand(adjoint, nodes_[i], which);
+    }
+  }
+
+  const ExpressionVector& x_;
+  Expression zero_;
+  std::vector<Node*> nodes_;                    // operands before their readers
+  std::vector<Eigen::Index> first_dependence_;  // the first entry of x on which a node depends
+  std::vector<Expression> adjoints_;            // of the nodes; 0 between two gradients
+};
+
 }  // namespace
 
 ExpressionVector gradient(const Expression& f, const ExpressionVector& x) {
-  std::unordered_set<Node*> inputs;
-  for (const Expression& variable : x) {
-    if (variable.node()->operation() != Operation::input) {
-      throw Error("derivatives are taken with respect to inputs, not to formulas");
-    }
-    inputs.insert(variable.node());
-  }
-  const std::vector<Node*> nodes = active_nodes(f, inputs);
-  const std::unordered_set<Node*> active(nodes.begin(), nodes.end());
-
-  std::unordered_map<Node*, Expression> adjoints;
-  adjoints.emplace(f.node(), Expression(1.0));
-  for (Node* node : std::ranges::reverse_view(nodes)) {
-    const auto found = adjoints.find(node);
-    if (found == adjoints.end()) continue;
-    const Expression adjoint = found->second;
-    for (std::size_t which = 0; which < operand_count(node->operation()); ++which) {
-      Node* operand = node->operand(which);
-      if (active.contains(operand)) adjoints[operand] += adjoint * partial_derivative(node, which);
-    }
-  }
-  ExpressionVector result(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (const auto found = adjoints.find(x[i].node()); found != adjoints.end() && active.contains(x[i].node())) {
-      result[i] = found->second;
-    }
-  }
-  return result;
+  return ReverseMode(std::span(&f, 1), x).gradient(f, x.size());
 }
 
 ExpressionMatrix jacobian(const ExpressionVector& f, const ExpressionVector& x) {
+  ReverseMode reverse_mode(entries_of(f), x);
   ExpressionMatrix result(f.size(), x.size());
-  for (Eigen::Index i = 0; i < f.size(); ++i) result.row(i) = gradient(f[i], x).transpose();
+  for (Eigen::Index i = 0; i < f.size(); ++i) result.row(i) = reverse_mode.gradient(f[i], x.size()).transpose();
+  return result;
+}
+
+ExpressionMatrix symmetric_jacobian(const ExpressionVector& f, const ExpressionVector& x) {
+  ReverseMode reverse_mode(entries_of(f), x);
+  ExpressionMatrix result(x.size(), x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const ExpressionVector row = reverse_mode.gradient(f[i], i + 1);
+    for (Eigen::Index j = 0; j <= i; ++j) result(i, j) = result(j, i) = row[j];
+  }
   return result;
 }
 
 ExpressionMatrix hessian(const Expression& f, const ExpressionVector& x) {
-  const ExpressionVector first = gradient(f, x);
-  ExpressionMatrix result(x.size(), x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const ExpressionVector row = gradient(first[i], x.head(i + 1));
-    for (Eigen::Index j = 0; j <= i; ++j) result(i, j) = result(j, i) = row[j];
-  }
-  return result;
+  return symmetric_jacobian(gradient(f, x), x);
 }
 
 }  // namespace dmocbench

@@ -11,7 +11,10 @@ namespace dmocbench {
 /// ∂f_i/∂x_j, rows × x.size(). Entries that are the constant 0 are structural zeros.
 [[nodiscard]] ExpressionMatrix jacobian(const ExpressionVector& f, const ExpressionVector& x);
 
-/// ∂²f/∂x_i∂x_j, symmetric; entry (i, j) and (j, i) are the same node.
+/// ∂f_i/∂x_j, x.size() square, where f is itself a gradient in x; entries (i, j) and (j, i) are the same node.
+[[nodiscard]] ExpressionMatrix symmetric_jacobian(const ExpressionVector& f, const ExpressionVector& x);
+
+/// ∂²f/∂x_i∂x_j: the symmetric Jacobian of the gradient.
 [[nodiscard]] ExpressionMatrix hessian(const Expression& f, const ExpressionVector& x);
 
 }  // namespace dmocbench

@@ -5,15 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "methods/expression/operation.hpp"
+#include "methods/expression/node.hpp"
 
 namespace dmocbench {
-
-namespace detail {
-class Node;
-void retain(Node* node) noexcept;
-void release(Node* node) noexcept;
-}  // namespace detail
 
 /// A traced real number: a value type that records how it was computed instead of what it is.
 ///
@@ -32,21 +26,30 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   Expression();
   /// The constant `value`.
   Expression(double value);  // NOLINT(google-explicit-constructor,hicpp-explicit-conversions): 2.0 * x must read so
-  Expression(const Expression& other) noexcept : node_(other.node_) { detail::retain(node_); }
+  Expression(const Expression& other) noexcept : node_(other.node_) {
+    if (node_ != nullptr) node_->gain_reader();
+  }
   Expression(Expression&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
   Expression& operator=(Expression other) noexcept {
     std::swap(node_, other.node_);
     return *this;
   }
-  ~Expression() { detail::release(node_); }
+  ~Expression() {
+    if (node_ != nullptr) node_->lose_reader();
+  }
 
   /// The independent variable number `index`: the same number is the same variable in every formula of a thread.
   [[nodiscard]] static Expression input(std::size_t index);
 
   /// The value if this is a constant.
-  [[nodiscard]] std::optional<double> constant_value() const noexcept;
+  [[nodiscard]] std::optional<double> constant_value() const noexcept {
+    if (node_->operation() != Operation::constant) return std::nullopt;
+    return node_->value();
+  }
   /// True if this is the constant 0: a structural zero.
-  [[nodiscard]] bool is_zero() const noexcept { return constant_value() == 0.0; }
+  [[nodiscard]] bool is_zero() const noexcept {
+    return node_->operation() == Operation::constant && node_->value() == 0.0;
+  }
   /// True if both are the same node, hence the same formula.
   [[nodiscard]] bool is_same(const Expression& other) const noexcept { return node_ == other.node_; }
 
@@ -62,7 +65,7 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
 
  private:
   struct Wrap {};
-  Expression(detail::Node* node, Wrap /*tag*/) noexcept : node_(node) { detail::retain(node_); }
+  Expression(detail::Node* node, Wrap /*tag*/) noexcept : node_(node) { node_->gain_reader(); }
   detail::Node* node_;
 };
 
@@ -98,7 +101,7 @@ bool operator<=(const Expression&, const Expression&) = delete;
 bool operator>(const Expression&, const Expression&) = delete;
 bool operator>=(const Expression&, const Expression&) = delete;
 
-/// Number of nodes alive on this thread, constants and inputs among them.
+/// Number of nodes alive on this thread, inputs and constants (apart from 0) among them.
 [[nodiscard]] std::size_t live_nodes() noexcept;
 
 }  // namespace dmocbench

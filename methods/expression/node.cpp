@@ -1,10 +1,11 @@
 #include "methods/expression/node.hpp"
 
+#include <atomic>
 #include <bit>
-#include <functional>
-#include <vector>
+#include <memory>
 
 #include "methods/error.hpp"
+#include "methods/expression/expression.hpp"
 
 namespace dmocbench::detail {
 
@@ -14,71 +15,109 @@ bool NodeKey::equals(const NodeKey& other) const noexcept {
 }
 
 std::size_t NodeKey::hash() const noexcept {
-  auto hash = static_cast<std::uint64_t>(operation);
-  const auto mix = [&hash](std::uint64_t word) {
-    hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;  // golden-ratio multiplier (Knuth)
-    hash ^= hash >> 32U;
+  // Three products that do not wait for each other; the multipliers are odd and have no pattern.
+  const std::uint64_t number = std::bit_cast<std::uint64_t>(value) + 32 * index + static_cast<std::uint64_t>(operation);
+  const std::uint64_t hash = number * 0x9e3779b97f4a7c15ULL ^
+                             std::bit_cast<std::uint64_t>(operands[0]) * 0xbf58476d1ce4e5b9ULL ^
+                             std::bit_cast<std::uint64_t>(operands[1]) * 0x94d049bb133111ebULL;
+  return hash >> 32U;
+}
+
+void Node::free() noexcept { table_->erase(this); }
+
+std::vector<Node*> reachable_nodes(std::span<const Expression> formulas) {
+  static std::atomic<std::uint64_t> traversals{0};
+  const std::uint64_t traversal = ++traversals;
+  std::vector<Node*> nodes;
+  const auto add = [&](Node* node) {
+    if (node == nullptr || node->traversal_ == traversal) return;
+    node->traversal_ = traversal;
+    node->set_number(nodes.size());
+    nodes.push_back(node);
   };
-  mix(std::bit_cast<std::uint64_t>(value));
-  mix(index);
-  mix(std::bit_cast<std::uint64_t>(operands[0]));
-  mix(std::bit_cast<std::uint64_t>(operands[1]));
-  return hash;
-}
-
-void retain(Node* node) noexcept {
-  if (node != nullptr) node->gain_reader();
-}
-
-void release(Node* node) noexcept {
-  if (node != nullptr && node->lose_reader()) node->table().erase(node);
+  for (const Expression& formula : formulas) add(formula.node());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // NOLINT(modernize-loop-convert): the list grows meanwhile
+    for (Node* operand : nodes[i]->key().operands) add(operand);
+  }
+  return nodes;
 }
 
 NodeTable& NodeTable::of_this_thread() {
-  struct Owner {
-    NodeTable* table = new NodeTable;
-    Owner() = default;
-    Owner(const Owner&) = delete;
-    Owner& operator=(const Owner&) = delete;
-    Owner(Owner&&) = delete;
-    Owner& operator=(Owner&&) = delete;
-    ~Owner() { table->orphan(); }
-  };
-  thread_local const Owner owner;
-  return *owner.table;
+  constexpr auto orphan = [](NodeTable* table) noexcept { table->orphan(); };
+  thread_local const std::unique_ptr<NodeTable, decltype(orphan)> table(new NodeTable, orphan);
+  return *table;
 }
+
+NodeTable::NodeTable() : chains_(1024), zero_(find_or_create({})) { zero_->gain_reader(); }
 
 Node* NodeTable::find_or_create(const NodeKey& key) {
   for (Node* operand : key.operands) {
-    if (operand != nullptr && &operand->table() != this) {
+    if (operand != nullptr && operand->table_ != this) {
       throw Error("expressions of two threads meet in one formula; trace each formula in one thread");
     }
   }
-  if (const auto found = nodes_.find(key); found != nodes_.end()) return *found;
-  auto* node = new Node(key, next_serial_++, *this);
-  nodes_.insert(node);
-  for (Node* operand : key.operands) retain(operand);
+  for (Node* node = chain_of(key); node != nullptr; node = node->next_) {
+    if (node->key_.equals(key)) return node;
+  }
+  if (size_ == chains_.size()) lengthen();
+  Node* node = unused_;
+  if (node == nullptr) {
+    node = &memory_.emplace_back(key, *this);
+  } else {
+    unused_ = node->next_;
+    node->key_ = key;
+  }
+  node->serial_ = next_serial_++;
+  Node*& head = chain_of(key);
+  node->next_ = head;
+  head = node;
+  ++size_;
+  for (Node* operand : key.operands) {
+    if (operand != nullptr) operand->gain_reader();
+  }
   return node;
+}
+
+void NodeTable::lengthen() {
+  std::vector<Node*> nodes;
+  for (Node* node : chains_) {
+    for (; node != nullptr; node = node->next_) nodes.push_back(node);
+  }
+  chains_.assign(2 * chains_.size(), nullptr);
+  for (Node* node : nodes) {
+    Node*& head = chain_of(node->key_);
+    node->next_ = head;
+    head = node;
+  }
 }
 
 void NodeTable::erase(Node* node) noexcept {
   // A loop, not recursion: a chain of a million operations must not overflow the stack.
-  std::vector<Node*> doomed{node};
-  while (!doomed.empty()) {
-    Node* last = doomed.back();
-    doomed.pop_back();
-    nodes_.erase(last);
-    for (Node* operand : last->key().operands) {
-      if (operand != nullptr && operand->lose_reader()) doomed.push_back(operand);
+  Node* doomed = nullptr;
+  const auto doom = [&](Node* last) {
+    Node** link = &chain_of(last->key_);
+    while (*link != last) link = &(*link)->next_;
+    *link = last->next_;
+    last->next_ = doomed;
+    doomed = last;
+  };
+  doom(node);
+  while (doomed != nullptr) {
+    Node* last = doomed;
+    doomed = last->next_;
+    for (Node* operand : last->key_.operands) {
+      if (operand != nullptr && --operand->readers_ == 0) doom(operand);
     }
-    delete last;
+    last->next_ = unused_;
+    unused_ = last;
+    --size_;
   }
-  if (orphaned_ && nodes_.empty()) delete this;
+  if (orphaned_ && size_ == 0) delete this;
 }
 
 void NodeTable::orphan() noexcept {
   orphaned_ = true;
-  if (nodes_.empty()) delete this;
+  zero_->lose_reader();
 }
 
 }  // namespace dmocbench::detail

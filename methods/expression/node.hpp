@@ -3,13 +3,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_set>
+#include <deque>
+#include <span>
+#include <vector>
 
-#include "methods/expression/expression.hpp"
 #include "methods/expression/operation.hpp"
+
+namespace dmocbench {
+class Expression;
+}
 
 namespace dmocbench::detail {
 
+class Node;
 class NodeTable;
 
 /// The identity of a formula: nodes with equal keys are the same formula.
@@ -27,32 +33,45 @@ struct NodeKey {
 /// One operation of a graph, shared by all formulas that contain it; its readers are counted.
 class Node {
  public:
-  Node(const NodeKey& key, std::uint64_t serial, NodeTable& table) noexcept
-      : key_(key), serial_(serial), table_(&table) {}
+  Node(const NodeKey& key, NodeTable& table) noexcept : key_(key), table_(&table) {}
 
   [[nodiscard]] Operation operation() const noexcept { return key_.operation; }
   [[nodiscard]] double value() const noexcept { return key_.value; }
   [[nodiscard]] std::size_t index() const noexcept { return key_.index; }
   [[nodiscard]] Node* operand(std::size_t which) const noexcept { return key_.operands[which]; }
   [[nodiscard]] const NodeKey& key() const noexcept { return key_; }
-  void gain_reader() noexcept { ++readers_; }
-  /// Returns true if that was the last reader.
-  [[nodiscard]] bool lose_reader() noexcept { return --readers_ == 0; }
   /// Order of creation: operands come before the nodes that read them.
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
-  [[nodiscard]] NodeTable& table() const noexcept { return *table_; }
+  /// The place that `reachable_nodes` gave this node, or an algorithm after it.
+  [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
+  void set_number(std::size_t number) noexcept { number_ = static_cast<std::uint32_t>(number); }
+  void gain_reader() noexcept { ++readers_; }
+  /// The last reader frees the node.
+  void lose_reader() noexcept {
+    if (--readers_ == 0) free();
+  }
 
  private:
+  friend class NodeTable;
+  friend std::vector<Node*> reachable_nodes(std::span<const Expression> formulas);
+  void free() noexcept;
+
   NodeKey key_;
-  std::uint64_t serial_;
+  std::uint64_t serial_ = 0;
   NodeTable* table_;
-  std::size_t readers_ = 0;
+  Node* next_ = nullptr;  // in the table's chain, or among the nodes to be freed or reused
+  std::uint64_t traversal_ = 0;
+  std::uint32_t number_ = 0;
+  std::uint32_t readers_ = 0;
 };
+
+/// The nodes that the formulas need, each once; `number` is its place in the result until the next call.
+[[nodiscard]] std::vector<Node*> reachable_nodes(std::span<const Expression> formulas);
 
 /// The unique table of one thread: hash-consing makes equal nodes the same node.
 ///
 /// It outlives its thread as long as one of its nodes is alive, so that an expression kept beyond the end of its thread
-/// can still be released.
+/// can still be released. Memory of freed nodes is used again.
 class NodeTable {
  public:
   /// The table of the calling thread.
@@ -61,27 +80,30 @@ class NodeTable {
   /// The node with this key, which is created if there is none. Throws `Error` if an operand belongs to another
   /// thread's table.
   [[nodiscard]] Node* find_or_create(const NodeKey& key);
-  /// Frees a node without readers, and every operand that thereby loses its last reader.
-  void erase(Node* node) noexcept;
-  [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
-  /// To be called when the owning thread ends: the table is destroyed now, or together with its last node.
-  void orphan() noexcept;
+  /// The constant 0, which stays, because every new `Expression` and empty vector reads it.
+  [[nodiscard]] Node* zero() const noexcept { return zero_; }
+  /// The number of nodes apart from `zero`.
+  [[nodiscard]] std::size_t size() const noexcept { return size_ - 1; }
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(const NodeKey& key) const noexcept { return key.hash(); }
-    std::size_t operator()(const Node* node) const noexcept { return node->key().hash(); }
-  };
-  struct Equal {
-    using is_transparent = void;
-    bool operator()(const Node* a, const Node* b) const noexcept { return a == b; }
-    bool operator()(const NodeKey& a, const Node* b) const noexcept { return a.equals(b->key()); }
-    bool operator()(const Node* a, const NodeKey& b) const noexcept { return b.equals(a->key()); }
-  };
-  std::unordered_set<Node*, Hash, Equal> nodes_;
+  friend class Node;
+
+  NodeTable();
+  /// The thread has ended: the table is destroyed now, or together with its last node.
+  void orphan() noexcept;
+  /// Frees a node without readers, and every operand that thereby loses its last reader.
+  void erase(Node* node) noexcept;
+  /// The head of the chain in which a node with this key stands.
+  [[nodiscard]] Node*& chain_of(const NodeKey& key) noexcept { return chains_[key.hash() & (chains_.size() - 1)]; }
+  void lengthen();
+
+  std::vector<Node*> chains_;  // as many as a power of two
+  std::deque<Node> memory_;
+  Node* unused_ = nullptr;  // freed nodes
+  std::size_t size_ = 0;
   std::uint64_t next_serial_ = 0;
   bool orphaned_ = false;
+  Node* zero_;
 };
 
 }  // namespace dmocbench::detail

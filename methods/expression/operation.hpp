@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 namespace dmocbench {
 
@@ -51,8 +50,5 @@ enum class Operation : std::uint8_t {
       return 1;
   }
 }
-
-/// The operation's name as a formula spells it ("+", "sin", ...).
-[[nodiscard]] std::string_view name_of(Operation operation) noexcept;
 
 }  // namespace dmocbench

@@ -26,7 +26,7 @@ class Schedule {
 
   Schedule() = default;
   explicit Schedule(std::span<const Expression> outputs);
-  explicit Schedule(const ExpressionVector& outputs);
+  explicit Schedule(const ExpressionVector& outputs) : Schedule(entries_of(outputs)) {}
 
   [[nodiscard]] const std::vector<Step>& steps() const noexcept { return steps_; }
   /// Positions of the outputs among the steps, in the order in which they were asked for.

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/expression/compound_steps.hpp"
-#include "methods/expression/instruction_code.hpp"
-#include "methods/expression/slot_plan.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {
@@ -28,6 +27,43 @@ std::uint64_t next_serial() {
   return ++last;
 }
 
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+/// For every step, the last compound that reads it.
+std::vector<std::size_t> last_readers(const std::vector<CompoundStep>& compounds, std::size_t steps) {
+  std::vector<std::size_t> last(steps, compounds.size());
+  for (std::size_t c = 0; c < compounds.size(); ++c) {
+    for (std::size_t i = 0; i < compounds[c].operand_count; ++i) last[compounds[c].operands[i]] = c;
+  }
+  return last;
+}
+
+/// Gives the values of compounds that have no place yet a slot each, numbered from `first_slot` on; a slot is used
+/// again once its value is dead. Returns the number of slots.
+std::uint32_t place_in_slots(const std::vector<CompoundStep>& compounds, std::uint32_t first_slot,
+                             std::vector<std::uint32_t>& places) {
+  const std::vector<std::size_t> last = last_readers(compounds, places.size());
+  std::vector<std::uint32_t> free;
+  std::uint32_t end = first_slot;
+  const auto place = [&](std::uint32_t step) {
+    if (places[step] != nowhere) return;
+    places[step] = free.empty() ? end++ : free.back();
+    if (!free.empty()) free.pop_back();
+  };
+  for (std::size_t c = 0; c < compounds.size(); ++c) {
+    const CompoundStep& compound = compounds[c];
+    // The slots of operands that die here are free for the result: an instruction may write where it reads.
+    const auto* begin = compound.operands.begin();
+    for (const auto* operand = begin; operand != begin + compound.operand_count; ++operand) {
+      const bool is_first = std::find(begin, operand, *operand) == operand;
+      if (is_first && last[*operand] == c && places[*operand] >= first_slot) free.push_back(places[*operand]);
+    }
+    place(compound.step);
+    if (compound.cosine) place(*compound.cosine);
+  }
+  return end - first_slot;
+}
+
 }  // namespace
 
 Tape::Tape(const Schedule& schedule, InstructionSet set)
@@ -41,46 +77,66 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
     throw Error("this processor lacks the instruction set " + std::string(name_of(set)));
   }
   const std::vector<CompoundStep> compounds = compound_steps(schedule);
-  const SlotPlan plan(schedule, compounds);
-  slot_count_ = plan.slot_count();
-  constants_ = plan.constants();
-  for (std::uint32_t i = 0; i < plan.inputs().size(); ++i) {
-    read_inputs_.push_back({plan.first_input() + i, plan.inputs()[i]});
-  }
+  const std::vector<std::uint32_t> places = place_values(schedule, compounds);
   instructions_.reserve(compounds.size());
   for (const CompoundStep& compound : compounds) {
-    const std::uint32_t result = plan.of(compound.step);
+    const std::uint32_t result = places[compound.step];
     TapeInstruction instruction{.code = static_cast<std::uint32_t>(compound.code),
                                 .result = result,
-                                .second_result = compound.cosine ? plan.of(*compound.cosine) : result,
+                                .second_result = compound.cosine ? places[*compound.cosine] : result,
                                 .operands = {},
                                 .exponent = schedule.steps()[compound.step].value};
     std::transform(compound.operands.begin(), compound.operands.begin() + compound.operand_count,
-                   instruction.operands.begin(), [&](std::uint32_t operand) { return plan.of(operand); });
+                   instruction.operands.begin(), [&](std::uint32_t operand) { return places[operand]; });
     instructions_.push_back(instruction);
   }
   // A value that is an output twice, and an input or a constant that is an output, is copied.
   for (std::uint32_t j = 0; j < output_count_; ++j) {
-    const std::uint32_t source = plan.of(schedule.outputs()[j]);
-    if (source == plan.output(j)) continue;
+    const std::uint32_t source = places[schedule.outputs()[j]];
+    const std::uint32_t output = first_output() + j;
+    if (source == output) continue;
     instructions_.push_back({.code = static_cast<std::uint32_t>(instruction_code::of(Operation::input)),
-                             .result = plan.output(j),
-                             .second_result = plan.output(j),
+                             .result = output,
+                             .second_result = output,
                              .operands = {source},
                              .exponent = 0.0});
   }
 }
 
+std::vector<std::uint32_t> Tape::place_values(const Schedule& schedule, const std::vector<CompoundStep>& compounds) {
+  const std::vector<Schedule::Step>& steps = schedule.steps();
+  std::vector<std::uint32_t> places(steps.size(), nowhere);
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].operation != Operation::constant) continue;
+    places[i] = next++;
+    constants_.push_back(steps[i].value);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].operation != Operation::input) continue;
+    places[i] = next++;
+    read_inputs_.push_back({places[i], steps[i].input_index});
+  }
+  // The value of an output is written to the output at once, and later readers read it there.
+  for (const std::uint32_t output : schedule.outputs()) {
+    if (places[output] == nowhere) places[output] = next;
+    ++next;
+  }
+  slot_count_ = place_in_slots(compounds, next, places);
+  return places;
+}
+
 Tape::Workspace::Workspace(const Tape& tape)
     : serial_(tape.serial_),
-      slots_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size()),
-      series_(tape.slot_count_ + tape.constants_.size() + tape.read_inputs_.size() + tape.output_count_) {
-  for (std::size_t i = 0; i < tape.slot_count_ + tape.constants_.size(); ++i) {
-    series_[i] = slots_[i].numbers.data();
+      // NOLINTNEXTLINE(*-avoid-c-arrays)
+      memory_(std::make_unique_for_overwrite<Series[]>(tape.first_output() + tape.slot_count_)),
+      series_(tape.first_output() + tape.output_count_ + tape.slot_count_) {
+  Series* next = memory_.get();
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const bool is_output = i >= tape.first_output() && i < tape.first_output() + tape.output_count_;
+    if (!is_output) series_[i] = (next++)->numbers.data();
   }
-  for (std::size_t i = 0; i < tape.constants_.size(); ++i) {
-    std::fill_n(series_[tape.slot_count_ + i], block_width, tape.constants_[i]);
-  }
+  for (std::size_t i = 0; i < tape.constants_.size(); ++i) std::fill_n(series_[i], block_width, tape.constants_[i]);
 }
 
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
@@ -96,7 +152,7 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
   // An input that is the same for all intervals fills a series of the workspace once.
   for (const ReadInput& input : read_inputs_) {
     if (!inputs[input.index].same_for_all) continue;
-    double* spread = workspace.slots_[input.position].numbers.data();
+    double* spread = workspace.memory_[input.position].numbers.data();
     std::fill_n(spread, block_width, *inputs[input.index].data);
     workspace.series_[input.position] = spread;
   }
@@ -114,7 +170,7 @@ void Tape::point_to_block(std::size_t first, std::span<const Input> inputs, std:
     // The table holds results too, hence the cast; an input's series is only ever read.
     workspace.series_[input.position] = const_cast<double*>(inputs[input.index].data) + first;  // NOLINT
   }
-  double** output_series = workspace.series_.data() + workspace.series_.size() - output_count_;
+  double** output_series = workspace.series_.data() + first_output();
   for (std::size_t j = 0; j < output_count_; ++j) output_series[j] = outputs[j] + first;
 }
 

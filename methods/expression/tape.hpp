@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,13 +13,15 @@
 
 namespace dmocbench {
 
+struct CompoundStep;
+
 /// A schedule compiled for evaluation over all intervals of a grid.
 ///
 /// The code is straight-line and runs on a block of intervals at a time: every instruction is a loop over `block_width`
 /// numbers, which becomes vector instructions. A sum or product with a single reader is computed together with that
-/// reader, in registers (`compound_steps`). All other values live in slots, which are reused as soon as a value is dead
-/// (`SlotPlan`), so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with
-/// its own `Workspace`.
+/// reader, in registers (`compound_steps`). All other values live in slots, which are reused as soon as a value is
+/// dead, so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with its own
+/// `Workspace`.
 class Tape {
  public:
   /// Intervals evaluated together.
@@ -34,7 +37,7 @@ class Tape {
   class Workspace {
    public:
     explicit Workspace(const Tape& tape);
-    // The table of series points into this workspace's own slots, which stay in place when it is moved.
+    // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
     Workspace(Workspace&&) noexcept = default;
@@ -46,10 +49,11 @@ class Tape {
     // Aligned to cache lines, which are as long as the widest registers: a load or store across two lines takes twice
     // as long.
     struct alignas(64) Series {
-      std::array<double, block_width> numbers{};
+      std::array<double, block_width> numbers;
     };
     std::uint64_t serial_;  // of the tape
-    std::vector<Series> slots_;
+    // Not cleared. Of constants, inputs that are the same for all intervals, and slots.
+    std::unique_ptr<Series[]> memory_;  // NOLINT(*-avoid-c-arrays)
     std::vector<double*> series_;
   };
 
@@ -83,10 +87,16 @@ class Tape {
     std::size_t index;       // its number among the inputs
   };
 
+  /// The position of every step's value in the table of series, unless the value stays within a compound.
+  [[nodiscard]] std::vector<std::uint32_t> place_values(const Schedule& schedule,
+                                                        const std::vector<CompoundStep>& compounds);
+  [[nodiscard]] std::uint32_t first_output() const noexcept {
+    return static_cast<std::uint32_t>(constants_.size() + read_inputs_.size());
+  }
   void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
                       Workspace& workspace) const;
 
-  // The table of series holds first the slots, then the constants, the inputs that are read, and the outputs.
+  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots.
   std::vector<TapeInstruction> instructions_;
   std::vector<double> constants_;
   std::vector<ReadInput> read_inputs_;

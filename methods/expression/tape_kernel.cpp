@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include <xsimd/xsimd.hpp>
 
-#include "methods/expression/instruction_code.hpp"
 #include "methods/expression/operation.hpp"
 
 namespace dmocbench {
@@ -61,53 +61,24 @@ inline double value_of(double x, double y, double exponent) {
 
 using Vector = xsimd::batch<double>;
 
-/// Functions with a vector form, whose error is a few units in the last place (tests/expression). xsimd's logarithm is
-/// not among them, because it is wrong for subnormal numbers.
-constexpr bool has_vector_form(Operation operation) {
-  switch (operation) {
-    case Operation::exponential:
-    case Operation::sine:
-    case Operation::cosine:
-    case Operation::tangent:
-    case Operation::arc_sine:
-    case Operation::arc_cosine:
-    case Operation::arc_tangent:
-    case Operation::hyperbolic_sine:
-    case Operation::hyperbolic_cosine:
-    case Operation::hyperbolic_tangent:
-      return true;
-    default:
-      return false;
-  }
+/// Functions with a vector form, whose error is a few units in the last place (tests/expression); no result for other
+/// operations. xsimd's logarithm is not among them, because it is wrong for subnormal numbers.
+template <Operation operation>
+inline auto vector_of([[maybe_unused]] const Vector& x) {
+  if constexpr (operation == Operation::exponential) return xsimd::exp(x);
+  if constexpr (operation == Operation::sine) return xsimd::sin(x);
+  if constexpr (operation == Operation::cosine) return xsimd::cos(x);
+  if constexpr (operation == Operation::tangent) return xsimd::tan(x);
+  if constexpr (operation == Operation::arc_sine) return xsimd::asin(x);
+  if constexpr (operation == Operation::arc_cosine) return xsimd::acos(x);
+  if constexpr (operation == Operation::arc_tangent) return xsimd::atan(x);
+  if constexpr (operation == Operation::hyperbolic_sine) return xsimd::sinh(x);
+  if constexpr (operation == Operation::hyperbolic_cosine) return xsimd::cosh(x);
+  if constexpr (operation == Operation::hyperbolic_tangent) return xsimd::tanh(x);
 }
 
 template <Operation operation>
-inline Vector vector_of(const Vector& x) {
-  switch (operation) {
-    case Operation::exponential:
-      return xsimd::exp(x);
-    case Operation::sine:
-      return xsimd::sin(x);
-    case Operation::cosine:
-      return xsimd::cos(x);
-    case Operation::tangent:
-      return xsimd::tan(x);
-    case Operation::arc_sine:
-      return xsimd::asin(x);
-    case Operation::arc_cosine:
-      return xsimd::acos(x);
-    case Operation::arc_tangent:
-      return xsimd::atan(x);
-    case Operation::hyperbolic_sine:
-      return xsimd::sinh(x);
-    case Operation::hyperbolic_cosine:
-      return xsimd::cosh(x);
-    case Operation::hyperbolic_tangent:
-      return xsimd::tanh(x);
-    default:
-      return x;
-  }
-}
+constexpr bool has_vector_form = !std::is_void_v<decltype(vector_of<operation>(Vector()))>;
 
 template <Combination combination>
 inline double value_of(double x, double y) {
@@ -127,58 +98,51 @@ inline double value_of(double x, double y) {
 template <class Width>
 using Handler = void (*)(const TapeInstruction& instruction, double* const* series, Width width);
 
+/// result[i] = function(a[i], b[i], ...) for as many operands as there are k.
+template <class Width, class Function, std::size_t... k>
+inline void for_each_number(const TapeInstruction& instruction, double* const* series, Width width, Function function,
+                            std::index_sequence<k...> /*operands*/) {
+  double* result = series[instruction.result];
+  const std::array<const double*, sizeof...(k)> operands{series[instruction.operands[k]]...};
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < width.value; ++i) result[i] = function(operands[k][i]...);
+}
+
 template <Operation operation, class Width>
 void run_alone(const TapeInstruction& instruction, double* const* series, Width width) {
-  double* result = series[instruction.result];
-  const double* x = series[instruction.operands[0]];
   const double exponent = instruction.exponent;
   if constexpr (operand_count(operation) > 1) {
-    const double* y = series[instruction.operands[1]];
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<operation>(x[i], y[i], exponent);
+    const auto function = [=](double x, double y) { return value_of<operation>(x, y, exponent); };
+    for_each_number(instruction, series, width, function, std::make_index_sequence<2>());
   } else {
-#pragma GCC ivdep
-    for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<operation>(x[i], 0.0, exponent);
+    const auto function = [=](double x) { return value_of<operation>(x, 0.0, exponent); };
+    for_each_number(instruction, series, width, function, std::make_index_sequence<1>());
   }
 }
 
 /// (a ∘ b) ∘ c
 template <Combination inner, Combination outer, class Width>
 void run_pair(const TapeInstruction& instruction, double* const* series, Width width) {
-  double* result = series[instruction.result];
-  const double* a = series[instruction.operands[0]];
-  const double* b = series[instruction.operands[1]];
-  const double* c = series[instruction.operands[2]];
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < width.value; ++i) result[i] = value_of<outer>(value_of<inner>(a[i], b[i]), c[i]);
+  const auto pair = [](double a, double b, double c) { return value_of<outer>(value_of<inner>(a, b), c); };
+  for_each_number(instruction, series, width, pair, std::make_index_sequence<3>());
 }
 
 /// ((a ∘ b) ∘ c) ∘ d
 template <Combination inner, Combination middle, Combination outer, class Width>
 void run_chain(const TapeInstruction& instruction, double* const* series, Width width) {
-  double* result = series[instruction.result];
-  const double* a = series[instruction.operands[0]];
-  const double* b = series[instruction.operands[1]];
-  const double* c = series[instruction.operands[2]];
-  const double* d = series[instruction.operands[3]];
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < width.value; ++i) {
-    result[i] = value_of<outer>(value_of<middle>(value_of<inner>(a[i], b[i]), c[i]), d[i]);
-  }
+  const auto chain = [](double a, double b, double c, double d) {
+    return value_of<outer>(value_of<middle>(value_of<inner>(a, b), c), d);
+  };
+  for_each_number(instruction, series, width, chain, std::make_index_sequence<4>());
 }
 
 /// (a ∘ b) ∘ (c ∘ d)
 template <Combination left, Combination right, Combination outer, class Width>
 void run_tree(const TapeInstruction& instruction, double* const* series, Width width) {
-  double* result = series[instruction.result];
-  const double* a = series[instruction.operands[0]];
-  const double* b = series[instruction.operands[1]];
-  const double* c = series[instruction.operands[2]];
-  const double* d = series[instruction.operands[3]];
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < width.value; ++i) {
-    result[i] = value_of<outer>(value_of<left>(a[i], b[i]), value_of<right>(c[i], d[i]));
-  }
+  const auto tree = [](double a, double b, double c, double d) {
+    return value_of<outer>(value_of<left>(a, b), value_of<right>(c, d));
+  };
+  for_each_number(instruction, series, width, tree, std::make_index_sequence<4>());
 }
 
 /// Passes a series to `function(vector, i, count)`, vector by vector. The remainder is padded to a vector of which only
@@ -222,66 +186,43 @@ void run_sine_and_cosine(const TapeInstruction& instruction, double* const* seri
   });
 }
 
-template <class Width>
-using Handlers = std::array<Handler<Width>, instruction_code::count>;
-
 constexpr Combination combination(std::size_t number) { return static_cast<Combination>(number); }
 
-template <Operation operation, class Width>
-constexpr Handler<Width> handler_alone() {
-  if constexpr (has_vector_form(operation)) {
-    return run_vectors<operation, Width>;
+template <std::size_t code, class Width>
+constexpr Handler<Width> handler_of() {
+  using namespace instruction_code;
+  if constexpr (code < sine_and_cosine) {
+    constexpr auto operation = static_cast<Operation>(code);
+    if constexpr (has_vector_form<operation>) {
+      return run_vectors<operation, Width>;
+    } else {
+      return run_alone<operation, Width>;
+    }
+  } else if constexpr (code == sine_and_cosine) {
+    return run_sine_and_cosine<Width>;
+  } else if constexpr (code < first_chain) {
+    constexpr std::size_t k = code - first_pair;
+    return run_pair<combination(k / combinations), combination(k % combinations), Width>;
+  } else if constexpr (code < first_tree) {
+    constexpr std::size_t k = code - first_chain;
+    return run_chain<combination(k / combinations / combinations), combination(k / combinations % combinations),
+                     combination(k % combinations), Width>;
   } else {
-    return run_alone<operation, Width>;
+    constexpr std::size_t k = code - first_tree;
+    return run_tree<combination(k / innermost / innermost), combination(k / innermost % innermost),
+                    combination(k % innermost), Width>;
   }
 }
 
-template <class Width, std::size_t... k>
-constexpr void add_operations(Handlers<Width>& handlers, std::index_sequence<k...> /*operations*/) {
-  ((handlers[k] = handler_alone<static_cast<Operation>(k), Width>()), ...);
-  handlers[instruction_code::sine_and_cosine] = run_sine_and_cosine<Width>;
-}
-
-template <class Width, std::size_t... k>
-constexpr void add_pairs(Handlers<Width>& handlers, std::index_sequence<k...> /*pairs*/) {
-  using instruction_code::combinations;
-  ((handlers[instruction_code::first_pair + k] =
-        run_pair<combination(k / combinations), combination(k % combinations), Width>),
-   ...);
-}
-
-template <class Width, std::size_t... k>
-constexpr void add_chains(Handlers<Width>& handlers, std::index_sequence<k...> /*chains*/) {
-  using instruction_code::combinations;
-  ((handlers[instruction_code::first_chain + k] =
-        run_chain<combination(k / combinations / combinations), combination(k / combinations % combinations),
-                  combination(k % combinations), Width>),
-   ...);
-}
-
-template <class Width, std::size_t... k>
-constexpr void add_trees(Handlers<Width>& handlers, std::index_sequence<k...> /*trees*/) {
-  using instruction_code::innermost;
-  ((handlers[instruction_code::first_tree + k] =
-        run_tree<combination(k / innermost / innermost), combination(k / innermost % innermost),
-                 combination(k % innermost), Width>),
-   ...);
-}
-
 /// Indexed by instruction code.
-template <class Width>
-constexpr Handlers<Width> all_handlers() {
-  Handlers<Width> handlers{};
-  add_operations(handlers, std::make_index_sequence<instruction_code::sine_and_cosine>{});
-  add_pairs(handlers, std::make_index_sequence<instruction_code::pairs>{});
-  add_chains(handlers, std::make_index_sequence<instruction_code::chains>{});
-  add_trees(handlers, std::make_index_sequence<instruction_code::trees>{});
-  return handlers;
+template <class Width, std::size_t... code>
+constexpr std::array<Handler<Width>, sizeof...(code)> all_handlers(std::index_sequence<code...> /*codes*/) {
+  return {handler_of<code, Width>()...};
 }
 
 template <class Width>
 inline void run(const TapeInstruction* instructions, std::size_t count, double* const* series, Width width) {
-  static constexpr Handlers<Width> handlers = all_handlers<Width>();
+  static constexpr auto handlers = all_handlers<Width>(std::make_index_sequence<instruction_code::count>());
   for (std::size_t i = 0; i < count; ++i) handlers[instructions[i].code](instructions[i], series, width);
 }
 

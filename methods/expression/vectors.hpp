@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,6 +37,10 @@ using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynami
 /// of expressions: `a.lazyProduct(b)`.
 [[nodiscard]] inline ExpressionVector operator*(const ExpressionMatrix& a, const ExpressionVector& x) {
   return a.lazyProduct(x);
+}
+
+[[nodiscard]] inline std::span<const Expression> entries_of(const ExpressionVector& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
 
 /// The inputs `first`, `first` + 1, ..., `count` of them.

@@ -113,13 +113,7 @@ class NewtonOnGrid {
 
   double correct(const Eigen::MatrixXd& correction) {
     const Eigen::Index s = tableau_.stages();
-    const Eigen::Index half = size_ / 2;
-    const auto relative = [](const Eigen::MatrixXd& change, const Eigen::MatrixXd& values) {
-      constexpr double vanishing = 1e-6;  // costates of a free motion are 0
-      return change.lpNorm<Eigen::Infinity>() / std::max(vanishing, values.lpNorm<Eigen::Infinity>());
-    };
-    const double change = std::max(relative(correction.topRows(half), extremal_.nodes.topRows(half)),
-                                   relative(correction.bottomRows(half), extremal_.nodes.bottomRows(half)));
+    const double change = relative_difference(correction, extremal_.nodes);
     for (Eigen::Index k = 0; k < extremal_.intervals(); ++k) {
       const Eigen::MatrixXd& response = responses_[static_cast<std::size_t>(k)];
       const Eigen::VectorXd rates = response.leftCols(size_) * correction.col(k) + response.col(size_);
@@ -138,6 +132,16 @@ class NewtonOnGrid {
 };
 
 }  // namespace
+
+double relative_difference(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& values) {
+  constexpr double vanishing = 1e-6;
+  const Eigen::Index half = values.rows() / 2;
+  const auto relative = [](const auto& part, const auto& whole) {
+    return part.template lpNorm<Eigen::Infinity>() / std::max(vanishing, whole.template lpNorm<Eigen::Infinity>());
+  };
+  return std::max(relative(difference.topRows(half), values.topRows(half)),
+                  relative(difference.bottomRows(half), values.bottomRows(half)));
+}
 
 Tableau high_order_gauss_tableau(int stages) { return collocation_tableau("gauss", gauss_nodes(stages), 2 * stages); }
 

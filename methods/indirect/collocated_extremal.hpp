@@ -34,6 +34,11 @@ struct CollocatedExtremal {
 /// of order s, good enough to start Newton's method from.
 [[nodiscard]] ExtremalPoint point_on(const CollocatedExtremal& extremal, const Tableau& tableau, double t);
 
+/// The largest entry of `difference` relative to the largest of `values` (both with 4n rows), but not to less than
+/// 1e-6, because costates of a free motion are 0: the maximum over the upper half of the rows (state) and the lower
+/// (costate).
+[[nodiscard]] double relative_difference(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& values);
+
 /// Pontryagin's boundary value problem by Gauss collocation with `stages` stages on `intervals` equal intervals:
 /// (q, p) fixed at both ends (`first`, `last`, 2n entries each), ψ free. Newton's method on all nodes and rates at
 /// once from `start` (called with times in [0, horizon]); the rates of an interval are eliminated first, which leaves a

@@ -103,38 +103,30 @@ std::optional<double> IndirectSolution::hamiltonian_drift() const {
 
 Trajectory IndirectSolution::sampled_like(const Trajectory& trajectory) const {
   const Eigen::Index n = function_->configuration_size();
-  const Eigen::Index nodes = trajectory.node_times.size();
-  const Eigen::Index stages = trajectory.stage_times.size();
   Trajectory sampled;
   sampled.tableau = trajectory.tableau;
   sampled.node_times = trajectory.node_times;
   sampled.stage_times = trajectory.stage_times;
   sampled.cost = cost();
-  for (Eigen::MatrixXd* table : {&sampled.q, &sampled.p, &sampled.v, &sampled.psi_q, &sampled.psi_p}) {
-    table->resize(nodes, n);
-  }
-  for (Eigen::Index k = 0; k < nodes; ++k) {
-    const IndirectPoint point = at(trajectory.node_times[k]);
-    sampled.q.row(k) = point.q.transpose();
-    sampled.p.row(k) = point.p.transpose();
-    sampled.v.row(k) = point.v.transpose();
-    sampled.psi_q.row(k) = point.psi_q.transpose();
-    sampled.psi_p.row(k) = point.psi_p.transpose();
-  }
-  for (Eigen::MatrixXd* table :
-       {&sampled.stage_q, &sampled.stage_v, &sampled.stage_p, &sampled.stage_psi_q, &sampled.stage_psi_p}) {
-    table->resize(stages, n);
-  }
-  sampled.stage_u.resize(stages, function_->control_size());
-  for (Eigen::Index i = 0; i < stages; ++i) {
-    const IndirectPoint point = at(trajectory.stage_times[i]);
-    sampled.stage_q.row(i) = point.q.transpose();
-    sampled.stage_v.row(i) = point.v.transpose();
-    sampled.stage_u.row(i) = point.u.transpose();
-    sampled.stage_p.row(i) = point.p.transpose();
-    sampled.stage_psi_q.row(i) = point.psi_q.transpose();
-    sampled.stage_psi_p.row(i) = point.psi_p.transpose();
-  }
+  /// Fills tables with a row per time.
+  const auto fill = [&](const Eigen::VectorXd& times, Eigen::MatrixXd& q, Eigen::MatrixXd& p, Eigen::MatrixXd& v,
+                        Eigen::MatrixXd& psi_q, Eigen::MatrixXd& psi_p) {
+    Eigen::MatrixXd u(times.size(), function_->control_size());
+    for (Eigen::MatrixXd* table : {&q, &p, &v, &psi_q, &psi_p}) table->resize(times.size(), n);
+    for (Eigen::Index row = 0; row < times.size(); ++row) {
+      const IndirectPoint point = at(times[row]);
+      q.row(row) = point.q.transpose();
+      p.row(row) = point.p.transpose();
+      v.row(row) = point.v.transpose();
+      psi_q.row(row) = point.psi_q.transpose();
+      psi_p.row(row) = point.psi_p.transpose();
+      u.row(row) = point.u.transpose();
+    }
+    return u;
+  };
+  static_cast<void>(fill(sampled.node_times, sampled.q, sampled.p, sampled.v, sampled.psi_q, sampled.psi_p));
+  sampled.stage_u = fill(sampled.stage_times, sampled.stage_q, sampled.stage_p, sampled.stage_v, sampled.stage_psi_q,
+                         sampled.stage_psi_p);
   return sampled;
 }
 

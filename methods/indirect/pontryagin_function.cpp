@@ -10,16 +10,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-Expression dot(const ExpressionVector& a, const ExpressionVector& b) {
-  Expression sum;
-  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-}  // namespace
-
 PontryaginFunction::PontryaginFunction(const Problem& problem)
     : n_(problem.configuration_size()), m_(problem.control_size()), cost_scale_(problem.cost_scale()) {
   const TracedProblem traced(problem);
@@ -37,8 +27,7 @@ PontryaginFunction::PontryaginFunction(const Problem& problem)
 
   const TracedProblem::Values values = traced.at(ControlledState{q, v, u, time[0]});
   const Expression cost = cost_scale_ * values.running_cost;
-  const ExpressionVector slip = values.momentum - p;
-  const Expression lambda = cost + dot(psi_q, v) + dot(psi_p, values.generalised_force) + dot(w, slip);
+  const Expression lambda = cost + psi_q.dot(v) + psi_p.dot(values.generalised_force) + w.dot(values.momentum - p);
   autonomous_ = gradient(lambda, time)[0].is_zero();
 
   ExpressionVector outputs(2 + size + size * size);

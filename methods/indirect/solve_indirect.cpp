@@ -52,12 +52,6 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
   return point;
 }
 
-/// The largest value, but not 0: costates of a free motion vanish.
-double size_of(const Eigen::MatrixXd& values) {
-  constexpr double vanishing = 1e-6;
-  return std::max(vanishing, values.lpNorm<Eigen::Infinity>());
-}
-
 /// The maximum principle is stated here for fixed ends, a fixed horizon and free controls.
 void require_smooth_class(const Problem& problem) {
   const TracedProblem traced(problem);
@@ -135,30 +129,25 @@ double boundary_value_residual(const Problem& problem, const IndirectSolution& s
   if (extremal.nodes.rows() != 2 * half || extremal.algebraic.rows() != function.algebraic_size()) {
     throw Error("the indirect solution is one of another problem than " + problem.name());
   }
-  const auto relative = [half](const Eigen::VectorXd& residual, const Eigen::MatrixXd& values) {
-    return std::max(residual.head(half).lpNorm<Eigen::Infinity>() / size_of(values.topRows(half)),
-                    residual.tail(half).lpNorm<Eigen::Infinity>() / size_of(values.bottomRows(half)));
-  };
-
   LegendreTransform legendre{TracedProblem(problem)};
   const Eigen::Index intervals = extremal.intervals();
   Eigen::VectorXd ends = Eigen::VectorXd::Zero(2 * half);
   ends.head(half) = extremal.nodes.col(0).head(half) - phase_point(legendre, problem.initial_state(), 0.0);
-  double largest = std::max(relative(ends, extremal.nodes), std::abs(extremal.horizon / horizon - 1.0));
+  double largest = std::max(relative_difference(ends, extremal.nodes), std::abs(extremal.horizon / horizon - 1.0));
   ends.head(half) = extremal.nodes.col(intervals).head(half) - phase_point(legendre, problem.final_state(), horizon);
-  largest = std::max(largest, relative(ends, extremal.nodes));
+  largest = std::max(largest, relative_difference(ends, extremal.nodes));
 
   const Tableau tableau = high_order_gauss_tableau(extremal.stages);
   const double step = extremal.horizon / static_cast<double>(intervals);
   for (Eigen::Index k = 0; k < intervals; ++k) {
     const auto rates = extremal.rates.middleCols(k * extremal.stages, extremal.stages);
     const Eigen::VectorXd jump = extremal.nodes.col(k) + step * (rates * tableau.b) - extremal.nodes.col(k + 1);
-    largest = std::max(largest, relative(jump, extremal.nodes));
+    largest = std::max(largest, relative_difference(jump, extremal.nodes));
     for (Eigen::Index i = 0; i < extremal.stages; ++i) {
       const Eigen::VectorXd y = extremal.nodes.col(k) + step * (rates * tableau.a.row(i).transpose());
       const double t = step * (static_cast<double>(k) + tableau.c[i]);
       Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages + i);
-      largest = std::max(largest, relative(function.evaluate(y, t, z).rate - rates.col(i), extremal.rates));
+      largest = std::max(largest, relative_difference(function.evaluate(y, t, z).rate - rates.col(i), extremal.rates));
     }
   }
   return largest;
@@ -169,25 +158,20 @@ double shooting_defect(const Problem& problem, const IndirectSolution& solution,
   const PontryaginFunction function(problem);
   const CollocatedExtremal& extremal = solution.extremal();
   const Eigen::VectorXd times = solution.node_times();
-  const Eigen::Index half = function.state_size() / 2;
-  constexpr double vanishing = 1e-6;  // costates of a free motion are 0
-  const double state = std::max(vanishing, extremal.nodes.topRows(half).lpNorm<Eigen::Infinity>());
-  const double costate = std::max(vanishing, extremal.nodes.bottomRows(half).lpNorm<Eigen::Infinity>());
-
+  const Eigen::Index size = function.state_size();
   double largest = 0.0;
   for (Eigen::Index k = 0; k < extremal.intervals(); ++k) {
     Eigen::VectorXd z = extremal.algebraic.col(k * extremal.stages);
     const auto equations = [&](const Extremal& y, Extremal& rate, double t) {
-      const Eigen::Map<const Eigen::VectorXd> point(y.data(), 2 * half);
-      Eigen::Map<Eigen::VectorXd>(rate.data(), 2 * half) = function.evaluate(point, t, z).rate;
+      const Eigen::Map<const Eigen::VectorXd> point(y.data(), size);
+      Eigen::Map<Eigen::VectorXd>(rate.data(), size) = function.evaluate(point, t, z).rate;
     };
     Extremal y(extremal.nodes.col(k).begin(), extremal.nodes.col(k).end());
     if (!integrate(equations, y, times[k], times[k + 1], times[k + 1] - times[k], tolerance)) {
       throw Error(fmt::format("the step size of the shooting check vanished in interval {}", k));
     }
-    const Eigen::VectorXd mismatch = Eigen::Map<const Eigen::VectorXd>(y.data(), 2 * half) - extremal.nodes.col(k + 1);
-    largest = std::max({largest, mismatch.head(half).lpNorm<Eigen::Infinity>() / state,
-                        mismatch.tail(half).lpNorm<Eigen::Infinity>() / costate});
+    const Eigen::VectorXd mismatch = Eigen::Map<const Eigen::VectorXd>(y.data(), size) - extremal.nodes.col(k + 1);
+    largest = std::max(largest, relative_difference(mismatch, extremal.nodes));
   }
   return largest;
 }

@@ -1,11 +1,6 @@
 #include "methods/mechanics/bounds.hpp"
 
-#include <cmath>
 #include <limits>
-
-#include <fmt/format.h>
-
-#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -45,24 +40,6 @@ std::vector<Eigen::Index> ProblemBounds::bounded_velocities() const {
     if (v.is_bounded(i)) bounded.push_back(i);
   }
   return bounded;
-}
-
-Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string& what) {
-  if (bounds.empty()) return Bounds::none(size);
-  for (const Eigen::VectorXd* side : {&bounds.lower, &bounds.upper}) {
-    if (side->size() != size) {
-      throw Error(fmt::format("{} has {} entries, expected {}", what, side->size(), size));
-    }
-  }
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const std::string entry = fmt::format("{}: entry {}", what, i);
-    if (std::isnan(bounds.lower[i]) || std::isnan(bounds.upper[i])) throw Error(entry + " is not a number");
-    if (bounds.lower[i] > bounds.upper[i]) {
-      throw Error(fmt::format("{} has the lower bound {:g} above the upper bound {:g}", entry, bounds.lower[i],
-                              bounds.upper[i]));
-    }
-  }
-  return bounds;
 }
 
 }  // namespace dmocbench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -63,9 +62,5 @@ struct ProblemBounds {
   /// The i whose velocity has a bound, in ascending order.
   [[nodiscard]] std::vector<Eigen::Index> bounded_velocities() const;
 };
-
-/// The bounds with `size` entries, none where `bounds` is empty. Throws `Error` that begins with `what` if sizes differ
-/// from `size`, an entry is not a number, or a lower bound is above the upper one.
-[[nodiscard]] Bounds checked_bounds(const Bounds& bounds, Eigen::Index size, const std::string& what);
 
 }  // namespace dmocbench

@@ -7,11 +7,8 @@ namespace dmocbench {
 namespace {
 
 Tape trace(Eigen::Index n, Eigen::Index m, const std::function<ExpressionVector(const ControlledState&)>& formulas) {
-  const auto first_velocity = static_cast<std::size_t>(n);
-  const auto first_control = 2 * first_velocity;
-  const auto time = first_control + static_cast<std::size_t>(m);
-  return Tape(Schedule(formulas(
-      {input_vector(0, n), input_vector(first_velocity, n), input_vector(first_control, m), Expression::input(time)})));
+  InputCounter inputs;
+  return Tape(Schedule(formulas({inputs.take(n), inputs.take(n), inputs.take(m), inputs.take()})));
 }
 
 }  // namespace
@@ -32,14 +29,8 @@ void PointFunction::evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const E
   if (q.size() != n_ || v.size() != n_ || (u.size() != m_ && u.size() != 0) || result.size() != output_count()) {
     throw Error("a point function got vectors of the wrong size");
   }
-  point_.head(n_) = q;
-  point_.segment(n_, n_) = v;
-  if (u.size() == 0) {
-    point_.segment(2 * n_, m_).setZero();
-  } else {
-    point_.segment(2 * n_, m_) = u;
-  }
-  point_[2 * n_ + m_] = t;
+  point_ << q, v, Eigen::VectorXd::Zero(m_), t;
+  if (u.size() > 0) point_.segment(2 * n_, m_) = u;
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = result.data() + i;
   tape_.evaluate(1, inputs_, outputs_, workspace_);
 }

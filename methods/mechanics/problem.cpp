@@ -71,8 +71,9 @@ std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
 }
 
 std::size_t Problem::parameter_index(std::string_view name) const {
-  return position_of(
-      parameters_, [](const Parameter& parameter) { return parameter.name; }, name, this->name() + " has no parameter");
+  const auto found = std::ranges::find(parameters_, name, &Parameter::name);
+  if (found != parameters_.end()) return static_cast<std::size_t>(found - parameters_.begin());
+  return position_of(parameters_, &Parameter::name, name, this->name() + " has no parameter");  // throws
 }
 
 double Problem::parameter(std::string_view name) const { return parameters_[parameter_index(name)].value; }

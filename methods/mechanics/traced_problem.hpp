@@ -1,10 +1,11 @@
 #pragma once
 
-#include <optional>
+#include <span>
 
 #include <Eigen/Core>
 
 #include "methods/expression/schedule.hpp"
+#include "methods/expression/tape.hpp"
 #include "methods/expression/vectors.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/state.hpp"
@@ -50,6 +51,10 @@ class TracedProblem {
   /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
 
+  /// The formulas at many points, in numbers: row i belongs to points[i] at time times[i]. The columns hold p, L_q and
+  /// f (n each), C, h, then L_vv column by column; what stands behind them is not for callers.
+  [[nodiscard]] Eigen::MatrixXd table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const;
+
   /// All formulas with the given point substituted.
   [[nodiscard]] Values at(const ControlledState& point) const;
   /// The formulas of the ends with the given states substituted.
@@ -67,6 +72,7 @@ class TracedProblem {
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
   Schedule schedule_;
+  Tape tape_;  // of the schedule
   Schedule ends_;
 };
 

@@ -2,19 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseQR>
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/runtime/resize_unwritten.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-void require_size(Eigen::Index actual, std::size_t wanted, const char* what) {
-  if (static_cast<std::size_t>(actual) != wanted) {
-    throw Error(std::string("the residual needs ") + std::to_string(wanted) + " " + what + ", got " +
-                std::to_string(actual));
-  }
+void require_size(Eigen::Index actual, std::size_t wanted, const char* entries) {
+  if (static_cast<std::size_t>(actual) == wanted) return;
+  throw Error(fmt::format("a point of this program has {} {}, got {}", wanted, entries, actual));
+}
+
+/// A vector of `size` entries that `evaluate` writes.
+template <class Evaluate>
+Eigen::VectorXd evaluated(std::size_t size, const Evaluate& evaluate) {
+  Eigen::VectorXd values;
+  resize_unwritten(values, static_cast<Eigen::Index>(size));
+  evaluate(values);
+  return values;
+}
+
+Eigen::VectorXd constraints_at(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  return evaluated(program.constraint_count(), [&](Eigen::VectorXd& values) { program.constraints(primal, values); });
+}
+
+Eigen::VectorXd gradient_at(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  return evaluated(program.variable_count(), [&](Eigen::VectorXd& values) { program.gradient(primal, values); });
+}
+
+Eigen::VectorXd jacobian_at(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  return evaluated(program.jacobian_structure().size(),
+                   [&](Eigen::VectorXd& values) { program.jacobian(primal, values); });
 }
 
 /// The larger of both; NaN wins, so that it cannot hide.
@@ -29,29 +55,68 @@ double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eig
   return worst;
 }
 
-/// What is left of the slope g, which the bound at a distance d, on the side where g points down, may take up with its
-/// multiplier: without the multiplier |g| of stationarity, with it |g| d of complementarity. Without a bound there it
-/// is |g|, at the bound 0.
-double bounded_stationarity(double slope, double x, double lower, double upper) {
-  const double distance = slope > 0.0 ? x - lower : upper - x;
-  return std::abs(slope) * std::min(1.0, distance);
+/// The largest part of a gradient that its entries' bounds cannot take up; fixed entries count nothing. A bound at the
+/// distance d, on the side where the objective falls, may take up an entry g with its multiplier: without the
+/// multiplier |g| of stationarity are left, with it |g| d of complementarity. Without a bound there it is |g|, at the
+/// bound 0.
+double stationarity(const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, const Eigen::VectorXd& lower,
+                    const Eigen::VectorXd& upper) {
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (lower[i] == upper[i]) continue;
+    const double inside = std::clamp(x[i], lower[i], upper[i]);
+    const double distance = gradient[i] > 0.0 ? inside - lower[i] : upper[i] - inside;
+    worst = largest(worst, std::abs(gradient[i]) * std::min(1.0, distance));
+  }
+  return worst;
 }
 
-/// Stationarity of row i: an equality's multiplier is free; an inequality's pushes away from the bound it is at.
-double row_stationarity(double multiplier, double row, double lower, double upper) {
-  return lower == upper ? 0.0 : bounded_stationarity(-multiplier, std::clamp(row, lower, upper), lower, upper);
-}
-
-Eigen::VectorXd rows_at(NonlinearProgram& program, const Eigen::VectorXd& primal) {
-  Eigen::VectorXd rows;
-  resize_unwritten(rows, static_cast<Eigen::Index>(program.constraint_count()));
-  program.constraints(primal, rows);
-  return rows;
-}
-
-double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& rows) {
-  return largest(outside(rows, program.constraint_lower(), program.constraint_upper()),
+double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal,
+                    const Eigen::VectorXd& constraints) {
+  return largest(outside(constraints, program.constraint_lower(), program.constraint_upper()),
                  outside(primal, program.variable_lower(), program.variable_upper()));
+}
+
+/// Numbers the entries that are chosen 0, 1, ...
+struct Selection {
+  std::vector<int> numbers;  // -1 of the others
+  int count = 0;
+  void append(bool chosen) { numbers.push_back(chosen ? count++ : -1); }
+  [[nodiscard]] int number_of(Eigen::Index i) const { return numbers[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool contains(Eigen::Index i) const { return number_of(i) >= 0; }
+};
+
+bool is_at(double value, double bound) {
+  return std::isfinite(bound) && std::abs(value - bound) <= activity_tolerance * std::max(1.0, std::abs(bound));
+}
+
+bool is_outside_or_at(double value, double lower, double upper) {
+  return is_at(value, lower) || is_at(value, upper) || value < lower || value > upper;
+}
+
+/// The values that are at, or outside, a bound, or those that are not; an equality is always the former.
+Selection selected(bool at_bound, const Eigen::VectorXd& values, const Eigen::VectorXd& lower,
+                   const Eigen::VectorXd& upper) {
+  Selection selection;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    selection.append(is_outside_or_at(values[i], lower[i], upper[i]) == at_bound);
+  }
+  return selection;
+}
+
+/// (∂a/∂ξ)ᵀ of the chosen rows and variables.
+Eigen::SparseMatrix<double> transposed(const BlockPattern& pattern, const Eigen::VectorXd& values,
+                                       const Selection& rows, const Selection& variables) {
+  std::vector<Eigen::Triplet<double>> entries;
+  pattern.for_each([&](Eigen::Index e, int i, int j) {
+    if (!rows.contains(i) || !variables.contains(j)) return;
+    entries.emplace_back(variables.number_of(j), rows.number_of(i), values[e]);
+  });
+  // Eigen's sparse QR wants at least as many rows as columns; rows of zeros change no least-squares solution.
+  Eigen::SparseMatrix<double> matrix(std::max(variables.count, rows.count), rows.count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix.makeCompressed();
+  return matrix;
 }
 
 }  // namespace
@@ -59,36 +124,71 @@ double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& prim
 KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
   require_size(primal.size(), program.variable_count(), "variables");
   require_size(multipliers.size(), program.constraint_count(), "multipliers");
-  const Eigen::VectorXd rows = rows_at(program, primal);
+  const Eigen::VectorXd constraints = constraints_at(program, primal);
   KktResidual residual;
-  residual.constraint_violation = violation_of(program, primal, rows);
+  residual.constraint_violation = violation_of(program, primal, constraints);
 
-  Eigen::VectorXd slope;
-  resize_unwritten(slope, primal.size());
-  program.gradient(primal, slope);
-  const BlockPattern& pattern = program.jacobian_structure();
-  Eigen::VectorXd jacobian;
-  resize_unwritten(jacobian, static_cast<Eigen::Index>(pattern.size()));
-  program.jacobian(primal, jacobian);
-  pattern.for_each([&](Eigen::Index e, int row, int column) { slope[column] += jacobian[e] * multipliers[row]; });
-  for (Eigen::Index i = 0; i < primal.size(); ++i) {
-    const double lower = program.variable_lower()[i];
-    const double upper = program.variable_upper()[i];
-    if (lower == upper) continue;
-    residual.stationarity = largest(residual.stationarity,
-                                    bounded_stationarity(slope[i], std::clamp(primal[i], lower, upper), lower, upper));
-  }
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    residual.stationarity = largest(
-        residual.stationarity,
-        row_stationarity(multipliers[i], rows[i], program.constraint_lower()[i], program.constraint_upper()[i]));
-  }
+  Eigen::VectorXd gradient = gradient_at(program, primal);
+  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
+  // The multiplier of an inequality is the gradient of its slack but for the sign; that of an equality is free.
+  residual.stationarity =
+      largest(stationarity(gradient, primal, program.variable_lower(), program.variable_upper()),
+              stationarity(-multipliers, constraints, program.constraint_lower(), program.constraint_upper()));
   return residual;
 }
 
 double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
   require_size(primal.size(), program.variable_count(), "variables");
-  return violation_of(program, primal, rows_at(program, primal));
+  return violation_of(program, primal, constraints_at(program, primal));
+}
+
+Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  const Eigen::VectorXd gradient = gradient_at(program, primal);
+  const Eigen::VectorXd constraints = constraints_at(program, primal);
+  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+  if (!primal.allFinite() || !gradient.allFinite() || !constraints.allFinite() || !jacobian.allFinite()) {
+    return Eigen::VectorXd::Constant(constraints.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+
+  const Selection variables = selected(false, primal, program.variable_lower(), program.variable_upper());
+  const Selection active = selected(true, constraints, program.constraint_lower(), program.constraint_upper());
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(constraints.size());
+  if (active.count == 0 || variables.count == 0) return multipliers;
+
+  const Eigen::SparseMatrix<double> matrix = transposed(program.jacobian_structure(), jacobian, active, variables);
+  Eigen::VectorXd chosen_gradient = Eigen::VectorXd::Zero(matrix.rows());
+  for (Eigen::Index i = 0; i < primal.size(); ++i) {
+    if (variables.contains(i)) chosen_gradient[variables.number_of(i)] = gradient[i];
+  }
+  const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factorisation(matrix);
+  const Eigen::VectorXd chosen_multipliers = factorisation.solve(-chosen_gradient);
+  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+    if (active.contains(i)) multipliers[i] = chosen_multipliers[active.number_of(i)];
+  }
+  return multipliers;
+}
+
+bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  const Eigen::VectorXd constraints = constraints_at(program, primal);
+  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+  if (!primal.allFinite() || !constraints.allFinite() || !jacobian.allFinite()) return false;
+
+  const Eigen::VectorXd excess =
+      constraints - constraints.cwiseMax(program.constraint_lower()).cwiseMin(program.constraint_upper());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(primal.size());
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * excess[row]; });
+  double steepest = 0.0;
+  for (Eigen::Index i = 0; i < primal.size(); ++i) {
+    const bool is_held = (gradient[i] > 0.0 && primal[i] <= program.variable_lower()[i]) ||
+                         (gradient[i] < 0.0 && primal[i] >= program.variable_upper()[i]);
+    if (!is_held) steepest = std::max(steepest, std::abs(gradient[i]) * std::max(1.0, std::abs(primal[i])));
+  }
+  return excess.squaredNorm() > 0.0 && steepest <= least_violation_share * excess.squaredNorm();
 }
 
 }  // namespace dmocbench

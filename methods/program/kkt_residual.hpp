@@ -8,21 +8,45 @@ namespace dmocbench {
 
 /// How far a point is from meeting the Karush-Kuhn-Tucker conditions, computed from the program alone.
 struct KktResidual {
-  /// Largest entry of ∇φ + (∂a/∂ξ)ᵀλ over the free variables, and largest multiplier of a row that is not an equality;
-  /// where a bound at the distance d may take up an entry g, what it leaves: |g| min(1, d), stationarity without its
-  /// multiplier, complementarity with it. (The projected gradient min(|g|, d) would ask of a weakly active
-  /// bound, g and d both small, the square of what solvers are asked for.)
+  /// Largest entry of ∇φ + (∂a/∂ξ)ᵀλ over the free variables, and largest multiplier of an inequality. Where a bound at
+  /// the distance d may take up an entry g, |g| min(1, d) counts: stationarity without its multiplier, complementarity
+  /// with it. (The projected gradient min(|g|, d) would ask of a weakly active bound, g and d both small, the square of
+  /// what solvers are asked for.)
   double stationarity = 0.0;
-  /// Largest amount by which a row or a variable leaves its bounds.
+  /// Largest amount by which a constraint or a variable leaves its bounds.
   double constraint_violation = 0.0;
 };
 
 /// The residual at `primal` (variable_count() entries) with `multipliers` (constraint_count() entries).
-/// NaN where the program gives NaN. Throws `Error` if a size is wrong.
+/// NaN where the program gives NaN. Throws `Error` if a size is wrong, as all functions here do.
 [[nodiscard]] KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers);
 
-/// The constraint violation alone, for solvers without multipliers.
+/// The constraint violation alone.
 [[nodiscard]] double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
+
+/// Multipliers for a point that came without: the λ that minimises |∇φ + (∂a/∂ξ)ᵀλ|₂ over the variables that are
+/// neither fixed nor at a bound. An inequality that is not at a bound gets 0.
+///
+/// "At a bound" means closer than `activity_tolerance` · max(1, |bound|). Signs are not imposed: the residual of the
+/// result shows a sign that is wrong, as it shows a point that is not stationary. At a KKT point whose active
+/// constraints are independent these are the multipliers; where they depend on each other, one of many choices.
+///
+/// `primal` has variable_count() entries, the result constraint_count(), all NaN where the program gives NaN or
+/// infinity.
+[[nodiscard]] Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal);
+
+/// How near to its bound a variable or a constraint counts as active; see above.
+inline constexpr double activity_tolerance = 1e-8;
+
+/// True at a point that violates constraints and where, to first order, no variable that its bounds leave free can
+/// reduce the violation: with r the amounts by which constraints leave their bounds, a step of max(1, |ξᵢ|) along
+/// (∂a/∂ξ)ᵀr changes ½|r|² by less than `least_violation_share` · |r|². Solvers without a test of their own for
+/// infeasible programs are judged by it where they end. `primal` has variable_count() entries; false where a number is
+/// not finite.
+[[nodiscard]] bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
+
+/// See above; the gradient of the violation need not vanish exactly where a solve fails.
+inline constexpr double least_violation_share = 1e-3;
 
 }  // namespace dmocbench

@@ -32,7 +32,7 @@ struct Solution {
   std::string message;          ///< one sentence: what happened
   Eigen::VectorXd primal;       ///< ξ, variable_count() entries; empty if the solver never started
   Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if there is no point to have them at
-  /// The solver gave none, so they are the least-squares multipliers of its point (least_squares_multipliers.hpp).
+  /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).
   bool multipliers_are_estimated = false;
   double objective = 0.0;  ///< φ at `primal`, as the solver saw it (scaled)
 

@@ -1,5 +1,6 @@
 #include "methods/program/status.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace dmocbench {
@@ -34,12 +35,7 @@ constexpr std::array entries{
           "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
 };
 
-constexpr const Entry& entry_of(Status status) {
-  for (const Entry& entry : entries) {
-    if (entry.status == status) return entry;
-  }
-  return entries[0];
-}
+const Entry& entry_of(Status status) { return *std::ranges::find(entries, status, &Entry::status); }
 
 }  // namespace
 
@@ -48,10 +44,8 @@ std::string_view name_of(Status status) noexcept { return entry_of(status).name;
 std::string_view sentence_of(Status status) noexcept { return entry_of(status).sentence; }
 
 Status status_named(std::string_view name) noexcept {
-  for (const Entry& entry : entries) {
-    if (entry.name == name) return entry.status;
-  }
-  return Status::not_run;
+  const auto* const found = std::ranges::find(entries, name, &Entry::name);
+  return found == entries.end() ? Status::not_run : found->status;
 }
 
 }  // namespace dmocbench

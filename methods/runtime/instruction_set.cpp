@@ -1,9 +1,8 @@
 #include "methods/runtime/instruction_set.hpp"
 
 #include <cstdlib>
-#include <string>
 
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 
 namespace dmocbench {
 
@@ -41,13 +40,7 @@ InstructionSet preferred_instruction_set() {
   const auto available = available_instruction_sets();
   const char* wanted = std::getenv("DMOCBENCH_INSTRUCTION_SET");  // NOLINT(concurrency-mt-unsafe): only read
   if (wanted == nullptr) return available.back();
-  std::string names;
-  for (const InstructionSet set : available) {
-    if (name_of(set) == wanted) return set;
-    names += names.empty() ? "" : ", ";
-    names += name_of(set);
-  }
-  throw Error("DMOCBENCH_INSTRUCTION_SET=" + std::string(wanted) + " is not available here; choose one of " + names);
+  return one_of(available, name_of, wanted, "DMOCBENCH_INSTRUCTION_SET: this machine does not run");
 }
 
 }  // namespace dmocbench

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
 
 #include "methods/runtime/parallel.hpp"
-#include "methods/runtime/resize_unwritten.hpp"
 #include "methods/runtime/vector_loops.hpp"
 
 namespace dmocbench {
@@ -39,56 +36,20 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
   return sum;
 }
 
-/// Largest magnitude, 0 of an empty vector; of no use where a number is not finite.
-inline double largest_of(const Eigen::VectorXd& vector) {
-  std::array<double, most_parts> largest{};
-  for_stretches(vector.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
-    largest[s] = vector_loops().largest(vector.data() + begin, length);
-  });
-  return *std::max_element(largest.begin(), largest.end());
-}
+/// Largest magnitude, 0 of an empty vector; any number if one of them is not finite.
+[[nodiscard]] double largest_of(const Eigen::VectorXd& vector);
+[[nodiscard]] double sum_of_magnitudes(const Eigen::VectorXd& vector);
+[[nodiscard]] bool is_finite(const Eigen::VectorXd& vector);
+[[nodiscard]] double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-inline double sum_of_magnitudes(const Eigen::VectorXd& vector) {
-  return sum_of_stretches(vector.size(), [&](Eigen::Index begin, Eigen::Index length) {
-    return vector_loops().sum_of_magnitudes(vector.data() + begin, length);
-  });
-}
-
-/// Eigen's allFinite() looks at one number at a time.
-inline bool is_finite(const Eigen::VectorXd& vector) {
-  return sum_of_stretches(vector.size(), [&](Eigen::Index begin, Eigen::Index length) {
-           return vector_loops().sum_of_zeros(vector.data() + begin, length);
-         }) == 0.0;
-}
-
-inline double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return sum_of_stretches(a.size(), [&](Eigen::Index begin, Eigen::Index length) {
-    return vector_loops().dot(a.data() + begin, b.data() + begin, length);
-  });
-}
-
+/// Resizes to `size` entries of any value. A vector of several MiB asks the system for large pages, which it gets as
+/// they are written first: to provide and to clear pages of 4 KiB takes longer than a pass over their contents.
+void resize_unwritten(Eigen::VectorXd& vector, Eigen::Index size);
 /// target = vector + factor * step
-inline void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, double factor,
-                       const Eigen::VectorXd& step) {
-  resize_unwritten(target, vector.size());
-  for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    vector_loops().set_to_sum(target.data() + begin, vector.data() + begin, factor, step.data() + begin, length);
-  });
-}
-
+void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, double factor, const Eigen::VectorXd& step);
 /// target = vector
-inline void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector) {
-  resize_unwritten(target, vector.size());
-  for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    target.segment(begin, length) = vector.segment(begin, length);
-  });
-}
-
+void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector);
 /// Resizes to `size` zeros.
-inline void set_zero(Eigen::VectorXd& target, Eigen::Index size) {
-  resize_unwritten(target, size);
-  for_stretches(size,
-                [&](std::size_t, Eigen::Index begin, Eigen::Index length) { target.segment(begin, length).setZero(); });
-}
+void set_zero(Eigen::VectorXd& target, Eigen::Index size);
 
 }  // namespace dmocbench

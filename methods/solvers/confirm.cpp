@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/program/least_squares_multipliers.hpp"
 #include "methods/solvers/newton_correction.hpp"
 #include "methods/solvers/stop_rule.hpp"
 

@@ -38,41 +38,31 @@ class CountedProgram final : public NonlinearProgram {
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return program_.interval_structure(); }
 
   [[nodiscard]] double objective(const VectorIn& x) override {
-    const Count count(counts_.objective, seconds_);
-    return program_.objective(x);
+    double value = 0.0;
+    count(counts_.objective, [&] { value = program_.objective(x); });
+    return value;
   }
   void gradient(const VectorIn& x, VectorOut result) override {
-    const Count count(counts_.gradient, seconds_);
-    program_.gradient(x, result);
+    count(counts_.gradient, [&] { program_.gradient(x, result); });
   }
   void constraints(const VectorIn& x, VectorOut result) override {
-    const Count count(counts_.constraints, seconds_);
-    program_.constraints(x, result);
+    count(counts_.constraints, [&] { program_.constraints(x, result); });
   }
   void jacobian(const VectorIn& x, VectorOut values) override {
-    const Count count(counts_.jacobian, seconds_);
-    program_.jacobian(x, values);
+    count(counts_.jacobian, [&] { program_.jacobian(x, values); });
   }
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
-    const Count count(counts_.hessian, seconds_);
-    program_.hessian(x, objective_factor, multipliers, values);
+    count(counts_.hessian, [&] { program_.hessian(x, objective_factor, multipliers, values); });
   }
 
  private:
-  /// Counts one evaluation and adds its time when it ends, whether it returns or throws.
-  class Count {
-   public:
-    Count(int& count, double& seconds) : seconds_(seconds), begin_(Clock::now()) { ++count; }
-    ~Count() { seconds_ += seconds_since(begin_); }
-    Count(const Count&) = delete;
-    Count& operator=(const Count&) = delete;
-    Count(Count&&) = delete;
-    Count& operator=(Count&&) = delete;
-
-   private:
-    double& seconds_;
-    Clock::time_point begin_;
-  };
+  template <class Evaluation>
+  void count(int& calls, const Evaluation& evaluate) {
+    ++calls;
+    const Clock::time_point begin = Clock::now();
+    evaluate();
+    seconds_ += seconds_since(begin);
+  }
 
   NonlinearProgram& program_;
   EvaluationCounts counts_;

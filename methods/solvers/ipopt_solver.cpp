@@ -13,7 +13,6 @@
 #endif
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <map>
@@ -21,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/parsed.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
@@ -32,9 +32,11 @@ using Ipopt::Index;
 using Ipopt::Number;
 
 /// The largest and the mean magnitude of some vectors.
-class Magnitudes {
- public:
-  explicit Magnitudes(std::initializer_list<Ipopt::SmartPtr<const Ipopt::Vector>> vectors) {
+struct Magnitudes {
+  double largest = 0.0;
+  double mean = 0.0;
+
+  Magnitudes(std::initializer_list<Ipopt::SmartPtr<const Ipopt::Vector>> vectors) {
     Index count = 0;
     for (const auto& vector : vectors) {
       count += vector->Dim();
@@ -43,9 +45,6 @@ class Magnitudes {
     }
     mean /= std::max(count, 1);
   }
-
-  double largest = 0.0;
-  double mean = 0.0;
 };
 
 /// Whether an iterate of Ipopt meets our stopping rule. Ipopt's own test ignores rounding, so that on long grids it
@@ -191,13 +190,10 @@ Status status_of(Ipopt::ApplicationReturnStatus status) {
 
 /// Sets an option whose type only Ipopt knows: as an integer, a number or a string, whichever it takes.
 void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::string& value) {
-  const char* end = value.data() + value.size();
-  int whole = 0;
-  const auto as_whole = std::from_chars(value.data(), end, whole);
-  if (as_whole.ec == std::errc() && as_whole.ptr == end && list.SetIntegerValue(name, whole)) return;
-  double number = 0.0;
-  const auto as_number = std::from_chars(value.data(), end, number);
-  if (as_number.ec == std::errc() && as_number.ptr == end && list.SetNumericValue(name, number)) return;
+  const auto whole = parsed<int>(value);
+  if (whole && list.SetIntegerValue(name, *whole)) return;
+  const auto number = parsed<double>(value);
+  if (number && list.SetNumericValue(name, *number)) return;
   if (list.SetStringValue(name, value)) return;
   throw Error(fmt::format("Ipopt does not take the option {}={}", name, value));
 }

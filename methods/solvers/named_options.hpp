@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -8,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "methods/choose.hpp"
+
 namespace dmocbench {
 
 /// An option of one of our own solvers that a command line may give as text.
 struct NamedOption {
   std::string_view name;
-  std::vector<std::string_view> takes;           ///< the words it takes, for people
+  std::vector<std::string> takes;                ///< the words it takes, for people
   std::function<bool(const std::string&)> read;  ///< sets the typed option; false if the text is none of these
 };
 
@@ -21,16 +24,12 @@ struct NamedOption {
 template <class Choice>
 NamedOption named_option(std::string_view name, Choice& result,
                          const std::vector<std::pair<std::string_view, Choice>>& choices) {
-  NamedOption option{.name = name, .takes = {}, .read = [&result, choices](const std::string& text) {
-                       for (const auto& [word, choice] : choices) {
-                         if (text != word) continue;
-                         result = choice;
-                         return true;
-                       }
-                       return false;
-                     }};
-  for (const auto& [word, choice] : choices) option.takes.push_back(word);
-  return option;
+  constexpr auto word = &std::pair<std::string_view, Choice>::first;
+  return {.name = name, .takes = names_of(choices, word), .read = [&result, choices, word](const std::string& text) {
+            const auto found = std::ranges::find(choices, text, word);
+            if (found != choices.end()) result = found->second;
+            return found != choices.end();
+          }};
 }
 
 /// An option that is a whole number.

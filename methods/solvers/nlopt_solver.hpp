@@ -11,7 +11,7 @@ namespace dmocbench {
 /// Hessian. It takes our exact first derivatives and never asks for second ones.
 ///
 /// NLopt sees the free variables only, and a start moved into their bounds. SLSQP tests no KKT residual and gives no
-/// multipliers, so we estimate them wherever it asks for a gradient (least_squares_multipliers.hpp) and end the solve
+/// multipliers, so we estimate them wherever it asks for a gradient (`least_squares_multipliers`) and end the solve
 /// as soon as the KKT residual meets the tolerance; the point that came nearest to it is the answer. Where SLSQP makes
 /// no further progress it starts again from that point, as long as that helps. Its line search compares merits, so it
 /// stalls where they differ by rounding only: at a KKT residual of about the square root of rounding times curvature,

@@ -24,8 +24,8 @@ constexpr int order_is_given = 1;
 // Numbers of the manual, which counts from 1.
 constexpr int control(int number) { return number - 1; }
 
-bool is_singular(int info) { return info == -10 || info == -6; }
-bool lacks_workspace(int info) { return info == -8 || info == -9; }
+bool is_singular(int code) { return code == -10 || code == -6; }
+bool lacks_workspace(int code) { return code == -8 || code == -9; }
 
 }  // namespace
 
@@ -57,14 +57,20 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  int run(int job) {
-    data.job = job;
-    dmumps_c(&data);
-    return data.infog[control(1)];
-  }
-
-  [[noreturn]] static void fail(int info) {
-    throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", info));
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more. Throws `Error` otherwise.
+  bool run(int job) {
+    constexpr int most_workspace_percent = 10'000;
+    while (true) {
+      data.job = job;
+      dmumps_c(&data);
+      const int code = data.infog[control(1)];
+      if (code >= 0) return true;
+      if (is_singular(code)) return false;
+      if (!lacks_workspace(code) || data.icntl[control(14)] >= most_workspace_percent) {
+        throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
+      }
+      data.icntl[control(14)] *= 4;
+    }
   }
 
   /// True if the pattern differs from the one analysed.
@@ -91,8 +97,7 @@ struct SymmetricFactorisation::Mumps {
   }
 };
 
-SymmetricFactorisation::SymmetricFactorisation() : mumps_(std::make_unique<Mumps>()) {}
-SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : SymmetricFactorisation() {
+SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : mumps_(std::make_shared<Mumps>()) {
   constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
   for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
   if (positions.empty()) return;
@@ -100,27 +105,13 @@ SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions
   mumps_->data.icntl[control(14)] = more_workspace_percent;
   mumps_->data.perm_in = mumps_->positions.data();
 }
-SymmetricFactorisation::~SymmetricFactorisation() = default;
-SymmetricFactorisation::SymmetricFactorisation(SymmetricFactorisation&&) noexcept = default;
-SymmetricFactorisation& SymmetricFactorisation::operator=(SymmetricFactorisation&&) noexcept = default;
 
 bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower) {
   if (mumps_->read(lower)) {
-    const int info = mumps_->run(job_analyse);
-    if (is_singular(info)) return false;
-    if (info < 0) Mumps::fail(info);
-    mumps_->analysed = true;
+    mumps_->analysed = mumps_->run(job_analyse);
+    if (!mumps_->analysed) return false;
   }
-  constexpr int most_workspace_percent = 10'000;
-  int info = mumps_->run(job_factorise);
-  while (lacks_workspace(info) && mumps_->data.icntl[control(14)] < most_workspace_percent) {
-    mumps_->data.icntl[control(14)] *= 4;
-    info = mumps_->run(job_factorise);
-  }
-  if (is_singular(info)) return false;
-  if (info < 0) Mumps::fail(info);
-  const bool has_full_rank = mumps_->data.infog[control(28)] == 0;
-  return has_full_rank;
+  return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
 }
 
 Eigen::Index SymmetricFactorisation::negative_eigenvalues() const { return mumps_->data.infog[control(12)]; }
@@ -131,8 +122,7 @@ Eigen::VectorXd SymmetricFactorisation::solve(Eigen::VectorXd right_hand_side) {
   mumps_->data.rhs = right_hand_side.data();
   mumps_->data.nrhs = 1;
   mumps_->data.lrhs = static_cast<MUMPS_INT>(right_hand_side.size());
-  const int info = mumps_->run(job_solve);
-  if (info < 0) Mumps::fail(info);
+  static_cast<void>(mumps_->run(job_solve));
   return right_hand_side;
 }
 

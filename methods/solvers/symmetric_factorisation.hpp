@@ -11,15 +11,9 @@ namespace dmocbench {
 /// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS).
 class SymmetricFactorisation {
  public:
-  SymmetricFactorisation();
   /// Eliminates in a given order, which is kept: `positions` says for every row of the matrix when it is eliminated,
-  /// from 0 on. A row whose pivot is too small is postponed.
-  explicit SymmetricFactorisation(const std::vector<int>& positions);
-  ~SymmetricFactorisation();
-  SymmetricFactorisation(const SymmetricFactorisation&) = delete;
-  SymmetricFactorisation& operator=(const SymmetricFactorisation&) = delete;
-  SymmetricFactorisation(SymmetricFactorisation&&) noexcept;
-  SymmetricFactorisation& operator=(SymmetricFactorisation&&) noexcept;
+  /// from 0 on; empty to let MUMPS choose. A row whose pivot is too small is postponed.
+  explicit SymmetricFactorisation(const std::vector<int>& positions = {});
 
   /// Factorises the matrix whose lower triangle is given. False if it is singular. The order of elimination, if
   /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS
@@ -34,7 +28,7 @@ class SymmetricFactorisation {
 
  private:
   struct Mumps;
-  std::unique_ptr<Mumps> mumps_;
+  std::shared_ptr<Mumps> mumps_;  // a copy refers to the same factors
 };
 
 }  // namespace dmocbench

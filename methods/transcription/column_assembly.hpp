@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "methods/expression/tape.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
@@ -28,42 +29,60 @@ enum class AssemblyMode : std::uint8_t {
   part,   ///< columns are added to what is there
 };
 
-/// Puts columns of one value per interval together to one long array.
+/// How columns of one value per interval make up one long array: column e stands at places[e].
+struct AssemblyPlan {
+  std::vector<ColumnPlace> places;
+  std::size_t size = 0;       ///< length of the array
+  std::size_t intervals = 0;  ///< length of a column
+  AssemblyMode mode = AssemblyMode::whole;
+};
+
+/// Puts columns together to one long array.
 ///
 /// Where columns meet (the right end of one interval is the left end of the next, so one's `first` is one more than the
 /// other's) their values are added, and so are all values of a column with a shared place. Between `open` and `close`
-/// whoever computes the columns writes all of them.
+/// the caller writes all columns.
 class ColumnAssembly {
  public:
-  /// `size` is the length of the array, `intervals` that of a column. Throws `Error` if a column leaves the array.
-  ColumnAssembly(std::vector<ColumnPlace> places, std::size_t size, std::size_t intervals,
-                 AssemblyMode mode = AssemblyMode::whole);
+  /// Throws `Error` if a column leaves the array.
+  explicit ColumnAssembly(AssemblyPlan plan);
 
   /// Where the columns are to be written: most of them in `result` itself. Valid until the next call. Allocates
-  /// nothing. Throws `Error` if `result` has not `size` entries.
+  /// nothing. Throws `Error` if `result` does not have the length of the plan.
   [[nodiscard]] std::span<double* const> open(VectorOut& result);
-  /// Makes `result` whole, once every column has been written. Allocates nothing.
+  /// Completes `result`, once every column has been written. Allocates nothing.
   void close(VectorOut& result) const;
 
-  [[nodiscard]] std::size_t columns() const noexcept { return places_.size(); }
-  [[nodiscard]] std::size_t intervals() const noexcept { return intervals_; }
+  [[nodiscard]] std::size_t columns() const noexcept { return columns_.size(); }
+  [[nodiscard]] std::size_t intervals() const noexcept { return plan_.intervals; }
 
  private:
   struct Addition {
-    std::size_t column = 0;   // goes to a scratch column first
-    std::size_t scratch = 0;  // where that begins
-    ColumnPlace place;        // and is added from this entry on
+    std::size_t column = 0;   // is written to a scratch column
+    std::size_t scratch = 0;  // that begins here
   };
 
-  void add_later(std::size_t column);
-
-  std::vector<ColumnPlace> places_;
-  std::size_t size_;
-  std::size_t intervals_;
-  std::vector<Addition> additions_;
+  AssemblyPlan plan_;
+  std::vector<Addition> additions_;  // columns that are added at the end
   std::vector<std::size_t> zeros_;
   std::vector<double> scratch_;
   std::vector<double*> columns_;
+};
+
+/// A tape whose outputs are the columns of one long array.
+class AssembledTape {
+ public:
+  /// Throws `Error` if there is not one place per output, or a column leaves the array.
+  AssembledTape(const Schedule& schedule, AssemblyPlan plan);
+
+  /// Writes the whole array, or adds to it. Allocates nothing; long grids by several threads (parallel.hpp), with the
+  /// same result.
+  void evaluate(std::span<const Tape::Input> inputs, VectorOut result);
+
+ private:
+  Tape tape_;
+  std::vector<Tape::Workspace> workspaces_;  // one per thread's share of the intervals
+  ColumnAssembly assembly_;
 };
 
 }  // namespace dmocbench

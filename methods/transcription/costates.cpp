@@ -4,7 +4,6 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/transcription/columns.hpp"
 
 namespace dmocbench {
 
@@ -97,8 +96,8 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   const bool has_second = layout.node_state() != NodeState::configuration;
   const Eigen::Index node_size = has_second ? 2 * n : n;
 
-  const Eigen::MatrixXd adjoint = evaluate_columns(transcription.functions().node_adjoint, layout.intervals(),
-                                                   transcription.bind(primal, multipliers, 1.0));  // N × 2 node_size
+  const Eigen::MatrixXd adjoint =
+      transcription.tabulate(transcription.functions().adjoint, primal, multipliers);  // N × 2 node_size
   Eigen::MatrixXd at_nodes(intervals + 1, node_size);
   at_nodes.topRows(intervals) = adjoint.leftCols(node_size);
   at_nodes.row(intervals) = -adjoint.row(intervals - 1).rightCols(node_size);

@@ -3,13 +3,14 @@
 #include <array>
 
 #include "methods/choose.hpp"
-#ifdef DMOCBENCH_WITH_ADOLC
-#include "methods/transcription/adolc_derivatives.hpp"
-#endif
-#include "methods/transcription/assembled_tape.hpp"
 #include "methods/transcription/finite_differences.hpp"
 
 namespace dmocbench {
+
+#ifdef DMOCBENCH_WITH_ADOLC
+std::unique_ptr<DerivativeBackEnd> make_adolc_derivatives(const LocalFunctions& functions,
+                                                          const DerivativePlaces& places);  // adolc_derivatives.cpp
+#endif
 
 namespace {
 
@@ -17,12 +18,9 @@ namespace {
 class TapeDerivatives final : public DerivativeBackEnd {
  public:
   TapeDerivatives(const LocalFunctions& functions, const DerivativePlaces& places)
-      : gradient_(functions.gradient.schedule, places.gradient_places, places.gradient_size, places.intervals,
-                  places.mode),
-        jacobian_(functions.jacobian.schedule, places.jacobian_places, places.jacobian_size, places.intervals,
-                  places.mode),
-        hessian_(functions.hessian.schedule, places.hessian_places, places.hessian_size, places.intervals,
-                 places.mode) {}
+      : gradient_(functions.gradient.schedule, places.gradient),
+        jacobian_(functions.jacobian.schedule, places.jacobian),
+        hessian_(functions.hessian.schedule, places.hessian) {}
 
   void gradient(Inputs inputs, VectorOut result) override { gradient_.evaluate(inputs, result); }
   void jacobian(Inputs inputs, VectorOut values) override { jacobian_.evaluate(inputs, values); }
@@ -42,23 +40,21 @@ struct Entry {
   BackEndPtr (*make)(const LocalFunctions&, const DerivativePlaces&);
 };
 
-template <class Type>
-BackEndPtr make(const LocalFunctions& functions, const DerivativePlaces& places) {
-  return std::make_unique<Type>(functions, places);
+BackEndPtr make_tape(const LocalFunctions& functions, const DerivativePlaces& places) {
+  return std::make_unique<TapeDerivatives>(functions, places);
 }
 
 template <DifferenceKind kind>
 BackEndPtr make_differences(const LocalFunctions& functions, const DerivativePlaces& places) {
-  return std::make_unique<FiniteDifferences>(functions, places, kind);
+  return make_finite_differences(functions, places, kind);
 }
 
 // One line per back end, the default first.
 constexpr auto back_ends = std::to_array<Entry>({
-    {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all",
-     make<TapeDerivatives>},
+    {"tape", "exact: the formulas of one interval differentiated symbolically, evaluated for all", make_tape},
 #ifdef DMOCBENCH_WITH_ADOLC
     {"adolc", "exact: ADOL-C's drivers on the formulas of one interval, interval after interval",
-     make<AdolcDerivatives>},
+     make_adolc_derivatives},
 #endif
     {"finite_differences", "central differences of values, a local unknown of all intervals at once",
      make_differences<DifferenceKind::central>},

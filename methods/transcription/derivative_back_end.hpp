@@ -14,24 +14,18 @@
 
 namespace dmocbench {
 
-/// The places of a part's derivatives in the program's arrays: entry e of interval k at places[e].at(k) (see
-/// `ColumnAssembly`), entries in the order of `LocalFunctions::gradient`, `jacobian` and `hessian`.
+/// Where the derivatives of a part stand in the program's arrays, entries in the order of `LocalFunctions::gradient`,
+/// `jacobian` and `hessian`. All three have the same intervals and the same mode.
 struct DerivativePlaces {
-  std::size_t intervals = 0;
-  AssemblyMode mode = AssemblyMode::whole;
-  std::vector<ColumnPlace> gradient_places;
-  std::size_t gradient_size = 0;  ///< of the program's array
-  std::vector<ColumnPlace> jacobian_places;
-  std::size_t jacobian_size = 0;
-  std::vector<ColumnPlace> hessian_places;
-  std::size_t hessian_size = 0;
+  AssemblyPlan gradient;
+  AssemblyPlan jacobian;
+  AssemblyPlan hessian;
 };
 
-/// A way to differentiate the formulas of a part of a program: fills the program's arrays for all intervals of the
-/// part.
+/// A way to differentiate the formulas of a part of a program for all its intervals.
 ///
-/// All back ends fill the same entries, those that the formulas do not show to vanish for every motion, so that a
-/// solver sees the same program. Not to be used from two threads at once.
+/// All back ends fill the same entries, those that do not vanish structurally, so that a solver sees the same program.
+/// Not to be used from two threads at once.
 class DerivativeBackEnd {
  public:
   /// The inputs of all intervals in the order of `LocalInputs`; multipliers are read by `hessian` only.
@@ -43,11 +37,11 @@ class DerivativeBackEnd {
   DerivativeBackEnd(DerivativeBackEnd&&) = delete;
   DerivativeBackEnd& operator=(DerivativeBackEnd&&) = delete;
 
-  /// ∂cost/∂unknown; `result` has `gradient_size` entries.
+  /// ∂cost/∂unknown; `result` has `DerivativePlaces::gradient.size` entries.
   virtual void gradient(Inputs inputs, VectorOut result) = 0;
-  /// ∂row/∂unknown; `values` has `jacobian_size` entries.
+  /// ∂row/∂unknown; `values` has `DerivativePlaces::jacobian.size` entries.
   virtual void jacobian(Inputs inputs, VectorOut values) = 0;
-  /// ∂²ℓ/∂unknown², one triangle; `values` has `hessian_size` entries.
+  /// ∂²ℓ/∂unknown², one triangle; `values` has `DerivativePlaces::hessian.size` entries.
   virtual void hessian(Inputs inputs, VectorOut values) = 0;
 
  protected:

@@ -31,8 +31,8 @@ class Wording {
       const std::size_t nodes = layout_->intervals() + 1;
       return node_row(static_cast<Eigen::Index>(row / nodes), row % nodes);
     }
-    const std::size_t head = layout_->private_row_column(0);
-    if (row < layout_->private_row_column(shape.interval_rows())) {
+    const std::size_t head = layout_->interval_row_column(0);
+    if (row < layout_->interval_row_column(shape.interval_rows())) {
       const std::size_t column = (row - head) / layout_->intervals();
       return interval_row(static_cast<Eigen::Index>(column), (row - head) % layout_->intervals());
     }
@@ -127,7 +127,7 @@ class Wording {
       return fmt::format("boundary_conditions[{}]", row - first_condition);
     }
     const Place place = layout_->structure().rows[row];
-    const std::size_t head = layout_->private_row_column(layout_->shape().interval_rows());
+    const std::size_t head = layout_->interval_row_column(layout_->shape().interval_rows());
     const auto i = static_cast<Eigen::Index>(row - head) % n_;
     return "lagrangian: the momentum p = L_v of " + coordinate(i) + where(place);
   }
@@ -215,7 +215,7 @@ std::string describe_constraint(const Problem& problem, const Transcription& tra
   return Wording(problem, transcription, x).row(row);
 }
 
-std::string unknown_in_words(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
+std::string describe_unknown(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
                              std::size_t unknown) {
   return Wording(problem, transcription, x).unknown(unknown);
 }
@@ -231,7 +231,7 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   const bool is_unknown = std::isnan(unknown.amount) || unknown.amount > row.amount;
   const Worst worst = is_unknown ? unknown : row;
   if (worst.amount <= tolerance) return "";
-  std::string text = missed(is_unknown ? unknown_in_words(problem, transcription, x, worst.entry)
+  std::string text = missed(is_unknown ? describe_unknown(problem, transcription, x, worst.entry)
                                        : describe_constraint(problem, transcription, x, worst.entry),
                             worst.amount);
   if (std::isnan(worst.amount)) return text;

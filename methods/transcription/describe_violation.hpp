@@ -15,7 +15,7 @@ namespace dmocbench {
 /// entries), in the units of the problem as solved. `problem` is the one that was transcribed.
 [[nodiscard]] std::string describe_constraint(const Problem& problem, const Transcription& transcription,
                                               const Eigen::VectorXd& x, std::size_t row);
-[[nodiscard]] std::string unknown_in_words(const Problem& problem, const Transcription& transcription,
+[[nodiscard]] std::string describe_unknown(const Problem& problem, const Transcription& transcription,
                                            const Eigen::VectorXd& x, std::size_t unknown);
 
 /// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most

@@ -1,116 +1,97 @@
 #include "methods/transcription/guess_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/legendre_transform.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// A function of the problem and the number of its entries.
-struct Quantity {
-  std::string name;
-  Eigen::Index entries;
-};
+/// The beginning of a sentence about the guess at time t.
+std::string place_of(double t, const Problem& problem, const Grid& grid) {
+  const Eigen::VectorXd& nodes = grid.relative_times();
+  const auto above = std::upper_bound(nodes.begin(), nodes.end(), t / problem.horizon());
+  const auto interval = std::clamp<std::ptrdiff_t>(above - nodes.begin() - 1, 0, nodes.size() - 2);
+  return fmt::format("{}: at its guess in interval {} (t = {:g}) ", problem.name(), interval, t);
+}
 
-class GuessCheck {
- public:
-  GuessCheck(const Problem& problem, const TracedProblem& traced, const Grid& grid)
-      : problem_(&problem),
-        grid_(&grid),
-        n_(traced.configuration_size()),
-        quantities_{{"lagrangian by q (L_q)", n_},
-                    {"lagrangian by q̇ (L_v)", n_},
-                    {"force", n_},
-                    {"running_cost", 1},
-                    {"path_constraints", traced.path_constraint_count()}},
-        formulas_(n_, traced.control_size(),
-                  [&](const ControlledState& x) {
-                    const TracedProblem::Values values = traced.at(x);
-                    ExpressionVector all(3 * n_ + 1 + traced.path_constraint_count());
-                    all << values.configuration_force, values.momentum, values.control_force,
-                        ExpressionVector::Constant(1, values.running_cost), values.path_constraints;
-                    return all;
-                  }),
-        legendre_(traced) {}
+/// What is wrong with a point of the guess; empty if nothing is.
+std::string flaw_of(const MotionPoint& point, const TracedProblem& traced) {
+  const auto flaw_of_size = [](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
+    return part.size() == size ? "" : fmt::format("{} has {} entries, expected {}", name, part.size(), size);
+  };
+  const Eigen::Index n = traced.configuration_size();
+  std::string flaw = flaw_of_size("q", point.q, n);
+  if (flaw.empty()) flaw = flaw_of_size("v", point.v, n);
+  if (flaw.empty()) flaw = flaw_of_size("u", point.u, traced.control_size());
+  if (!flaw.empty()) return flaw;
+  const bool is_finite = point.q.allFinite() && point.v.allFinite() && point.u.allFinite();
+  return is_finite ? "" : "the guess itself is not a number";
+}
 
-  /// Checks the guess at time t.
-  void check_at(double t) {
-    const MotionPoint point = problem_->guess(t);
-    require_sizes(point, t);
-    Eigen::VectorXd values(formulas_.output_count());
-    formulas_.evaluate(point.q, point.v, point.u, t, values);
-    Eigen::Index first = 0;
-    for (const Quantity& quantity : quantities_) {
-      for (Eigen::Index i = first; i < first + quantity.entries; ++i) {
-        if (!std::isfinite(values[i])) {
-          throw Error(where(t) + quantity.name + entry(i - first, quantity.entries) + " is not a number");
-        }
-      }
-      first += quantity.entries;
-    }
-    measure(point.q, point.v, t);
-    if (!is_invertible(legendre_.mass(point.q, point.v, t))) {
-      throw Error(where(t) + "L_vv is singular, so the Lagrangian is not regular");
+/// The first formula that is not a number in a row of `TracedProblem::table`, with its entry; empty if there is none.
+std::string nan_in(const Eigen::VectorXd& values, const TracedProblem& traced) {
+  struct Formula {
+    const char* name;
+    Eigen::Index first;
+    Eigen::Index entries;
+  };
+  const Eigen::Index n = traced.configuration_size();
+  for (const Formula& formula : {Formula{"lagrangian by q (L_q)", n, n},
+                                 {"lagrangian by q̇ (L_v)", 0, n},
+                                 {"force", 2 * n, n},
+                                 {"running_cost", 3 * n, 1},
+                                 {"path_constraints", 3 * n + 1, traced.path_constraint_count()}}) {
+    for (Eigen::Index i = 0; i < formula.entries; ++i) {
+      if (std::isfinite(values[formula.first + i])) continue;
+      return formula.name + (formula.entries > 1 ? fmt::format("[{}]", i) : "");
     }
   }
-
-  /// Takes a state into account.
-  void measure(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
-    magnitudes_.largest_configuration = std::max(magnitudes_.largest_configuration, q.lpNorm<Eigen::Infinity>());
-    magnitudes_.largest_mass = std::max(magnitudes_.largest_mass, legendre_.mass(q, v, t).lpNorm<Eigen::Infinity>());
-  }
-
-  [[nodiscard]] const GuessMagnitudes& magnitudes() const { return magnitudes_; }
-
- private:
-  [[nodiscard]] std::string where(double t) const {
-    const Eigen::VectorXd& nodes = grid_->relative_times();
-    const auto above = std::upper_bound(nodes.begin(), nodes.end(), t / problem_->horizon());
-    const auto interval = std::clamp<std::ptrdiff_t>(above - nodes.begin() - 1, 0, nodes.size() - 2);
-    return fmt::format("{}: at its guess in interval {} (t = {:g}) ", problem_->name(), interval, t);
-  }
-  static std::string entry(Eigen::Index i, Eigen::Index entries) { return entries > 1 ? fmt::format("[{}]", i) : ""; }
-  void require_sizes(const MotionPoint& point, double t) const {
-    const auto require = [&](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
-      if (part.size() == size) return;
-      throw Error(where(t) + fmt::format("{} has {} entries, expected {}", name, part.size(), size));
-    };
-    require("q", point.q, n_);
-    require("v", point.v, n_);
-    require("u", point.u, problem_->control_size());
-    if (!point.q.allFinite() || !point.v.allFinite() || !point.u.allFinite()) {
-      throw Error(where(t) + "the guess itself is not a number");
-    }
-  }
-
-  const Problem* problem_;
-  const Grid* grid_;
-  Eigen::Index n_;
-  std::vector<Quantity> quantities_;
-  PointFunction formulas_;
-  LegendreTransform legendre_;
-  GuessMagnitudes magnitudes_;
-};
+  return "";
+}
 
 }  // namespace
 
 GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid) {
-  constexpr int points = 64;
-  GuessCheck check(problem, traced, grid);
+  constexpr int count = 64;
+  const Eigen::Index n = traced.configuration_size();
   const double horizon = problem.horizon();
-  check.measure(problem.initial_state().q, problem.initial_state().v, 0.0);
-  check.measure(problem.final_state().q, problem.final_state().v, horizon);
-  for (int i = 0; i < points; ++i) check.check_at(horizon * (i + 0.5) / points);
-  return check.magnitudes();
+  std::vector<MotionPoint> points;
+  Eigen::VectorXd times(count + 2);
+  for (int i = 0; i < count; ++i) {
+    times[i] = horizon * (i + 0.5) / count;
+    points.push_back(problem.guess(times[i]));
+    const std::string flaw = flaw_of(points.back(), traced);
+    if (!flaw.empty()) throw Error(place_of(times[i], problem, grid) + flaw);
+  }
+  times.tail(2) << 0.0, horizon;
+  for (const BoundaryState& end : {problem.initial_state(), problem.final_state()}) {
+    points.push_back({end.q, end.v, Eigen::VectorXd::Zero(traced.control_size())});
+  }
+
+  const Eigen::MatrixXd table = traced.table(points, times);
+  GuessMagnitudes magnitudes;
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    const Eigen::VectorXd values = table.row(i);
+    const Eigen::MatrixXd mass = values.segment(3 * n + 1 + traced.path_constraint_count(), n * n).reshaped(n, n);
+    const Eigen::VectorXd& q = points[static_cast<std::size_t>(i)].q;
+    magnitudes.largest_configuration = std::max(magnitudes.largest_configuration, q.lpNorm<Eigen::Infinity>());
+    magnitudes.largest_mass = std::max(magnitudes.largest_mass, mass.lpNorm<Eigen::Infinity>());
+    if (i >= count) continue;  // the ends are only measured
+    const std::string name = nan_in(values, traced);
+    if (!name.empty()) throw Error(place_of(times[i], problem, grid) + name + " is not a number");
+    if (!is_invertible(mass)) {
+      throw Error(place_of(times[i], problem, grid) + "L_vv is singular, so the Lagrangian is not regular");
+    }
+  }
+  return magnitudes;
 }
 
 }  // namespace dmocbench

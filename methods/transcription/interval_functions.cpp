@@ -1,7 +1,5 @@
 #include "methods/transcription/interval_functions.hpp"
 
-#include "methods/expression/derivatives.hpp"
-
 namespace dmocbench {
 
 namespace {
@@ -63,15 +61,13 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   const Expression cost = rules.mayer ? Expression(0.0) : running;
 
   IntervalFunctions functions;
-  static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns);
+  const Eigen::Index of_nodes = 2 * (unknowns.left_q.size() + unknowns.left_second.size());
+  static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns, of_nodes);
   functions.node_rows = trace.left_rows.size();
   functions.stage_equations = trace.stage_equations.size();
   functions.path_rows = path.size();
   functions.mayer = rules.mayer;
   functions.free_horizon = rules.free_horizon;
-  const Eigen::Index node_size = unknowns.left_q.size() + unknowns.left_second.size();
-  functions.node_adjoint =
-      Schedule(gradient(local_lagrangian(cost, rows, functions.inputs), input_vector(0, 2 * node_size)));
   functions.momenta = Schedule(stacked({trace.left_momentum, trace.right_momentum}));
   functions.stages = stage_table(trace.stages);
   return functions;

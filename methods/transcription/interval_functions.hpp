@@ -22,7 +22,8 @@ struct IntervalRules {
 /// Local unknowns: those of `IntervalUnknowns` in its order; in Mayer form z_k and z_{k+1}, the cost up to either node;
 /// T where it is free.
 /// Local constraints (rows): left and right terms and stage equations of the element; path constraints, which are not
-/// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost.
+/// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost. `adjoint`
+/// is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
   Eigen::Index node_rows = 0;
   Eigen::Index stage_equations = 0;  ///< those of the element
@@ -30,9 +31,8 @@ struct IntervalFunctions : LocalFunctions {
   bool mayer = false;
   bool free_horizon = false;
 
-  Schedule node_adjoint;  ///< ∂ℓ/∂(left node), then ∂ℓ/∂(right node)
-  Schedule momenta;       ///< left momentum, then right momentum
-  Schedule stages;        ///< per stage: Q_i, Q̇_i, t_i
+  Schedule momenta;  ///< left momentum, then right momentum
+  Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i
 };
 
 [[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element,

@@ -59,7 +59,7 @@ void Layout::place_interval() {
     for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_column(i) + right);
   }
   for (Eigen::Index i = 0; i < (shape_.stages - 1) * node_columns(); ++i) {
-    unknown_places_.emplace_back(slope_q_column(0, i));
+    unknown_places_.emplace_back(rate_column(0, i));
   }
   for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
     for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_column(stage, i));
@@ -69,7 +69,7 @@ void Layout::place_interval() {
     unknown_places_.emplace_back(cost_column_ + 1);
   }
   if (shape_.free_horizon) unknown_places_.emplace_back(horizon(), true);
-  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(private_row_column(i));
+  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(interval_row_column(i));
 }
 
 void Layout::place_ends() {
@@ -105,19 +105,19 @@ std::size_t Layout::second_column(Eigen::Index i) const noexcept {
   return configuration_column(shape_.configuration_size + i);
 }
 
-std::size_t Layout::slope_q_column(Eigen::Index stage, Eigen::Index i) const noexcept {
+std::size_t Layout::rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
   return configuration_column(node_columns()) +
          static_cast<std::size_t>(stage * shape_.configuration_size + i) * shape_.intervals;
 }
 
-std::size_t Layout::slope_y_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  return slope_q_column(shape_.stages - 1 + stage, i);
+std::size_t Layout::second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
+  return rate_column(shape_.stages - 1 + stage, i);
 }
 
 std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noexcept {
   const Eigen::Index m = shape_.control_size;
   const Eigen::Index slopes = (shape_.node_state == NodeState::configuration ? 1 : 2) * (shape_.stages - 1);
-  const std::size_t head = slope_q_column(slopes, 0);
+  const std::size_t head = rate_column(slopes, 0);
   if (!shape_.shares_controls) return head + static_cast<std::size_t>(stage * m + i) * shape_.intervals;
   if (stage == 0) return head + static_cast<std::size_t>(i) * (shape_.intervals + 1);
   if (stage == shape_.stages - 1) return control_column(0, i) + 1;
@@ -126,7 +126,7 @@ std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noe
 
 std::size_t Layout::node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
 
-std::size_t Layout::private_row_column(Eigen::Index i) const noexcept {
+std::size_t Layout::interval_row_column(Eigen::Index i) const noexcept {
   return node_row_column(shape_.node_rows) + static_cast<std::size_t>(i) * shape_.intervals;
 }
 

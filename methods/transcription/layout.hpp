@@ -59,12 +59,12 @@ class Layout {
   // Heads of columns. A node column has N + 1 entries, an interval column N.
   [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t second_column(Eigen::Index i) const noexcept;  ///< of p_i or v_i
-  [[nodiscard]] std::size_t slope_q_column(Eigen::Index stage, Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t slope_y_column(Eigen::Index stage, Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t rate_column(Eigen::Index stage, Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t control_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t cost_column() const noexcept { return cost_column_; }  ///< of z, in Mayer form
   [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t private_row_column(Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t interval_row_column(Eigen::Index i) const noexcept;
 
   // Single unknowns, where they are there.
   [[nodiscard]] std::size_t first_velocity(Eigen::Index i) const noexcept;

@@ -1,5 +1,7 @@
 #include "methods/transcription/local_functions.hpp"
 
+#include <span>
+
 #include "methods/expression/derivatives.hpp"
 
 namespace dmocbench {
@@ -35,25 +37,23 @@ LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle) {
 
 }  // namespace
 
-Expression local_lagrangian(const Expression& cost, const ExpressionVector& rows, const LocalInputs& inputs) {
-  Expression lagrangian = Expression::input(inputs.objective_factor()) * cost;
-  for (std::size_t r = 0; r < inputs.rows; ++r) {
-    lagrangian += Expression::input(inputs.multiplier(r)) * rows[static_cast<Eigen::Index>(r)];
-  }
-  return lagrangian;
-}
-
-LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns) {
+LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns,
+                             Eigen::Index adjoint_size) {
   LocalFunctions functions;
   functions.inputs = {.unknowns = unknowns, .rows = static_cast<std::size_t>(rows.size())};
   const ExpressionVector z = input_vector(0, static_cast<Eigen::Index>(unknowns));
-  const Expression lagrangian = local_lagrangian(cost, rows, functions.inputs);
-  functions.cost = Schedule(std::vector<Expression>{cost});
+  Expression lagrangian = Expression::input(functions.inputs.objective_factor()) * cost;
+  for (Eigen::Index r = 0; r < rows.size(); ++r) {
+    lagrangian += Expression::input(functions.inputs.multiplier(static_cast<std::size_t>(r))) * rows[r];
+  }
+  functions.cost = Schedule(std::span(&cost, 1));
   functions.gradient = nonzeros(gradient(cost, z));
   functions.rows = nonzeros(rows);
   functions.jacobian = nonzeros(jacobian(rows, z), false);
-  functions.lagrangian = Schedule(std::vector<Expression>{lagrangian});
-  functions.hessian = nonzeros(hessian(lagrangian, z), true);
+  functions.lagrangian = Schedule(std::span(&lagrangian, 1));
+  const ExpressionVector lagrangian_gradient = gradient(lagrangian, z);
+  functions.hessian = nonzeros(symmetric_jacobian(lagrangian_gradient, z), true);
+  functions.adjoint = Schedule(ExpressionVector(lagrangian_gradient.head(adjoint_size)));
   return functions;
 }
 

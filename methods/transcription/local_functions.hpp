@@ -47,14 +47,13 @@ struct LocalFunctions {
   LocalMatrix jacobian;  ///< ∂row/∂unknown
   Schedule lagrangian;   ///< ℓ, one output
   LocalMatrix hessian;   ///< ∂²ℓ/∂unknown², lower triangle
+  Schedule adjoint;      ///< ∂ℓ/∂unknown, of the first unknowns alone
 };
 
-/// ℓ of a cost and its rows; `inputs` holds the numbers of unknowns and rows.
-[[nodiscard]] Expression local_lagrangian(const Expression& cost, const ExpressionVector& rows,
-                                          const LocalInputs& inputs);
-
-/// Cost and rows, functions of the first `unknowns` inputs, with all their derivatives.
-[[nodiscard]] LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns);
+/// Cost and rows, functions of the first `unknowns` inputs, with all their derivatives; `adjoint` has `adjoint_size`
+/// outputs.
+[[nodiscard]] LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns,
+                                           Eigen::Index adjoint_size = 0);
 
 /// One vector below the other.
 [[nodiscard]] ExpressionVector stacked(const std::vector<ExpressionVector>& parts);

@@ -4,28 +4,16 @@
 
 namespace dmocbench {
 
-namespace {
-
-/// The places of those rows that are not zero for every motion.
-std::vector<ColumnPlace> rows_there(const LocalFunctions& functions, const PartPlaces& places) {
-  std::vector<ColumnPlace> there;
-  there.reserve(functions.rows.places.size());
-  for (const std::size_t row : functions.rows.places) there.push_back(places.rows[row]);
-  return there;
-}
-
-}  // namespace
-
 ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
                          const Eigen::VectorXd& times, std::string_view derivatives)
     : numbers_(functions.inputs),
-      places_(std::move(places)),
+      unknown_places_(std::move(places.unknowns)),
+      row_places_(std::move(places.rows)),
       inputs_(functions.inputs.count()),
-      cost_(functions.cost, {0}, places_.derivatives.intervals, places_.derivatives.intervals),
-      rows_(functions.rows.schedule, rows_there(functions, places_), places_.row_count, places_.derivatives.intervals,
-            places_.derivatives.mode),
-      derivatives_(make_derivative_back_end(derivatives, functions, places_.derivatives)),
-      costs_(static_cast<Eigen::Index>(places_.derivatives.intervals)) {
+      cost_(functions.cost, {{0}, places.constraints.intervals, places.constraints.intervals}),
+      rows_(functions.rows.schedule, places.constraints),
+      derivatives_(make_derivative_back_end(derivatives, functions, places.derivatives)),
+      costs_(static_cast<Eigen::Index>(places.constraints.intervals)) {
   inputs_[numbers_.step()] = {steps.data(), false};
   inputs_[numbers_.time()] = {times.data(), false};
   inputs_[numbers_.objective_factor()] = {&objective_factor_, true};
@@ -34,11 +22,11 @@ ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, con
 std::span<const Tape::Input> ProgramPart::bind(const VectorIn& x, const VectorIn& multipliers,
                                                double objective_factor) {
   for (std::size_t a = 0; a < numbers_.unknowns; ++a) {
-    inputs_[a] = {x.data() + places_.unknowns[a].first, places_.unknowns[a].shared};
+    inputs_[a] = {x.data() + unknown_places_[a].first, unknown_places_[a].shared};
   }
   objective_factor_ = objective_factor;
   for (std::size_t r = 0; r < numbers_.rows && multipliers.size() > 0; ++r) {
-    inputs_[numbers_.multiplier(r)] = {multipliers.data() + places_.rows[r].first, false};
+    inputs_[numbers_.multiplier(r)] = {multipliers.data() + row_places_[r].first, false};
   }
   return inputs_;
 }

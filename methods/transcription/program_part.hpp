@@ -8,17 +8,18 @@
 
 #include <Eigen/Core>
 
-#include "methods/transcription/assembled_tape.hpp"
+#include "methods/transcription/column_assembly.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/local_functions.hpp"
 
 namespace dmocbench {
 
-/// Where the unknowns and rows of a part stand in the program's vectors, and its derivatives in the program's arrays.
+/// Where the unknowns and constraints (rows) of a part stand in the program's vectors, and how its values and
+/// derivatives make up the program's arrays.
 struct PartPlaces {
   std::vector<ColumnPlace> unknowns;
-  std::vector<ColumnPlace> rows;
-  std::size_t row_count = 0;
+  std::vector<ColumnPlace> rows;  ///< all local rows
+  AssemblyPlan constraints;       ///< entries in the order of `LocalFunctions::rows`
   DerivativePlaces derivatives;
 };
 
@@ -43,7 +44,7 @@ class ProgramPart {
                                                   double objective_factor);
 
   [[nodiscard]] double cost(const VectorIn& x);
-  // What these write, or add to, are the program's whole arrays.
+  // These write the program's whole arrays, or add to them.
   void rows(const VectorIn& x, const VectorOut& result);
   void gradient(const VectorIn& x, const VectorOut& result);
   void jacobian(const VectorIn& x, const VectorOut& values);
@@ -51,7 +52,8 @@ class ProgramPart {
 
  private:
   LocalInputs numbers_;
-  PartPlaces places_;
+  std::vector<ColumnPlace> unknown_places_;
+  std::vector<ColumnPlace> row_places_;
   double objective_factor_ = 1.0;
   Eigen::VectorXd no_multipliers_;
   std::vector<Tape::Input> inputs_;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
 
@@ -80,10 +83,10 @@ class Sampler {
 
   void sample_rates(const MotionPoint& at_stage, Eigen::Index stage, Eigen::Index k, double h) {
     for (Eigen::Index i = 0; i < at_stage.v.size(); ++i) {
-      entry(layout_->slope_q_column(stage, i), k) = at_stage.v[i];
+      entry(layout_->rate_column(stage, i), k) = at_stage.v[i];
       if (layout_->node_state() == NodeState::configuration) continue;
       const std::size_t column = layout_->second_column(i);
-      entry(layout_->slope_y_column(stage, i), k) = (entry(column, k + 1) - entry(column, k)) / h;
+      entry(layout_->second_rate_column(stage, i), k) = (entry(column, k + 1) - entry(column, k)) / h;
     }
   }
 
@@ -91,7 +94,7 @@ class Sampler {
   void sum_costs() {
     Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription_->constraint_count()));
     transcription_->constraints(x_, rows);  // z_{k+1} - z_k - cost, with every z = 0
-    const std::size_t row = layout_->private_row_column(layout_->shape().interval_rows() - 1);
+    const std::size_t row = layout_->interval_row_column(layout_->shape().interval_rows() - 1);
     for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout_->intervals()); ++k) {
       entry(layout_->cost_column(), k + 1) =
           entry(layout_->cost_column(), k) - rows[static_cast<Eigen::Index>(row) + k];
@@ -110,6 +113,36 @@ class Sampler {
   Eigen::VectorXd x_;
 };
 
+void require_same_grid(const Transcription& transcription, const Trajectory& trajectory) {
+  const Eigen::VectorXd& times = trajectory.node_times;
+  const double horizon = transcription.has_free_horizon() ? times[times.size() - 1] : transcription.guessed_horizon();
+  const Eigen::VectorXd& relative = transcription.grid().relative_times();
+  const bool same_size = times.size() == relative.size() && trajectory.stages() == transcription.tableau().stages();
+  if (!same_size || times != horizon * relative) {
+    throw Error("a trajectory can only be embedded in a transcription with the same grid and tableau");
+  }
+}
+
+/// Ṗ_i or V̇_i at all stages, in the order of the trajectory's stage tables.
+Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
+  EquationsOfMotion motion(traced);
+  PointFunction force(traced.configuration_size(), traced.control_size(),
+                      [&](const ControlledState& x) { return traced.at(x).generalised_force; });
+  Eigen::MatrixXd rates(trajectory.stage_q.rows(), trajectory.stage_q.cols());
+  Eigen::VectorXd rate(rates.cols());
+  for (Eigen::Index row = 0; row < rates.rows(); ++row) {
+    const MotionPoint stage = trajectory.stage(row);
+    if (node_state == NodeState::momentum) {
+      force.evaluate(stage, trajectory.stage_times[row], rate);
+    } else {
+      rate = motion.acceleration(stage.q, stage.v, stage.u, trajectory.stage_times[row]);
+    }
+    rates.row(row) = rate.transpose();
+  }
+  return rates;
+}
+
 }  // namespace
 
 Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
@@ -118,6 +151,43 @@ Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
 
 Motion guessed_motion(const Problem& problem) {
   return {[&problem](double t) { return problem.guess(t); }, problem.horizon()};
+}
+
+Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription, const Trajectory& trajectory) {
+  require_same_grid(transcription, trajectory);
+  const Layout& layout = transcription.layout();
+  const NodeState node_state = layout.node_state();
+  const Eigen::Index nodes = trajectory.q.rows();
+  Eigen::VectorXd x(static_cast<Eigen::Index>(transcription.variable_count()));
+  const auto set = [&](std::size_t column, const auto& values) {
+    x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
+  };
+  /// The rows of stage i in a stage table.
+  const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, nodes - 1, trajectory.stages()); };
+  for (Eigen::Index c = 0; c < trajectory.q.cols(); ++c) {
+    set(layout.configuration_column(c), trajectory.q.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set(layout.rate_column(i, c), trajectory.stage_v(rows_of(i), c));
+    }
+  }
+  for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
+    for (Eigen::Index i = 0; i < layout.stages(); ++i) {
+      set(layout.control_column(i, c), trajectory.stage_u(rows_of(i), c));
+    }
+  }
+  if (layout.shape().first_has_velocity) set(layout.first_velocity(0), trajectory.v.row(0).transpose());
+  if (layout.shape().last_has_velocity) set(layout.last_velocity(0), trajectory.v.row(nodes - 1).transpose());
+  if (transcription.has_free_horizon()) set(layout.horizon(), trajectory.node_times.tail<1>());
+  if (node_state == NodeState::configuration) return x;
+  const Eigen::MatrixXd rates = second_rates(problem, node_state, trajectory);
+  const Eigen::MatrixXd& second = node_state == NodeState::momentum ? trajectory.p : trajectory.v;
+  for (Eigen::Index c = 0; c < second.cols(); ++c) {
+    set(layout.second_column(c), second.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set(layout.second_rate_column(i, c), rates(rows_of(i), c));
+    }
+  }
+  return x;
 }
 
 }  // namespace dmocbench

@@ -4,6 +4,7 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
@@ -16,5 +17,13 @@ namespace dmocbench {
 
 /// The problem's own guess as a motion. The problem must outlive it.
 [[nodiscard]] Motion guessed_motion(const Problem& problem);
+
+/// A trajectory of any method in the unknowns of a transcription on the same grid with the same tableau: nodes q with p
+/// or v, interior rates Q̇_j with Ṗ_j = (L_q + f)(stage j) or V̇_j from the equations of
+/// motion, controls; where they are unknowns, velocities of the ends and the horizon. Nothing is moved to meet bounds
+/// or constraints: the residuals of the constraints show how far two methods agree (th:equi). For the Bolza form.
+/// Throws `Error` if grid or stages differ.
+[[nodiscard]] Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription,
+                                    const Trajectory& trajectory);
 
 }  // namespace dmocbench

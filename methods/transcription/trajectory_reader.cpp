@@ -4,7 +4,6 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/columns.hpp"
 #include "methods/transcription/costates.hpp"
 
 namespace dmocbench {
@@ -13,8 +12,7 @@ namespace {
 
 /// The forced discrete Legendre transforms at all nodes.
 Eigen::MatrixXd read_momenta(Transcription& transcription, const Eigen::VectorXd& primal, Eigen::Index n) {
-  const Eigen::MatrixXd sides = evaluate_columns(transcription.functions().momenta, transcription.layout().intervals(),
-                                                 transcription.bind(primal, Eigen::VectorXd(), 1.0));
+  const Eigen::MatrixXd sides = transcription.tabulate(transcription.functions().momenta, primal);
   Eigen::MatrixXd p(sides.rows() + 1, n);
   p.topRows(sides.rows()) = sides.leftCols(n);
   p.row(sides.rows()) = sides.row(sides.rows() - 1).rightCols(n);
@@ -26,8 +24,7 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   const Eigen::Index n = transcription.traced_problem().configuration_size();
   const Eigen::Index m = transcription.traced_problem().control_size();
   const Eigen::Index s = layout.stages();
-  const Eigen::MatrixXd table = evaluate_columns(transcription.functions().stages, layout.intervals(),
-                                                 transcription.bind(primal, Eigen::VectorXd(), 1.0));
+  const Eigen::MatrixXd table = transcription.tabulate(transcription.functions().stages, primal);
   const Eigen::Index rows = table.rows() * s;
   trajectory.stage_times.resize(rows);
   trajectory.stage_q.resize(rows, n);

@@ -94,11 +94,39 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
   // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
+  std::vector<ColumnPlace> end_jacobian;
+  std::vector<ColumnPlace> end_hessian;
+  const std::vector<ColumnPlace>& end_unknowns = layout_.end_unknown_places();
+  const std::vector<ColumnPlace>& end_rows = layout_.end_row_places();
   if (end_functions_) {
-    PartPlaces places = end_places(*end_functions_);
-    ends_ = std::make_unique<ProgramPart>(*end_functions_, std::move(places), step_inputs_, time_inputs_, derivatives);
+    end_jacobian =
+        extend_pattern(jacobian_pattern_.pattern, jacobian_entries(*end_functions_, end_rows, end_unknowns, 1));
+    end_hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(*end_functions_, end_unknowns, 1));
   }
-  intervals_ = std::make_unique<ProgramPart>(functions_, interval_places(), step_inputs_, time_inputs_, derivatives);
+  add_part(functions_, layout_.unknown_places(), layout_.row_places(), jacobian_pattern_.places,
+           hessian_pattern_.places, derivatives);
+  if (end_functions_) add_part(*end_functions_, end_unknowns, end_rows, end_jacobian, end_hessian, derivatives);
+}
+
+void Transcription::add_part(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                             const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
+                             const std::vector<ColumnPlace>& hessian, std::string_view derivatives) {
+  const bool has_ends_only = !parts_.empty();
+  const auto plan = [&](std::vector<ColumnPlace> places, std::size_t size) {
+    return AssemblyPlan{.places = std::move(places),
+                        .size = size,
+                        .intervals = has_ends_only ? 1 : layout_.intervals(),
+                        .mode = has_ends_only ? AssemblyMode::part : AssemblyMode::whole};
+  };
+  PartPlaces places{
+      .unknowns = unknowns,
+      .rows = rows,
+      .constraints = plan(pick(rows, functions.rows.places), layout_.row_count()),
+      .derivatives = {.gradient = plan(pick(unknowns, functions.gradient.places), layout_.variable_count()),
+                      .jacobian = plan(jacobian, jacobian_pattern_.pattern.size()),
+                      .hessian = plan(hessian, hessian_pattern_.pattern.size())}};
+  parts_.push_back(
+      std::make_unique<ProgramPart>(functions, std::move(places), step_inputs_, time_inputs_, derivatives));
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {
@@ -134,67 +162,45 @@ long long Transcription::fixed_variables_of_an_interval() const {
   return std::ranges::count_if(layout_.structure().unknowns.runs(), is_fixed);
 }
 
-PartPlaces Transcription::interval_places() const {
-  return {.unknowns = layout_.unknown_places(),
-          .rows = layout_.row_places(),
-          .row_count = layout_.row_count(),
-          .derivatives = {.intervals = layout_.intervals(),
-                          .mode = AssemblyMode::whole,
-                          .gradient_places = pick(layout_.unknown_places(), functions_.gradient.places),
-                          .gradient_size = layout_.variable_count(),
-                          .jacobian_places = jacobian_pattern_.places,
-                          .jacobian_size = jacobian_pattern_.pattern.size(),
-                          .hessian_places = hessian_pattern_.places,
-                          .hessian_size = hessian_pattern_.pattern.size()}};
-}
-
-PartPlaces Transcription::end_places(const EndFunctions& functions) {
-  const std::vector<ColumnPlace>& unknowns = layout_.end_unknown_places();
-  const std::vector<ColumnPlace>& rows = layout_.end_row_places();
-  const auto jacobian = extend_pattern(jacobian_pattern_.pattern, jacobian_entries(functions, rows, unknowns, 1));
-  const auto hessian = extend_pattern(hessian_pattern_.pattern, hessian_entries(functions, unknowns, 1));
-  return {.unknowns = unknowns,
-          .rows = rows,
-          .row_count = layout_.row_count(),
-          .derivatives = {.intervals = 1,
-                          .mode = AssemblyMode::part,
-                          .gradient_places = pick(unknowns, functions.gradient.places),
-                          .gradient_size = layout_.variable_count(),
-                          .jacobian_places = jacobian,
-                          .jacobian_size = jacobian_pattern_.pattern.size(),
-                          .hessian_places = hessian,
-                          .hessian_size = hessian_pattern_.pattern.size()}};
-}
-
 double Transcription::horizon(const VectorIn& x) const {
   return has_free_horizon() ? x[static_cast<Eigen::Index>(layout_.horizon())] : guessed_horizon_;
 }
 
 std::span<const Tape::Input> Transcription::bind(const VectorIn& x, const VectorIn& multipliers,
                                                  double objective_factor) {
-  return intervals_->bind(x, multipliers, objective_factor);
+  return parts_.front()->bind(x, multipliers, objective_factor);
 }
 
-double Transcription::objective(const VectorIn& x) { return intervals_->cost(x) + (ends_ ? ends_->cost(x) : 0.0); }
+Eigen::MatrixXd Transcription::tabulate(const Schedule& schedule, const VectorIn& x, const VectorIn& multipliers) {
+  const Tape tape(schedule);
+  Tape::Workspace workspace(tape);
+  Eigen::MatrixXd table(grid_.relative_widths().size(), static_cast<Eigen::Index>(tape.output_count()));
+  std::vector<double*> outputs;
+  for (auto column : table.colwise()) outputs.push_back(column.data());
+  tape.evaluate(layout_.intervals(), bind(x, multipliers, 1.0), outputs, workspace);
+  return table;
+}
+
+double Transcription::objective(const VectorIn& x) {
+  double cost = 0.0;
+  for (const auto& part : parts_) cost += part->cost(x);
+  return cost;
+}
 
 void Transcription::gradient(const VectorIn& x, VectorOut result) {
-  intervals_->gradient(x, result);
-  if (ends_) ends_->gradient(x, result);
+  for (const auto& part : parts_) part->gradient(x, result);
 }
 
 void Transcription::constraints(const VectorIn& x, VectorOut result) {
-  intervals_->rows(x, result);
-  if (ends_) ends_->rows(x, result);
+  for (const auto& part : parts_) part->rows(x, result);
 }
 
 void Transcription::jacobian(const VectorIn& x, VectorOut values) {
-  intervals_->jacobian(x, values);
-  if (ends_) ends_->jacobian(x, values);
+  for (const auto& part : parts_) part->jacobian(x, values);
 }
 
 void Transcription::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) {
-  intervals_->hessian(x, objective_factor, multipliers, values);
-  if (ends_) ends_->hessian(x, objective_factor, multipliers, values);
+  for (const auto& part : parts_) part->hessian(x, objective_factor, multipliers, values);
 }
 
 }  // namespace dmocbench

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -93,13 +94,18 @@ class Transcription final : public NonlinearProgram {
   /// reads them. Valid until the next call.
   [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
                                                   double objective_factor);
+  /// The outputs of a schedule with these inputs (`functions()` has several) for all intervals: row k for interval k, a
+  /// column per output. For results that are computed once after a solve.
+  [[nodiscard]] Eigen::MatrixXd tabulate(const Schedule& schedule, const VectorIn& x,
+                                         const VectorIn& multipliers = Eigen::VectorXd());
 
  private:
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] long long fixed_variables_of_an_interval() const;
-  [[nodiscard]] PartPlaces interval_places() const;
-  /// Extends the patterns by the entries of the ends.
-  [[nodiscard]] PartPlaces end_places(const EndFunctions& functions);
+  /// Sets up the intervals at the first call, the ends at the second; the patterns must be complete.
+  void add_part(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
+                const std::vector<ColumnPlace>& hessian, std::string_view derivatives);
 
   Tableau tableau_;
   Grid grid_;
@@ -117,8 +123,7 @@ class Transcription final : public NonlinearProgram {
   Eigen::VectorXd time_inputs_;
   AssembledPattern jacobian_pattern_;
   AssembledPattern hessian_pattern_;
-  std::unique_ptr<ProgramPart> intervals_;
-  std::unique_ptr<ProgramPart> ends_;  // null if the ends add nothing
+  std::vector<std::unique_ptr<ProgramPart>> parts_;  // the intervals; the ends, unless they add nothing
 };
 
 }  // namespace dmocbench

@@ -1,4 +1,4 @@
-#include "bench/summary/equal_accuracy.hpp"
+#include "bench/summary/ratios.hpp"
 
 #include <gtest/gtest.h>
 

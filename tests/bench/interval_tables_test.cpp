@@ -1,4 +1,4 @@
-#include "bench/speed/interval_tables.hpp"
+#include "bench/speed/speed_tables.hpp"
 
 #include <string>
 

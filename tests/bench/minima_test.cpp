@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/perturbed_guess.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {

@@ -1,4 +1,4 @@
-#include "bench/speed/solve_tables.hpp"
+#include "bench/speed/speed_tables.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-#include "methods/diagnostics/control_hamiltonian.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 
 #include <cmath>
 

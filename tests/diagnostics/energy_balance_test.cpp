@@ -1,4 +1,4 @@
-#include "methods/diagnostics/energy_balance.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 
 #include <cmath>
 

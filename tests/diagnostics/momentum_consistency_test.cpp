@@ -1,4 +1,4 @@
-#include "methods/diagnostics/momentum_consistency.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 
 #include <gtest/gtest.h>
 

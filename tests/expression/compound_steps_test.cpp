@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/expression/instruction_code.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"
 

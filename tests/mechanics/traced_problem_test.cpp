@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,34 @@ TEST(TracedProblem, ForcesAndCostAreTheProblemsOwn) {
     for (Eigen::Index i = 0; i < force.size(); ++i) {
       EXPECT_TRUE(values.control_force[i].is_same(force[i])) << problem->name();
       EXPECT_TRUE(values.generalised_force[i].is_same(values.configuration_force[i] + force[i]));
+    }
+  }
+}
+
+TEST(TracedProblem, TheTableHoldsTheFormulasAtEveryPoint) {
+  constexpr double tolerance = 1e-14;
+  tests::RandomPoints random;
+  for (const auto& problem : tests::problems()) {
+    SCOPED_TRACE(problem->name());
+    const TracedProblem traced(*problem);
+    const Eigen::Index n = traced.configuration_size();
+    const Eigen::Index m = traced.control_size();
+    const TracedProblem::Values values = traced.at(inputs(n, m));
+    ExpressionVector formulas(3 * n + 1 + traced.path_constraint_count() + n * n);
+    formulas << values.momentum, values.configuration_force, values.control_force,
+        ExpressionVector::Constant(1, values.running_cost), values.path_constraints, values.mass.reshaped();
+    std::vector<MotionPoint> points;
+    for (int i = 0; i < 3; ++i) {
+      points.push_back({random.vector(n, 0.4, 0.7), random.vector(n, 0.4, 0.7), random.vector(m, 0.4, 0.7)});
+    }
+    const Eigen::VectorXd times = random.vector(3, 0.4, 0.7);
+    const Eigen::MatrixXd table = traced.table(points, times);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const MotionPoint& point = points[static_cast<std::size_t>(i)];
+      LongVector numbers(2 * n + m + 1);
+      numbers << point.q.cast<Long>(), point.v.cast<Long>(), point.u.cast<Long>(), static_cast<Long>(times[i]);
+      const LongVector row = table.row(i).head(formulas.size()).transpose().cast<Long>();
+      EXPECT_LT(distance(row, evaluate(formulas, numbers)), tolerance);
     }
   }
 }

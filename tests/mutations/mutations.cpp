@@ -60,16 +60,16 @@ class MutantElement final : public Element {
 class LosesAMergedEntry final : public DerivativeBackEnd {
  public:
   LosesAMergedEntry(std::string_view name, const LocalFunctions& functions, DerivativePlaces places)
-      : size_(static_cast<Eigen::Index>(places.hessian_size)) {
+      : size_(static_cast<Eigen::Index>(places.hessian.size)) {
     // The entry is written behind the others instead, where nobody reads it.
-    std::vector<ColumnPlace>& entries = places.hessian_places;
+    std::vector<ColumnPlace>& entries = places.hessian.places;
     for (ColumnPlace& place : entries) {
       if (place.shared || std::count(entries.begin(), entries.end(), ColumnPlace(place.first + 1)) == 0) continue;
-      place = places.hessian_size;
-      places.hessian_size += places.intervals;
+      place = places.hessian.size;
+      places.hessian.size += places.hessian.intervals;
       break;
     }
-    values_.resize(static_cast<Eigen::Index>(places.hessian_size));
+    values_.resize(static_cast<Eigen::Index>(places.hessian.size));
     back_end_ = true_make_derivative_back_end(name, functions, places);
   }
   void gradient(Inputs inputs, VectorOut result) override { back_end_->gradient(inputs, result); }
@@ -127,7 +127,7 @@ void mutable_construct_transcription(Transcription* self, const Problem& problem
 std::unique_ptr<DerivativeBackEnd> mutable_make_derivative_back_end(std::string_view name,
                                                                     const LocalFunctions& functions,
                                                                     const DerivativePlaces& places) {
-  const bool is_of_intervals = places.mode == AssemblyMode::whole;
+  const bool is_of_intervals = places.hessian.mode == AssemblyMode::whole;
   if (is_of_intervals && chosen("lost_hessian_entry")) {
     return std::make_unique<LosesAMergedEntry>(name, functions, places);
   }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string_view>
 
-#include "methods/diagnostics/momentum_consistency.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/program/kkt_residual.hpp"
 #include "methods/solvers/confirm.hpp"

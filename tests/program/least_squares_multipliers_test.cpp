@@ -1,5 +1,3 @@
-#include "methods/program/least_squares_multipliers.hpp"
-
 #include <cmath>
 #include <limits>
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/program/least_squares_multipliers.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 

@@ -40,8 +40,8 @@ inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motio
       force.evaluate(motion.stage_q.row(row).transpose(), motion.stage_v.row(row).transpose(),
                      motion.stage_u.row(row).transpose(), motion.stage_times[row], slope);
       for (Eigen::Index i = 0; i < n; ++i) {
-        set(layout.slope_q_column(j, i), k, motion.stage_v(row, i));
-        if (has_second) set(layout.slope_y_column(j, i), k, slope[i]);
+        set(layout.rate_column(j, i), k, motion.stage_v(row, i));
+        if (has_second) set(layout.second_rate_column(j, i), k, slope[i]);
       }
     }
   }

@@ -1,10 +1,9 @@
-#include "methods/transcription/assembled_tape.hpp"
-
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "methods/transcription/assembled_pattern.hpp"
+#include "methods/transcription/column_assembly.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
@@ -18,7 +17,7 @@ Schedule multiples() {
 }
 
 Eigen::VectorXd evaluated(const std::vector<std::size_t>& firsts, std::size_t size, const Eigen::VectorXd& x) {
-  AssembledTape tape(multiples(), {firsts.begin(), firsts.end()}, size, static_cast<std::size_t>(x.size()));
+  AssembledTape tape(multiples(), {{firsts.begin(), firsts.end()}, size, static_cast<std::size_t>(x.size())});
   const std::vector<Tape::Input> inputs{{x.data(), false}};
   // Whatever stood there before must not matter.
   Eigen::VectorXd result = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), 1e300);
@@ -57,7 +56,7 @@ TEST(AssembledTape, AddsAnyOverlapForEveryNumberOfIntervals) {
 
 TEST(AssembledTape, SumsTheColumnsOfASharedPlace) {
   const Eigen::VectorXd x = Eigen::Vector3d(1.0, 2.0, 3.0);
-  AssembledTape tape(multiples(), {0, {4, true}, {4, true}}, 6, 3);
+  AssembledTape tape(multiples(), {{0, {4, true}, {4, true}}, 6, 3});
   const std::vector<Tape::Input> inputs{{x.data(), false}};
   Eigen::VectorXd result = Eigen::VectorXd::Constant(6, 1e300);
   tape.evaluate(inputs, result);
@@ -68,7 +67,7 @@ TEST(AssembledTape, SumsTheColumnsOfASharedPlace) {
 
 TEST(AssembledTape, AsAPartAddsToWhatIsThere) {
   const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 2.0);
-  AssembledTape tape(multiples(), {3, 1, 1}, 4, 1, AssemblyMode::part);
+  AssembledTape tape(multiples(), {{3, 1, 1}, 4, 1, AssemblyMode::part});
   const std::vector<Tape::Input> inputs{{x.data(), false}};
   Eigen::VectorXd result = Eigen::Vector4d(1.0, 1.0, 1.0, 1.0);
   tape.evaluate(inputs, result);

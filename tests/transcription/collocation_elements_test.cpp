@@ -85,11 +85,10 @@ class CollocationRows : public testing::TestWithParam<std::string> {
         return at(layout.configuration_column(0), layout.configuration_column(1), node);
       };
       const auto y = [&](Eigen::Index node) { return at(layout.second_column(0), layout.second_column(1), node); };
-      const auto q_slopes = slopes(q(k), q(k + 1), h, [&](Eigen::Index j) {
-        return at(layout.slope_q_column(j, 0), layout.slope_q_column(j, 1), k);
-      });
+      const auto q_slopes = slopes(
+          q(k), q(k + 1), h, [&](Eigen::Index j) { return at(layout.rate_column(j, 0), layout.rate_column(j, 1), k); });
       const auto y_slopes = slopes(y(k), y(k + 1), h, [&](Eigen::Index j) {
-        return at(layout.slope_y_column(j, 0), layout.slope_y_column(j, 1), k);
+        return at(layout.second_rate_column(j, 0), layout.second_rate_column(j, 1), k);
       });
       for (Eigen::Index i = 0; i < tableau_.stages(); ++i) {
         const auto stage_number = static_cast<std::size_t>(i);

@@ -29,7 +29,7 @@ Eigen::VectorXd without_momenta(const Layout& from, const Layout& to, const Eige
     result.segment(at(target), at(end) - at(target)) = x.segment(at(source), at(end) - at(target));
   };
   copy(from.configuration_column(0), to.configuration_column(0), to.configuration_column(n));
-  copy(from.slope_q_column(0, 0), to.slope_q_column(0, 0), to.slope_q_column(to.interior_stages(), 0));
+  copy(from.rate_column(0, 0), to.rate_column(0, 0), to.rate_column(to.interior_stages(), 0));
   copy(from.control_column(0, 0), to.control_column(0, 0), to.variable_count());
   return result;
 }
@@ -61,7 +61,7 @@ class CombinedRows {
   [[nodiscard]] Eigen::Index last() const { return tableau_.stages() - 1; }
   [[nodiscard]] Eigen::VectorXd row(Eigen::Index k, Eigen::Index number) const {
     const Eigen::Index n = layout_.shape().configuration_size;
-    return entries_at(rows_, n, k, [&](Eigen::Index i) { return layout_.private_row_column(number * n + i); });
+    return entries_at(rows_, n, k, [&](Eigen::Index i) { return layout_.interval_row_column(number * n + i); });
   }
   [[nodiscard]] Eigen::VectorXd momentum_row(Eigen::Index k, Eigen::Index stage) const { return row(k, 2 * stage); }
   [[nodiscard]] Eigen::VectorXd force_rows(Eigen::Index k, const Eigen::RowVectorXd& weights) const {
@@ -104,7 +104,7 @@ void expect_dmocs_rows(const Problem& problem, const std::string& family, int st
     for (Eigen::Index k = 0; k < intervals; ++k) {
       for (Eigen::Index j = 0; j + 1 < stages; ++j) {
         const Eigen::VectorXd found =
-            entries_at(rows, n, k, [&](Eigen::Index i) { return layout.private_row_column(j * n + i); });
+            entries_at(rows, n, k, [&](Eigen::Index i) { return layout.interval_row_column(j * n + i); });
         EXPECT_LT((found - combined.stage_equation(k, j)).lpNorm<Eigen::Infinity>(), rounding);
       }
     }

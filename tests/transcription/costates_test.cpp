@@ -113,7 +113,7 @@ TEST_P(CostatesOf, InnerNodesAreTheSameSeenFromTheLeftAndFromTheRight) {
   const bool second = program.layout().node_state() != NodeState::configuration;
   const Eigen::Index size = second ? 2 * n : n;
   const Eigen::MatrixXd sides = [&] {
-    const Tape tape(program.functions().node_adjoint);
+    const Tape tape(program.functions().adjoint);
     Tape::Workspace workspace(tape);
     Eigen::MatrixXd table(static_cast<Eigen::Index>(grid_.intervals()), 2 * size);
     std::vector<double*> outputs;

@@ -135,7 +135,7 @@ TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
         << kind;
   }
   for (std::size_t i = 0; i < structure.unknowns.size(); ++i) {
-    const std::string words = unknown_in_words(problem, *ended.transcription, ended.solution.primal, i);
+    const std::string words = describe_unknown(problem, *ended.transcription, ended.solution.primal, i);
     EXPECT_PRED2(says, words, place_in_words(structure.unknowns[i]));
   }
 }

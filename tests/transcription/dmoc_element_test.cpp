@@ -104,7 +104,7 @@ class DiscretePrinciple {
       std::vector<LongVector> slopes;
       LongVector last = (right - left) / h;
       for (Eigen::Index j = 0; j + 1 < s; ++j) {
-        slopes.push_back(read([&](Eigen::Index i) { return layout.slope_q_column(j, i); }, n_, k));
+        slopes.push_back(read([&](Eigen::Index i) { return layout.rate_column(j, i); }, n_, k));
         last -= Long(tableau.b[j]) * slopes.back();
       }
       slopes.push_back(last / Long(tableau.b[s - 1]));
@@ -166,7 +166,7 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
             const double unit = program->steps(x)[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
             const auto row =
                 static_cast<Eigen::Index>(layout.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
-            EXPECT_NEAR(rows[row], variation(layout.slope_q_column(j, component) + k) / unit, tolerance);
+            EXPECT_NEAR(rows[row], variation(layout.rate_column(j, component) + k) / unit, tolerance);
           }
         }
       }

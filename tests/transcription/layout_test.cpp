@@ -92,8 +92,8 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
       cover(layout.configuration_column(i), intervals + 1);
       if (second) cover(layout.second_column(i), intervals + 1);
       for (Eigen::Index j = 0; j + 1 < s; ++j) {
-        cover(layout.slope_q_column(j, i), intervals);
-        if (second) cover(layout.slope_y_column(j, i), intervals);
+        cover(layout.rate_column(j, i), intervals);
+        if (second) cover(layout.second_rate_column(j, i), intervals);
       }
     }
     for (Eigen::Index j = 0; j < s; ++j) {

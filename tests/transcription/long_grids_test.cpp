@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/runtime/parallel.hpp"
-#include "methods/transcription/assembled_tape.hpp"
+#include "methods/transcription/column_assembly.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
@@ -97,7 +97,7 @@ TEST(LongGrids, AreAssembledFromPartsWithoutGap) {
     for (Eigen::Index k = 0; k < intervals; ++k) x[k] = static_cast<double>(1 + k % 97);
     const Expression input = Expression::input(0);
     AssembledTape tape(Schedule(std::vector<Expression>{1.0 * input, 10.0 * input, 100.0 * input}),
-                       {ColumnPlace(0), ColumnPlace(1), ColumnPlace(count + 1, true)}, count + 2, count);
+                       {{0, 1, {count + 1, true}}, count + 2, count});
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(intervals + 2);
     wanted.head(intervals) += x;
     wanted.segment(1, intervals) += 10.0 * x;
@@ -117,7 +117,7 @@ TEST(LongGrids, AreAssembledFromPartsWithoutGap) {
 TEST(LongGrids, AreAddedUpByPartsWithoutGap) {
   constexpr std::size_t intervals = 3 * 65536 + 37;
   const std::vector<ColumnPlace> places{0, 1, 2, 1};
-  ColumnAssembly assembly(places, intervals + 2, intervals);
+  ColumnAssembly assembly({places, intervals + 2, intervals});
   std::array<Eigen::VectorXd, 4> columns;
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(intervals) + 2);
   tests::RandomPoints random;

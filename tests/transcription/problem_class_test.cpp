@@ -1,7 +1,7 @@
 // The whole problem class of section 3.1, each part by a problem that can be stated in two ways or solved by hand.
 #include <gtest/gtest.h>
 
-#include "methods/transcription/embedding.hpp"
+#include "methods/transcription/start.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"

@@ -110,7 +110,7 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
         for (Eigen::Index i = 0; i < 2; ++i) {
           EXPECT_EQ(entry(layout.control_column(j, i), k), stage.u[i]);
           if (j + 1 < scheme.stages) {
-            EXPECT_EQ(entry(layout.slope_q_column(j, i), k), stage.v[i]);
+            EXPECT_EQ(entry(layout.rate_column(j, i), k), stage.v[i]);
           }
         }
       }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/columns.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -23,8 +22,7 @@ TEST(Trajectory, MomentumIsTheSameSeenFromBothSidesOfANode) {
       const Solved solved =
           tests::solve(*problem, scheme, tests::graded_grid(24), tests::common_start(*problem), 1e-11);
       Transcription& program = *solved.transcription;
-      const Eigen::MatrixXd sides = evaluate_columns(program.functions().momenta, program.layout().intervals(),
-                                                     program.bind(solved.solution.primal, Eigen::VectorXd(), 1.0));
+      const Eigen::MatrixXd sides = program.tabulate(program.functions().momenta, solved.solution.primal);
       const Eigen::Index n = problem->configuration_size();
       const Eigen::Index inner = sides.rows() - 1;
       const Eigen::MatrixXd jump = sides.topRightCorner(inner, n) - sides.bottomLeftCorner(inner, n);

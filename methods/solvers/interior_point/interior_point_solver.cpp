@@ -12,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "methods/error.hpp"
+#include "methods/program/kkt_residual.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
@@ -21,7 +22,6 @@
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
-#include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/stop_rule.hpp"
 

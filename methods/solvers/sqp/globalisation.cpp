@@ -8,7 +8,10 @@
 
 namespace dmocbench::sqp {
 
-double Globalisation::longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
+namespace {
+
+/// The largest step length that may be tried.
+double longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
   constexpr double limit = 2.0;
   double step_length = 1.0;
   for (Eigen::Index j = 0; j < step.size(); ++j) {
@@ -18,12 +21,13 @@ double Globalisation::longest_length(const Eigen::VectorXd& point, const Eigen::
   return step_length;
 }
 
+}  // namespace
+
 double Globalisation::merit(const Linearisation& at) const {
   return at.objective + weight_ * violations(program_, at.constraints).lpNorm<1>();
 }
 
-LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
-                                       double first_length) {
+LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::VectorXd& step, double curvature) {
   constexpr double sufficient = 1e-4;
   constexpr double kept = 0.5;  // share of the reduction of the violation that the merit must be predicted to keep
   constexpr double smallest_length = 1e-8;
@@ -42,6 +46,7 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
            merit(at) <= merit_before + sufficient * step_length * std::min(merit_derivative, 0.0) + rounding;
   };
 
+  const double first_length = longest_length(from.point, step);
   double step_length = first_length;
   while (step_length > smallest_length) {
     Linearisation tried = values_at(program_, from.point + step_length * step);

@@ -19,14 +19,10 @@ class Globalisation {
  public:
   explicit Globalisation(NonlinearProgram& program) : program_(program) {}
 
-  /// The largest step length that may be tried: |d_j| <= 2 (1 + |ξ_j|).
-  [[nodiscard]] static double longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step);
-
-  /// Backtracks along `step` (with curvature dᵀHd) from the length `first_length` until the merit falls enough. A whole
-  /// step that fails is tried once more with a second-order correction, the shortest vector that removes the violation
-  /// of the constraints to first order.
-  [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature,
-                                        double first_length);
+  /// Backtracks along `step` (with curvature dᵀHd) from the largest length up to 1 with |d_j| <= 2 (1 + |ξ_j|) until
+  /// the merit falls enough. If the first length fails, it is tried once more with a second-order correction, the
+  /// shortest vector that removes the violation of the constraints to first order.
+  [[nodiscard]] LineSearchResult search(const Linearisation& from, const Eigen::VectorXd& step, double curvature);
 
   [[nodiscard]] double weight() const noexcept { return weight_; }
 

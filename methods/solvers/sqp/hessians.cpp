@@ -44,7 +44,7 @@ Eigen::MatrixXd LimitedMemoryHessian::times(const Eigen::Ref<const Eigen::Matrix
 }
 
 void LimitedMemoryHessian::update(const Eigen::VectorXd& step, const Eigen::VectorXd& change) {
-  const Eigen::VectorXd curved = times(step);
+  Eigen::VectorXd curved = times(step);
   const double old_curvature = step.dot(curved);
   if (!(old_curvature > 0.0)) return;
   constexpr double least_share = 0.2;
@@ -53,16 +53,11 @@ void LimitedMemoryHessian::update(const Eigen::VectorXd& step, const Eigen::Vect
       seen >= least_share * old_curvature ? 1.0 : (1.0 - least_share) * old_curvature / (old_curvature - seen);
   const Eigen::VectorXd damped = weight * change + (1.0 - weight) * curved;
   if (updates_.size() == most_updates) {
-    for (const Update& update : updates_) {
-      diagonal_ += update.added.cwiseAbs2() - update.removed.cwiseAbs2();
-    }
+    for (const Update& update : updates_) diagonal_ += update.added.cwiseAbs2() - update.removed.cwiseAbs2();
     updates_.clear();
-    // The old curvature along the step is that of the new start.
-    const Eigen::VectorXd of_diagonal = diagonal_.cwiseProduct(step);
-    updates_.push_back({damped / std::sqrt(step.dot(damped)), of_diagonal / std::sqrt(step.dot(of_diagonal))});
-    return;
+    curved = diagonal_.cwiseProduct(step);  // the old curvature along the step is that of the new start
   }
-  updates_.push_back({damped / std::sqrt(step.dot(damped)), curved / std::sqrt(old_curvature)});
+  updates_.push_back({damped / std::sqrt(step.dot(damped)), curved / std::sqrt(step.dot(curved))});
 }
 
 }  // namespace dmocbench::sqp

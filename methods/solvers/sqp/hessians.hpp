@@ -5,24 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 #include "methods/solvers/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
-
-/// The exact Hessian of the Lagrangian plus a multiple of the identity.
-class ShiftedHessian final : public Hessian {
- public:
-  /// `lower`: its lower triangle, n x n.
-  ShiftedHessian(const Eigen::SparseMatrix<double>& lower, double shift) : lower_(lower), shift_(shift) {}
-  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const override {
-    return lower_.selfadjointView<Eigen::Lower>() * vectors + shift_ * vectors;
-  }
-
- private:
-  Eigen::SparseMatrix<double> lower_;
-  double shift_;
-};
 
 /// Finds the shift δ >= 0 that makes H + δI positive definite on the null space of the equalities, by the inertia of
 /// the matrix (H + δI, Eᵀ; E, 0): as many negative eigenvalues as rows E, and no eigenvalue 0.
@@ -43,10 +28,10 @@ class Convexification {
 
 /// A quasi-Newton approximation like SNOPT's: a diagonal and at most ten damped BFGS updates, after which the diagonal
 /// of their sum becomes the new start. Always positive definite.
-class LimitedMemoryHessian final : public Hessian {
+class LimitedMemoryHessian {
  public:
   explicit LimitedMemoryHessian(Eigen::Index variables) : diagonal_(Eigen::VectorXd::Ones(variables)) {}
-  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const override;
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const;
 
   /// Learns from a step s and the change y of the gradient of the Lagrangian along it (Powell's damping where yᵀs is
   /// small or negative).

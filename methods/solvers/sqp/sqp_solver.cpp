@@ -1,12 +1,194 @@
 #include "methods/solvers/sqp/sqp_solver.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "methods/program/kkt_residual.hpp"
+#include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
+#include "methods/solvers/linearisation.hpp"
 #include "methods/solvers/named_options.hpp"
-#include "methods/solvers/sqp/sequential_run.hpp"
+#include "methods/solvers/sqp/globalisation.hpp"
+#include "methods/solvers/sqp/hessians.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 
 namespace dmocbench {
+
+namespace sqp {
+
+namespace {
+
+/// Of the tolerance of the whole: with equal tolerances the last major iterations stall.
+constexpr double tolerance_of_quadratic_programs = 0.1;
+
+/// One run of the SQP method.
+class SequentialRun {
+ public:
+  SequentialRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+                const SequentialOptions& choices)
+      : program_(program),
+        options_(options),
+        tolerance_(std::max(options.tolerance, program.rounding_floor())),
+        quadratic_solver_({.tolerance = tolerance_of_quadratic_programs * tolerance_, .crash = choices.crash},
+                          Pricing(choices.pricing, choices.seed),
+                          [this](const MinorIteration& minor) { return observe(minor); }),
+        globalisation_(program),
+        multipliers_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count()))) {
+    if (choices.limited_memory) limited_memory_.emplace(start.size());
+    at_ = values_at(program, start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper()));
+  }
+
+  /// Major iterations until the Karush-Kuhn-Tucker conditions hold.
+  [[nodiscard]] Solution run() {
+    Solution solution;
+    differentiate(program_, at_);
+    solution.status = Status::evaluation_failed;
+    if (at_.has_finite_values() && at_.gradient.allFinite()) {
+      std::optional<Status> end;
+      while (!end) end = major_iteration();
+      const bool gave_up = end == Status::step_failed || end == Status::iteration_limit;
+      const bool is_outside = violations(program_, at_.constraints).lpNorm<Eigen::Infinity>() > tolerance_;
+      const bool is_stuck = gave_up && is_outside && is_point_of_least_violation(program_.uncounted(), at_.point);
+      solution.status = is_stuck ? Status::infeasible : end.value_or(Status::solver_error);
+    }
+    solution.message = message_;
+    solution.primal = at_.point;
+    solution.multipliers = multipliers_;
+    solution.major_iterations = majors_;
+    solution.minor_iterations = phase_one_minors_ + phase_two_minors_;
+    solution.phase_one_minor_iterations = phase_one_minors_;
+    solution.phase_two_minor_iterations = phase_two_minors_;
+    return solution;
+  }
+
+ private:
+  [[nodiscard]] std::optional<Status> reason_to_stop() const {
+    if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
+    if (options_.most_seconds > 0.0 && program_.elapsed_seconds() > options_.most_seconds) return Status::time_limit;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool observe(MinorIteration minor) {
+    minor.major = majors_;
+    (minor.phase == MinorIteration::Phase::feasibility ? phase_one_minors_ : phase_two_minors_) += 1;
+    if (options_.on_minor_iteration) options_.on_minor_iteration(minor);
+    return !reason_to_stop();
+  }
+
+  [[nodiscard]] bool has_converged() const {
+    Solution now;
+    now.primal = at_.point;
+    now.multipliers = multipliers_;
+    judge_residuals(program_.uncounted(), now);
+    return scaled_residual(program_, options_.tolerance, now) <= 1.0;
+  }
+
+  [[nodiscard]] std::optional<Status> major_iteration() {
+    if (has_converged()) return Status::solved;
+    if (const auto reason = reason_to_stop()) return reason;
+    if (majors_ == options_.most_iterations) return Status::iteration_limit;
+    if (!limited_memory_) compute_exact_hessian();
+    ++majors_;
+    const QuadraticSolution quadratic = quadratic_solver_.solve(
+        quadratic_program_at(program_, at_, [this](const auto& vectors) { return hessian_times(vectors); }));
+    switch (quadratic.status) {
+      case QuadraticSolution::Status::stopped:
+        return reason_to_stop().value_or(Status::interrupted);
+      case QuadraticSolution::Status::breakdown:
+        message_ = "A quadratic program could not be solved: " + quadratic.message + ".";
+        return Status::step_failed;
+      case QuadraticSolution::Status::infeasible:
+        if (quadratic.step.lpNorm<Eigen::Infinity>() < tolerance_) return Status::infeasible;
+        break;
+      case QuadraticSolution::Status::optimal:
+        break;
+    }
+    const double curvature = quadratic.step.dot(hessian_times(quadratic.step).col(0));
+    const LineSearchResult search = globalisation_.search(at_, quadratic.step, curvature);
+    if (search.step_length == 0.0) {
+      return quadratic.status == QuadraticSolution::Status::infeasible ? Status::infeasible : Status::step_failed;
+    }
+    if (options_.verbose) print(quadratic, search);
+    take(search, quadratic);
+    return std::nullopt;
+  }
+
+  void compute_exact_hessian() {
+    exact_hessian_ = hessian_at(program_, at_.point, multipliers_);
+    const double needed =
+        convexification_.shift_for(exact_hessian_, at_.jacobian, free_variables(program_), equality_rows(program_));
+    shift_ = std::max(needed, cautious_shift_);
+  }
+
+  /// The quasi-Newton matrix, or the exact Hessian with its shift, times vectors.
+  [[nodiscard]] Eigen::MatrixXd hessian_times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const {
+    if (limited_memory_) return limited_memory_->times(vectors);
+    return exact_hessian_.selfadjointView<Eigen::Lower>() * vectors + shift_ * vectors;
+  }
+
+  void print(const QuadraticSolution& quadratic, const LineSearchResult& search) const {
+    fmt::print(
+        "major {}, minors {} + {}, merit weight {:.2e}, shift {:.2e}, step {:.2e} taken by {:.2e}, objective {:.10e}\n",
+        majors_, phase_one_minors_, phase_two_minors_, globalisation_.weight(), shift_,
+        quadratic.step.lpNorm<Eigen::Infinity>(), search.step_length, search.accepted.objective);
+  }
+
+  void take(const LineSearchResult& search, const QuadraticSolution& quadratic) {
+    Eigen::VectorXd wanted = quadratic.multipliers;
+    if (quadratic.status == QuadraticSolution::Status::infeasible) {
+      wanted = wanted.cwiseMax(-globalisation_.weight()).cwiseMin(globalisation_.weight());
+    }
+    multipliers_ += search.step_length * (wanted - multipliers_);
+    const Linearisation before = std::exchange(at_, search.accepted);
+    differentiate(program_, at_);
+    if (limited_memory_) {
+      limited_memory_->update(at_.point - before.point,
+                              (at_.gradient + at_.jacobian.transpose() * multipliers_) -
+                                  (before.gradient + before.jacobian.transpose() * multipliers_));
+    }
+    adapt_shift(search.step_length);
+  }
+
+  /// Short steps ask for more curvature than the quadratic program needs.
+  void adapt_shift(double step_length) {
+    constexpr double short_step = 0.2;
+    constexpr double growth = 4.0;
+    constexpr double decay = 3.0;
+    constexpr double smallest = 1e-6;
+    if (step_length < short_step) {
+      cautious_shift_ = growth * std::max({shift_, cautious_shift_, smallest});
+    } else if (step_length == 1.0) {
+      cautious_shift_ /= decay;
+      if (cautious_shift_ < smallest) cautious_shift_ = 0.0;
+    }
+  }
+
+  CountedProgram& program_;
+  const SolverOptions& options_;
+  double tolerance_;
+  QuadraticSolver quadratic_solver_;
+  Globalisation globalisation_;
+  Convexification convexification_;
+  std::optional<LimitedMemoryHessian> limited_memory_;  // in place of the exact Hessian
+  Eigen::SparseMatrix<double> exact_hessian_;           // its lower triangle
+  double shift_ = 0.0;                                  // added to its diagonal
+  double cautious_shift_ = 0.0;                         // the least shift, after short steps
+  Linearisation at_;
+  Eigen::VectorXd multipliers_;
+  int majors_ = 0;
+  int phase_one_minors_ = 0;
+  int phase_two_minors_ = 0;
+  std::string message_;
+};
+
+}  // namespace
+
+}  // namespace sqp
 
 SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices) : Solver(std::move(options)), choices_(choices) {
   using sqp::Crash;

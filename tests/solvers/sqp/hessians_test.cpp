@@ -44,7 +44,7 @@ TEST(Convexification, LeavesAHessianAloneThatIsNegativeOnlyAcrossTheRows) {
   EXPECT_EQ(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {false, true}, {false}), 0.0);
 }
 
-Eigen::MatrixXd dense(const Hessian& hessian, Eigen::Index size) {
+Eigen::MatrixXd dense(const LimitedMemoryHessian& hessian, Eigen::Index size) {
   return hessian.times(Eigen::MatrixXd::Identity(size, size));
 }
 

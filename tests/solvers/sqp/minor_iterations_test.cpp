@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/solvers/solver.hpp"
-#include "methods/solvers/sqp/hessians.hpp"
-#include "methods/solvers/sqp/sequential_run.hpp"
+#include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
@@ -132,9 +131,11 @@ void replay_first_program(NonlinearProgram& program, const Eigen::VectorXd& star
   differentiate(program, at);
   const Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(at.constraints.size());
   const Eigen::SparseMatrix<double> exact = hessian_at(program, at.point, no_multipliers);
-  const ShiftedHessian hessian(exact, 1e-3);
-  const QuadraticProgram quadratic = quadratic_program_at(program, at, hessian);
-  Replay replay(quadratic, hessian.times(Eigen::MatrixXd::Identity(start.size(), start.size())));
+  Eigen::MatrixXd hessian = Eigen::MatrixXd(exact).selfadjointView<Eigen::Lower>();
+  hessian.diagonal().array() += 1e-3;
+  const QuadraticProgram quadratic =
+      quadratic_program_at(program, at, [&](const auto& vectors) { return hessian * vectors; });
+  Replay replay(quadratic, hessian);
   QuadraticSolver solver({}, Pricing(), [&](const MinorIteration& minor) {
     replay.follow(minor);
     return !::testing::Test::HasFailure();

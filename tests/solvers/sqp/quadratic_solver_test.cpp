@@ -15,8 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double fine = 1e-7;
 
 QuadraticSolution solve(const QuadraticProgram& program, Crash crash = Crash::none) {
-  QuadraticSolver solver({.feasibility_tolerance = 1e-10, .optimality_tolerance = 1e-10, .crash = crash}, Pricing(),
-                         [](const MinorIteration&) { return true; });
+  QuadraticSolver solver({.tolerance = 1e-10, .crash = crash}, Pricing(), [](const MinorIteration&) { return true; });
   return solver.solve(program);
 }
 
@@ -119,11 +118,10 @@ TEST(QuadraticSolver, NeverTellsAnIndefiniteReducedHessianForAMinimum) {
 TEST(QuadraticSolver, FromTheSetsOfItsSolutionNeedsOneMinorIteration) {
   auto problem = random_program(30, 12, 100.0, 5);
   int minors = 0;
-  QuadraticSolver solver({.feasibility_tolerance = 1e-10, .optimality_tolerance = 1e-10, .crash = Crash::none},
-                         Pricing(), [&](const MinorIteration&) {
-                           ++minors;
-                           return true;
-                         });
+  QuadraticSolver solver({.tolerance = 1e-10, .crash = Crash::none}, Pricing(), [&](const MinorIteration&) {
+    ++minors;
+    return true;
+  });
   expect_optimal(problem, solver.solve(problem.program));
   EXPECT_EQ(minors, 30);
   problem.program.gradient *= 1.1;

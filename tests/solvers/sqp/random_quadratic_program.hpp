@@ -1,12 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <random>
 #include <vector>
 
 #include <Eigen/Dense>
 
-#include "methods/solvers/sqp/hessians.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
 
 namespace dmocbench::sqp::tests {
@@ -17,23 +15,21 @@ inline Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, st
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
 }
 
-/// A quadratic program together with the dense Hessian that it refers to.
+/// A quadratic program together with its dense Hessian.
 struct OwnedQuadraticProgram {
   Eigen::MatrixXd dense_hessian;
-  std::unique_ptr<Hessian> hessian;
   QuadraticProgram program;
 };
 
 inline OwnedQuadraticProgram owned(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                                    const Eigen::MatrixXd& rows, const Eigen::VectorXd& lower,
                                    const Eigen::VectorXd& upper) {
-  OwnedQuadraticProgram result;
-  result.dense_hessian = hessian;
-  const Eigen::MatrixXd triangle = hessian.triangularView<Eigen::Lower>();
-  result.hessian = std::make_unique<ShiftedHessian>(triangle.sparseView(), 0.0);
-  result.program = {
-      .hessian = result.hessian.get(), .gradient = gradient, .rows = rows.sparseView(), .lower = lower, .upper = upper};
-  return result;
+  return {.dense_hessian = hessian,
+          .program = {.hessian_times = [hessian](const auto& vectors) { return hessian * vectors; },
+                      .gradient = gradient,
+                      .rows = rows.sparseView(),
+                      .lower = lower,
+                      .upper = upper}};
 }
 
 /// n variables, m equality rows that a random point fulfils, positive definite Hessian; every second variable is

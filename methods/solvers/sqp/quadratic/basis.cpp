@@ -128,16 +128,13 @@ bool recompute(const QuadraticProgram& program, BasisChoice& choice) {
 }
 
 BasisChoice from_slacks(const QuadraticProgram& program, const std::vector<Eigen::Index>& candidates) {
-  BasisChoice choice;
-  for (Eigen::Index i = 0; i < program.row_count(); ++i) choice.basics.push_back(program.variable_count() + i);
-  choice.others = candidates;
+  BasisChoice choice{.basics = program.slacks(), .others = candidates, .table = {}};
   std::erase_if(choice.others, [&](Eigen::Index j) { return is_slack(program, j); });
   static_cast<void>(recompute(program, choice));  // the slack basis is never singular
   if (choice.table.size() > 0) replace_slacks(program, choice);
   choice.others = candidates;
-  std::erase_if(choice.others, [&](Eigen::Index j) {
-    return std::find(choice.basics.begin(), choice.basics.end(), j) != choice.basics.end();
-  });
+  std::erase_if(choice.others,
+                [&](Eigen::Index j) { return std::ranges::find(choice.basics, j) != choice.basics.end(); });
   static_cast<void>(recompute(program, choice));
   improve(choice);
   static_cast<void>(recompute(program, choice));

@@ -6,10 +6,10 @@
 
 namespace dmocbench::sqp {
 
-Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double feasibility_tolerance)
+Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double tolerance)
     : program_(&program),
       sets_(std::move(sets)),
-      tolerance_(feasibility_tolerance),
+      tolerance_(tolerance),
       lower_(program.lower),
       upper_(program.upper),
       values_(Eigen::VectorXd::Zero(program.column_count()).cwiseMax(lower_).cwiseMin(upper_)) {
@@ -27,7 +27,7 @@ double Iterate::infeasibility() const {
 
 double Iterate::objective() const {
   const Eigen::VectorXd d = variables();
-  const Eigen::VectorXd curved = program_->hessian->times(d);
+  const Eigen::VectorXd curved = program_->hessian_times(d);
   return program_->gradient.dot(d) + 0.5 * d.dot(curved);
 }
 
@@ -43,8 +43,8 @@ Eigen::VectorXd Iterate::null_space_times(const Eigen::VectorXd& of_superbasics)
 Eigen::VectorXd Iterate::null_space_transposed_times(const Eigen::VectorXd& of_variables) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(program_->column_count());
   all.head(program_->variable_count()) = of_variables;
-  const Eigen::VectorXd multipliers = basis_.solve_transposed(at_basics(all));
-  return at_superbasics(all - program_->transposed_times(multipliers));
+  const Eigen::VectorXd multipliers = basis_.solve_transposed(all(sets_.basics()));
+  return (all - program_->transposed_times(multipliers))(sets_.superbasics());
 }
 
 Eigen::MatrixXd Iterate::reduced_hessian() const {
@@ -59,7 +59,7 @@ Eigen::MatrixXd Iterate::reduced_hessian() const {
     direction[superbasics[place]] = 1.0;
   }
   const Eigen::MatrixXd of_variables = directions.topRows(n);
-  const Eigen::MatrixXd curved = program_->hessian->times(of_variables);
+  const Eigen::MatrixXd curved = program_->hessian_times(of_variables);
   Eigen::MatrixXd result(directions.cols(), directions.cols());
   result.triangularView<Eigen::Lower>() = of_variables.transpose() * curved;
   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
@@ -85,14 +85,11 @@ void Iterate::accept_violations() {
 
 void Iterate::refactorise() {
   if (!basis_.factorise(*program_, sets_.basics())) throw Breakdown("the basis is singular");
-  const Eigen::Index variables = program_->variable_count();
   Eigen::VectorXd others = values_;
-  for (const Eigen::Index j : sets_.basics()) others[j] = 0.0;
-  const Eigen::VectorXd missing = others.tail(program_->row_count()) - program_->rows * others.head(variables);
-  const Eigen::VectorXd solved = basis_.solve(missing);
-  for (std::size_t position = 0; position < sets_.basics().size(); ++position) {
-    values_[sets_.basics()[position]] = solved[static_cast<Eigen::Index>(position)];
-  }
+  others(sets_.basics()).setZero();
+  const Eigen::VectorXd missing =
+      others.tail(program_->row_count()) - program_->rows * others.head(program_->variable_count());
+  values_(sets_.basics()) = basis_.solve(missing);
 }
 
 }  // namespace dmocbench::sqp

@@ -1,15 +1,68 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "methods/solvers/sqp/quadratic/basis.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
-#include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
+
+/// Which of the n + m columns of (A, -I) are basic (m, in the order of the positions of the basis), superbasic (free to
+/// move, one per degree of freedom in use) or nonbasic (held at their present value).
+///
+/// Every change below moves at most one column into a set and one out of it.
+class WorkingSet {
+ public:
+  enum class Membership : std::uint8_t { basic, superbasic, nonbasic };
+
+  WorkingSet(Eigen::Index columns, std::vector<Eigen::Index> basics, std::vector<Eigen::Index> superbasics)
+      : basics_(std::move(basics)),
+        superbasics_(std::move(superbasics)),
+        membership_(static_cast<std::size_t>(columns), Membership::nonbasic) {
+    for (const Eigen::Index j : basics_) at(j) = Membership::basic;
+    for (const Eigen::Index j : superbasics_) at(j) = Membership::superbasic;
+  }
+
+  [[nodiscard]] const std::vector<Eigen::Index>& basics() const noexcept { return basics_; }
+  [[nodiscard]] const std::vector<Eigen::Index>& superbasics() const noexcept { return superbasics_; }
+  [[nodiscard]] Membership of(Eigen::Index j) const { return membership_[static_cast<std::size_t>(j)]; }
+
+  /// A nonbasic column may move from now on.
+  void make_superbasic(Eigen::Index j) {
+    at(j) = Membership::superbasic;
+    superbasics_.push_back(j);
+  }
+
+  /// The superbasic column at `place` in the list stays where it is from now on.
+  void drop_superbasic(Eigen::Index place) {
+    const auto position = superbasics_.begin() + place;
+    at(*position) = Membership::nonbasic;
+    superbasics_.erase(position);
+  }
+
+  /// Column `entering`, nonbasic or superbasic, takes the place of the basic column at `position`, which becomes
+  /// nonbasic.
+  void replace_basic(Eigen::Index position, Eigen::Index entering) {
+    if (of(entering) == Membership::superbasic) std::erase(superbasics_, entering);
+    Eigen::Index& place = basics_[static_cast<std::size_t>(position)];
+    at(place) = Membership::nonbasic;
+    at(entering) = Membership::basic;
+    place = entering;
+  }
+
+ private:
+  Membership& at(Eigen::Index j) { return membership_[static_cast<std::size_t>(j)]; }
+
+  std::vector<Eigen::Index> basics_;
+  std::vector<Eigen::Index> superbasics_;
+  std::vector<Membership> membership_;
+};
 
 /// Thrown where the basis is singular or the reduced Hessian not positive definite: the quadratic program cannot be
 /// solved from these sets.
@@ -24,7 +77,7 @@ class Iterate {
  public:
   /// All columns that are not basic are at 0, or at the bound nearest to 0. Throws `Breakdown` if the basis is
   /// singular.
-  Iterate(const QuadraticProgram& program, WorkingSet sets, double feasibility_tolerance);
+  Iterate(const QuadraticProgram& program, WorkingSet sets, double tolerance);
 
   [[nodiscard]] const QuadraticProgram& program() const noexcept { return *program_; }
   [[nodiscard]] const WorkingSet& sets() const noexcept { return sets_; }
@@ -37,16 +90,13 @@ class Iterate {
   [[nodiscard]] const Eigen::VectorXd& lower() const noexcept { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const noexcept { return upper_; }
 
+  /// The bound that a column leaves by more than the tolerance: -1 the lower one, 1 the upper one, 0 none.
+  [[nodiscard]] int violated_side(Eigen::Index column) const {
+    if (values_[column] < lower_[column] - tolerance_) return -1;
+    return values_[column] > upper_[column] + tolerance_ ? 1 : 0;
+  }
   /// Sum over all columns of the distance to their bounds, where it exceeds the tolerance.
   [[nodiscard]] double infeasibility() const;
-  /// The entries of a vector over all columns that belong to the basic ones, in the order of positions.
-  [[nodiscard]] Eigen::VectorXd at_basics(const Eigen::VectorXd& of_columns) const {
-    return of_columns(sets_.basics());
-  }
-  /// The same for the superbasic ones.
-  [[nodiscard]] Eigen::VectorXd at_superbasics(const Eigen::VectorXd& of_columns) const {
-    return of_columns(sets_.superbasics());
-  }
   /// gᵀd + ½ dᵀHd.
   [[nodiscard]] double objective() const;
 

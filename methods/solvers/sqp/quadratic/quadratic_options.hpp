@@ -19,8 +19,7 @@ enum class PricingRule : std::uint8_t {
 };
 
 struct QuadraticOptions {
-  double feasibility_tolerance = 1e-9;
-  double optimality_tolerance = 1e-9;
+  double tolerance = 1e-9;  ///< for bounds and reduced gradients
   Crash crash = Crash::none;
 };
 

@@ -1,25 +1,19 @@
 #pragma once
 
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "methods/solvers/linearisation.hpp"
+
 namespace dmocbench::sqp {
 
-/// The Hessian of a quadratic program, a symmetric matrix of which only products are needed.
-class Hessian {
- public:
-  virtual ~Hessian() = default;
-  Hessian(const Hessian&) = delete;
-  Hessian& operator=(const Hessian&) = delete;
-  Hessian(Hessian&&) = delete;
-  Hessian& operator=(Hessian&&) = delete;
-
-  /// H D, for one vector or several side by side.
-  [[nodiscard]] virtual Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& vectors) const = 0;
-
- protected:
-  Hessian() = default;
-};
+/// H D for one vector or several side by side: the method needs no more of a Hessian than such products.
+using HessianProduct = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)>;
 
 /// The quadratic program of one major iteration, in n variables d with m rows,
 ///
@@ -28,7 +22,7 @@ class Hessian {
 /// where the slack s_i stands for the linearised constraint i; that of an equality is fixed. Bounds are those of the
 /// nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
 struct QuadraticProgram {
-  const Hessian* hessian = nullptr;  ///< n x n, positive definite on the null space of the equality rows
+  HessianProduct hessian_times;      ///< H is positive definite on the null space of the equality rows
   Eigen::VectorXd gradient;          ///< g, n entries
   Eigen::SparseMatrix<double> rows;  ///< A, m x n
   Eigen::VectorXd lower;             ///< n + m entries: of d, then of s
@@ -38,6 +32,13 @@ struct QuadraticProgram {
   [[nodiscard]] Eigen::Index row_count() const noexcept { return rows.rows(); }
   /// n + m: the variables and the slacks.
   [[nodiscard]] Eigen::Index column_count() const noexcept { return rows.rows() + rows.cols(); }
+
+  /// The columns of all slacks, in the order of their rows.
+  [[nodiscard]] std::vector<Eigen::Index> slacks() const {
+    std::vector<Eigen::Index> columns(static_cast<std::size_t>(row_count()));
+    std::iota(columns.begin(), columns.end(), variable_count());
+    return columns;
+  }
 
   /// Column j of (A, -I).
   [[nodiscard]] Eigen::VectorXd column(Eigen::Index j) const {
@@ -55,5 +56,18 @@ struct QuadraticProgram {
     return result;
   }
 };
+
+/// The quadratic program at a point with derivatives.
+[[nodiscard]] inline QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
+                                                           HessianProduct hessian_times) {
+  QuadraticProgram result{.hessian_times = std::move(hessian_times),
+                          .gradient = at.gradient,
+                          .rows = at.jacobian,
+                          .lower = Eigen::VectorXd(at.point.size() + at.constraints.size()),
+                          .upper = Eigen::VectorXd(at.point.size() + at.constraints.size())};
+  result.lower << program.variable_lower() - at.point, program.constraint_lower() - at.constraints;
+  result.upper << program.variable_upper() - at.point, program.constraint_upper() - at.constraints;
+  return result;
+}
 
 }  // namespace dmocbench::sqp

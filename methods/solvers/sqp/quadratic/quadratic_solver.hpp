@@ -1,18 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
-#include "methods/solvers/sqp/quadratic/phases.hpp"
+#include "methods/solvers/minor_iteration.hpp"
+#include "methods/solvers/sqp/quadratic/iterate.hpp"
 #include "methods/solvers/sqp/quadratic/pricing.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_program.hpp"
-#include "methods/solvers/sqp/quadratic/working_set.hpp"
 
 namespace dmocbench::sqp {
+
+/// Called at the end of every minor iteration; false stops the method. The number of calls is the count of minor
+/// iterations.
+using MinorObserver = std::function<bool(const MinorIteration&)>;
 
 /// How a quadratic program ended.
 struct QuadraticSolution {
@@ -40,16 +45,13 @@ class QuadraticSolver {
   /// again from the slack basis; all minor iterations are observed.
   [[nodiscard]] QuadraticSolution solve(const QuadraticProgram& program);
 
-  /// The sets at the end of the last call; none before the first.
-  [[nodiscard]] const std::optional<WorkingSet>& sets() const noexcept { return sets_; }
-
  private:
   [[nodiscard]] QuadraticSolution solve_from(const QuadraticProgram& program, WorkingSet start, bool may_restart);
 
   QuadraticOptions options_;
   Pricing pricing_;
   MinorObserver observer_;
-  std::optional<WorkingSet> sets_;
+  std::optional<WorkingSet> sets_;  // at the end of the last call
 };
 
 }  // namespace dmocbench::sqp

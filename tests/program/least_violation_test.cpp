@@ -1,7 +1,6 @@
-#include "methods/solvers/least_violation.hpp"
-
 #include <gtest/gtest.h>
 
+#include "methods/program/kkt_residual.hpp"
 #include "tests/support/small_programs.hpp"
 
 namespace dmocbench {

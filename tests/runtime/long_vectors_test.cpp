@@ -1,4 +1,4 @@
-#include "methods/runtime/resize_unwritten.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bench/experiment/interval_list.hpp"
+#include "bench/experiment/options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,148 @@
+#include "methods/diagnostics/conserved_quantities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// ∂Φ/∂T at given velocities, then L_vt, at the last node.
+Eigen::VectorXd end_rates(const Problem& problem, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
+  PointFunction rate(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
+    ExpressionVector time(1);
+    time << x.t;
+    ExpressionVector rates(1 + problem.configuration_size());
+    rates << gradient(problem.final_cost(x.state()), time), traced.at(x).momentum_by_time;
+    return rates;
+  });
+  const Eigen::Index last = trajectory.intervals();
+  Eigen::VectorXd value(1 + problem.configuration_size());
+  rate.evaluate(trajectory.node(last), trajectory.node_times[last], value);
+  return value;
+}
+
+}  // namespace
+
+MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory) {
+  const TracedProblem traced(problem);
+  if (!traced.has_symmetry()) {
+    throw Error(problem.name() + " states no symmetry, so there is no momentum to watch");
+  }
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction generator(n, traced.control_size(), [&](const ControlledState& x) { return traced.at(x).symmetry; });
+  PointFunction force_along(n, traced.control_size(), [&](const ControlledState& x) {
+    const TracedProblem::Values values = traced.at(x);
+    const ExpressionVector transport = values.symmetry_jacobian * x.v;
+    return ExpressionVector::Constant(1,
+                                      values.generalised_force.dot(values.symmetry) + values.momentum.dot(transport));
+  });
+
+  Eigen::VectorXd momentum(trajectory.q.rows());
+  Eigen::VectorXd direction(n);
+  for (Eigen::Index k = 0; k < momentum.size(); ++k) {
+    generator.evaluate(trajectory.node(k), trajectory.node_times[k], direction);
+    momentum[k] = trajectory.p.row(k).dot(direction);
+  }
+  MomentumConsistency result;
+  result.defects.resize(trajectory.intervals());
+  Eigen::VectorXd force(1);
+  const Eigen::Index s = trajectory.stages();
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const double h = trajectory.step(k);
+    double work = 0.0;
+    for (Eigen::Index i = 0; i < s; ++i) {
+      const Eigen::Index stage = k * s + i;
+      force_along.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], force);
+      work += h * trajectory.tableau.b[i] * force[0];
+      result.largest_force = std::max(result.largest_force, std::abs(force[0]));
+    }
+    result.defects[k] = momentum[k + 1] - momentum[k] - work;
+  }
+  result.largest = result.defects.lpNorm<Eigen::Infinity>();
+  result.mean = result.defects.lpNorm<1>() / static_cast<double>(result.defects.size());
+  result.total = std::abs(result.defects.sum());
+  return result;
+}
+
+Energy::Energy(const Problem& problem)
+    : function_(problem.configuration_size(), problem.control_size(),
+                [&](const ControlledState& x) {
+                  const TracedProblem::Values values = TracedProblem(problem).at(x);
+                  ExpressionVector outputs(2);
+                  outputs << values.momentum.dot(x.v) - problem.lagrangian(x.state()), values.control_force.dot(x.v);
+                  return outputs;
+                }),
+      values_(2) {}
+
+double Energy::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+  function_.evaluate(q, v, Eigen::VectorXd(), t, values_);
+  return values_[0];
+}
+
+double Energy::power(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& u, double t) {
+  function_.evaluate(q, v, u, t, values_);
+  return values_[1];
+}
+
+EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajectory) {
+  Energy energy(problem);
+  const auto at_node = [&](Eigen::Index k) {
+    const MotionPoint node = trajectory.node(k);
+    return energy.energy(node.q, node.v, trajectory.node_times[k]);
+  };
+  EnergyBalance balance;
+  const double first = at_node(0);
+  for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
+    const double h = trajectory.step(k);
+    for (Eigen::Index i = 0; i < trajectory.stages(); ++i) {
+      const Eigen::Index row = k * trajectory.stages() + i;
+      const MotionPoint stage = trajectory.stage(row);
+      balance.work +=
+          h * trajectory.tableau.b[i] * energy.power(stage.q, stage.v, stage.u, trajectory.stage_times[row]);
+    }
+    balance.change = at_node(k + 1) - first;
+    balance.largest_gap = std::max(balance.largest_gap, std::abs(balance.change - balance.work));
+    balance.largest_work = std::max(balance.largest_work, std::abs(balance.work));
+  }
+  return balance;
+}
+
+Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& trajectory) {
+  if (!trajectory.has_costates()) throw Error("the control Hamiltonian needs costates: a solver with multipliers");
+  const TracedProblem traced(problem);
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction rates(n, traced.control_size(), [&](const ControlledState& x) {  // C, then ṗ
+    const TracedProblem::Values values = traced.at(x);
+    ExpressionVector outputs(1 + n);
+    outputs << values.running_cost, values.generalised_force;
+    return outputs;
+  });
+  Eigen::VectorXd hamiltonian(trajectory.node_times.size());
+  Eigen::VectorXd outputs(1 + n);
+  for (Eigen::Index k = 0; k < hamiltonian.size(); ++k) {
+    const double t = trajectory.node_times[k];
+    const Eigen::Index interval = std::min(k, trajectory.intervals() - 1);
+    MotionPoint point = trajectory.node(k);
+    point.u = control_on_interval(trajectory, interval, t);
+    rates.evaluate(point, t, outputs);
+    hamiltonian[k] =
+        outputs[0] + trajectory.psi_q.row(k).dot(trajectory.v.row(k)) + trajectory.psi_p.row(k).dot(outputs.tail(n));
+  }
+  return hamiltonian;
+}
+
+double free_horizon_residual(const Problem& problem, const Trajectory& trajectory) {
+  const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
+  const Eigen::Index last = trajectory.intervals();
+  const Eigen::VectorXd rates = end_rates(problem, trajectory);
+  return hamiltonian[last] + rates[0] - trajectory.psi_p.row(last).dot(rates.tail(rates.size() - 1));
+}
+
+}  // namespace dmocbench
