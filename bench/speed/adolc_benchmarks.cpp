@@ -44,7 +44,7 @@ void record(const Schedule& schedule, const adouble* inputs, adouble& sum) {
     if (step.operation == Operation::subtract) return combined(step, std::minus<>());
     if (step.operation == Operation::multiply) return combined(step, std::multiplies<>());
     if (step.operation == Operation::divide) return combined(step, std::divides<>());
-    throw Error("no problem of this benchmark has the operation " + std::string(name_of(step.operation)));
+    throw Error("a problem of this benchmark has an operation that is not recorded for ADOL-C");
   };
   for (const Schedule::Step& step : schedule.steps()) values.push_back(record_step(step));
   sum += variable(schedule.outputs().front());
