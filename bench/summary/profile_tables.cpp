@@ -1,0 +1,192 @@
+#include "bench/summary/profile_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "methods/numerics/median.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr double smallest_effort = 1e-9;  // smaller efforts count as equal
+constexpr double never = std::numeric_limits<double>::infinity();
+
+const ColumnNames competitor_columns{"method", "tableau", "stages", "solver", "derivatives"};
+
+/// What every competitor takes on every instance, by one measure; `never` where it failed, has no row or does not tell.
+struct Contest {
+  std::vector<Row> competitors;            // their names, in the order of the rows
+  std::vector<std::vector<double>> taken;  // instance, competitor
+};
+
+Contest contest_of(const Selection& rows, const std::string& measure) {
+  Contest contest;
+  for (const Selection& competitor : rows.group_by(competitor_columns)) {
+    contest.competitors.push_back(fields_of(competitor.front(), competitor_columns));
+  }
+  for (const Selection& instance : rows.group_by({"problem", "intervals"})) {
+    std::vector<double>& taken = contest.taken.emplace_back();
+    for (const Row& competitor : contest.competitors) {
+      const Row& solve = instance.matching(competitor, competitor_columns).back();
+      taken.push_back(solve.text("success") == "yes" ? solve.number(measure, never) : never);
+    }
+  }
+  return contest;
+}
+
+/// x / y where both may be 0, as counts can.
+double effort_ratio(double x, double y) { return x == y ? 1.0 : x / std::max(y, smallest_effort); }
+
+/// Sets means over the common instances, and wins, by one measure.
+void set_measure(const Contest& contest, const std::string& measure, const std::vector<std::size_t>& common,
+                 std::vector<Row>& summary) {
+  std::vector<double> told;
+  for (const std::size_t i : common) {
+    std::ranges::copy_if(contest.taken[i], std::back_inserter(told), [](double taken) { return taken < never; });
+  }
+  const double shift = median(told);
+  for (std::size_t who = 0; who < summary.size(); ++who) {
+    double sum = 0.0;
+    for (const std::size_t i : common) sum += std::log(contest.taken[i][who] + shift);
+    const double mean = std::exp(sum / static_cast<double>(common.size())) - shift;
+    if (std::isfinite(mean)) summary[who].set(measure, mean);  // infinite where the solver does not tell the measure
+    const long long wins = std::ranges::count_if(contest.taken, [&](const std::vector<double>& taken) {
+      return taken[who] < never && taken[who] == std::ranges::min(taken);
+    });
+    summary[who].set("wins_" + measure, wins);
+  }
+}
+
+/// "0.5545708783346 (13 digits)".
+std::string reference_in_words(const Row& row) {
+  const auto reference = row.number("reference_objective");
+  const auto digits = row.number("reference_digits");
+  if (!reference || !digits) return "unknown";
+  return fmt::format("{:.{}g} ({} digits)", *reference, static_cast<int>(*digits), *digits);
+}
+
+/// "0.554575 (+7.4e-06)", or the status; "elsewhere" marks a solve without success.
+std::string answer_in_words(const Row& row) {
+  if (row.text("status") != "solved") return row.text("status");
+  std::string words = fmt::format("{:.7g}", row.number("objective", std::nan("")));
+  if (const auto difference = row.number("relative_difference")) words += fmt::format(" ({:+.1e})", *difference);
+  return row.text("success") == "no" ? words + " elsewhere" : words;
+}
+
+}  // namespace
+
+const std::vector<std::string>& profile_measures() {
+  static const std::vector<std::string> measures{"seconds", "evaluations", "major_iterations"};
+  return measures;
+}
+
+Table performance_profiles(const Selection& rows) {
+  Table table({"measure", "method", "tableau", "stages", "solver", "derivatives", "ratio", "share"});
+  for (const std::string& measure : profile_measures()) {
+    const Contest contest = contest_of(rows, measure);
+    std::vector<std::vector<double>> ratios(contest.competitors.size());
+    double largest = 1.0;
+    for (const std::vector<double>& taken : contest.taken) {
+      for (std::size_t who = 0; who < ratios.size(); ++who) {
+        if (taken[who] == never) continue;
+        ratios[who].push_back(effort_ratio(taken[who], std::ranges::min(taken)));
+        largest = std::max(largest, ratios[who].back());
+      }
+    }
+    for (std::size_t who = 0; who < ratios.size(); ++who) {
+      std::vector<double>& steps = ratios[who];
+      std::ranges::sort(steps);
+      std::vector<double> points{1.0};
+      std::ranges::copy_if(steps, std::back_inserter(points), [](double step) { return step > 1.0; });
+      points.push_back(largest);
+      for (const double point : points) {
+        const auto within = std::ranges::upper_bound(steps, point) - steps.begin();
+        Row row = contest.competitors[who];
+        row.set("measure", measure);
+        row.set("ratio", point);
+        row.set("share", static_cast<double>(within) / static_cast<double>(contest.taken.size()));
+        table.append(std::move(row));
+      }
+    }
+  }
+  return table;
+}
+
+Table profile_summary(const Selection& rows) {
+  ColumnNames columns = competitor_columns;
+  columns.insert(columns.end(), {"instances", "successes", "common"});
+  for (const std::string& measure : profile_measures()) columns.insert(columns.end(), {measure, "wins_" + measure});
+  Table table(columns);
+  // Who succeeded where does not depend on what is measured; every solved row has an objective.
+  const Contest successes = contest_of(rows, "objective");
+  std::vector<std::size_t> common;
+  for (std::size_t i = 0; i < successes.taken.size(); ++i) {
+    if (std::ranges::max(successes.taken[i]) < never) common.push_back(i);
+  }
+  std::vector<Row> summary = successes.competitors;
+  for (std::size_t who = 0; who < summary.size(); ++who) {
+    const auto has_solved = [who](const std::vector<double>& taken) { return taken[who] < never; };
+    summary[who].set("instances", successes.taken.size());
+    summary[who].set("successes", std::ranges::count_if(successes.taken, has_solved));
+    summary[who].set("common", common.size());
+  }
+  for (const std::string& measure : profile_measures())
+    set_measure(contest_of(rows, measure), measure, common, summary);
+  for (Row& row : summary) table.append(std::move(row));
+  return table;
+}
+
+Table library_table(const Selection& rows) {
+  Table library({"problem", "reference_objective", "reference_digits", "method", "tableau", "stages", "solver",
+                 "derivatives", "intervals", "status", "objective", "relative_difference", "success", "replay_error",
+                 "message"});
+  for (const Selection& curve : rows.group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
+    for (const Row& row : curve.where("intervals", curve.sorted_by("intervals").back().text("intervals"))) {
+      Row line = fields_of(row, library.columns());
+      const auto reference = row.number("reference_objective");
+      const auto objective = row.number("objective");
+      if (reference && objective) line.set("relative_difference", (*objective - *reference) / std::abs(*reference));
+      library.append(std::move(line));
+    }
+  }
+  return library;
+}
+
+std::string library_table_in_markdown(const Selection& library) {
+  const std::vector<std::string> methods = library.distinct("method");
+  std::string text =
+      "# The library\n\n"
+      "Every problem from its own guess: the cost that a method reaches and, in brackets, its relative difference from "
+      "the reference; where it was not solved, the status. \"Elsewhere\" is farther from the reference than counts as "
+      "a success: another minimum, or a grid that is too coarse.\n";
+  for (const Selection& scheme : library.group_by({"tableau", "stages", "solver", "derivatives"})) {
+    const Row& head = scheme.front();
+    text += fmt::format("\n## {} {}, {}, {}\n\n| problem | N | reference | {} |\n|---|---|---|", head.text("tableau"),
+                        head.text("stages"), head.text("solver"), head.text("derivatives"), fmt::join(methods, " | "));
+    for (std::size_t i = 0; i < methods.size(); ++i) text += "---|";
+    const std::vector<Selection> problems = scheme.group_by({"problem"});
+    for (const Selection& answers : problems) {
+      text += fmt::format("\n| {} | {} | {} |", answers.front().text("problem"), answers.front().text("intervals"),
+                          reference_in_words(answers.front()));
+      for (const std::string& method : methods) {
+        text += " " + answer_in_words(answers.where("method", method).front()) + " |";
+      }
+    }
+    const auto count_by_all = [&](const char* column, const char* said) {
+      return std::ranges::count_if(problems, [&](const Selection& answers) {
+        return std::ranges::all_of(methods, [&](const std::string& method) {
+          return answers.where("method", method).front().text(column) == said;
+        });
+      });
+    };
+    text += fmt::format("\n\nSolved by all: {} of {} problems; with success by all: {}.\n",
+                        count_by_all("status", "solved"), problems.size(), count_by_all("success", "yes"));
+  }
+  return text;
+}
+
+}  // namespace dmocbench
