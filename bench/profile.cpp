@@ -8,8 +8,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/summary/library_table.hpp"
-#include "bench/summary/performance_profile.hpp"
+#include "bench/summary/profile_tables.hpp"
 
 namespace dmocbench {
 

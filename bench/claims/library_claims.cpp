@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
-#include "bench/summary/performance_profile.hpp"
+#include "bench/summary/profile_tables.hpp"
 #include "methods/transcription/element.hpp"
 
 namespace dmocbench {

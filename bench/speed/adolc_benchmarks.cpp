@@ -44,7 +44,7 @@ void record(const Schedule& schedule, const adouble* inputs, adouble& sum) {
     if (step.operation == Operation::subtract) return combined(step, std::minus<>());
     if (step.operation == Operation::multiply) return combined(step, std::multiplies<>());
     if (step.operation == Operation::divide) return combined(step, std::divides<>());
-    throw Error("no problem of this benchmark has the operation " + std::string(name_of(step.operation)));
+    throw Error("a problem of this benchmark has an operation that is not recorded for ADOL-C");
   };
   for (const Schedule::Step& step : schedule.steps()) values.push_back(record_step(step));
   sum += variable(schedule.outputs().front());
@@ -52,12 +52,10 @@ void record(const Schedule& schedule, const adouble* inputs, adouble& sum) {
 
 /// The Hessian of the Lagrangian of one or more intervals by ADOL-C's driver hess_mat.
 ///
-/// ADOL-C records the formula of ℓ once and differentiates it itself. Multipliers, factor and step are further
-/// independent variables, in whose directions nothing is differentiated. (Changing them with set_param_vec is no
-/// faster, and recording anew for every interval is slower.) The second derivatives are taken in the directions of the
-/// n local unknowns, all n in one pass; the drivers hessian and hessian2 are no faster. With several intervals on one
-/// tape the n directions serve all of them at once, since no interval's ℓ depends on another's inputs: the compression
-/// that a graph colouring would find.
+/// ADOL-C records the formula of ℓ once and differentiates it itself, in the directions of the n local unknowns, all n
+/// in one pass. Multipliers, factor and step are further independent variables, in whose directions nothing is
+/// differentiated. With several intervals on one tape the n directions serve all of them at once, since no interval's ℓ
+/// depends on another's inputs: the compression that a graph colouring would find. (Why this driver: README.md.)
 class AdolcHessian {
  public:
   /// `tag` is ADOL-C's number of the tape. Record small tapes before large ones: a small one that is recorded after a

@@ -22,10 +22,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
     const double force_r = 0.5 * h * (R * W * W - 1.0 / (R * R));
     const double force_phi = 0.5 * h * R * u[k];
     const double momentum = R * R * W;
-    out[0][k] = force_r - V;
-    out[1][k] = force_phi - momentum;
-    out[2][k] = force_r + V;
-    out[3][k] = force_phi + momentum;
+    store(out, k, {force_r - V, force_phi - momentum, force_r + V, force_phi + momentum});
   }
 }
 
@@ -45,28 +42,15 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
     const double by_r = R * W;                                                      // ½ ∂(R²W)/∂R
     const double by_phi = R * R * rate;                                             // 1/h ∂(R²W)/∂W
     const double by_u = 0.5 * h * R;
-    // Left constraint of r, by r_left, φ_left, r_right, φ_right.
-    out[0][k] = force_r + rate;
-    out[1][k] = -force_phi;
-    out[2][k] = force_r - rate;
-    out[3][k] = force_phi;
-    // Left constraint of φ, and by u.
-    out[4][k] = turn - by_r;
-    out[5][k] = by_phi;
-    out[6][k] = turn - by_r;
-    out[7][k] = -by_phi;
-    out[8][k] = by_u;
-    // Right constraint of r.
-    out[9][k] = force_r - rate;
-    out[10][k] = -force_phi;
-    out[11][k] = force_r + rate;
-    out[12][k] = force_phi;
-    // Right constraint of φ, and by u.
-    out[13][k] = turn + by_r;
-    out[14][k] = -by_phi;
-    out[15][k] = turn + by_r;
-    out[16][k] = by_phi;
-    out[17][k] = by_u;
+    store(out, k,
+          {// Left constraint of r, by r_left, φ_left, r_right, φ_right.
+           force_r + rate, -force_phi, force_r - rate, force_phi,
+           // Left constraint of φ, and by u.
+           turn - by_r, by_phi, turn - by_r, -by_phi, by_u,
+           // Right constraint of r.
+           force_r - rate, -force_phi, force_r + rate, force_phi,
+           // Right constraint of φ, and by u.
+           turn + by_r, -by_phi, turn + by_r, by_phi, by_u});
   }
 }
 
@@ -89,19 +73,9 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
     const double by_r_phi = (alpha * W + delta * R) * rate;                         // ½ ℓ_RW / h
     const double by_phi_phi = 2.0 * alpha * R * rate * rate;                        // ℓ_WW / h²
     const double by_r_u = 0.25 * h * (lambda_left_phi[k] + lambda_right_phi[k]);    // ½ ℓ_Ru
-    out[0][k] = by_r_r;
-    out[1][k] = -by_r_phi;
-    out[2][k] = by_phi_phi;
-    out[3][k] = by_r_r;
-    out[4][k] = -by_r_phi;
-    out[5][k] = by_r_r;
-    out[6][k] = by_r_phi;
-    out[7][k] = -by_phi_phi;
-    out[8][k] = by_r_phi;
-    out[9][k] = by_phi_phi;
-    out[10][k] = by_r_u;
-    out[11][k] = by_r_u;
-    out[12][k] = 2.0 * factor * h;
+    store(out, k,
+          {by_r_r, -by_r_phi, by_phi_phi, by_r_r, -by_r_phi, by_r_r, by_r_phi, -by_phi_phi, by_r_phi, by_phi_phi,
+           by_r_u, by_r_u, 2.0 * factor * h});
   }
 }
 

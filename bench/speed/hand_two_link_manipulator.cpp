@@ -78,10 +78,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
     const double force_2 = 0.5 * h * (tau_2[k] + centrifugal - g2 * cosine_2);
     const double momentum_1 = a * w1 + K * w2;
     const double momentum_2 = b * w2 + K * w1;
-    out[0][k] = force_1 - momentum_1;
-    out[1][k] = force_2 - momentum_2;
-    out[2][k] = force_1 + momentum_1;
-    out[3][k] = force_2 + momentum_2;
+    store(out, k, {force_1 - momentum_1, force_2 - momentum_2, force_1 + momentum_1, force_2 + momentum_2});
   };
   for_each_interval(intervals, columns, cosine_of, formulas);
 }
@@ -96,32 +93,17 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
     const double own_1 = 0.25 * h * g1 * sine_1 - both;
     const double own_2 = 0.25 * h * g2 * sine_2 - both;
     const double half = 0.5 * h;
-    // Left constraint of θ₁, by θ₁ and θ₂ on the left, on the right, and by τ₁, τ₂.
-    out[0][k] = own_1 + 2.0 * s2 + rate * a;
-    out[1][k] = both + s1 - s2 + rate * K;
-    out[2][k] = own_1 - rate * a;
-    out[3][k] = both - s1 - s2 - rate * K;
-    out[4][k] = half;
-    out[5][k] = -half;
-    // Left constraint of θ₂, without τ₁.
-    out[6][k] = both + s1 - s2 + rate * K;
-    out[7][k] = own_2 - 2.0 * s1 + rate * b;
-    out[8][k] = both + s1 + s2 - rate * K;
-    out[9][k] = own_2 - rate * b;
-    out[10][k] = half;
-    // Right constraint of θ₁.
-    out[11][k] = own_1 - rate * a;
-    out[12][k] = both + s1 + s2 - rate * K;
-    out[13][k] = own_1 - 2.0 * s2 + rate * a;
-    out[14][k] = both - s1 + s2 + rate * K;
-    out[15][k] = half;
-    out[16][k] = -half;
-    // Right constraint of θ₂.
-    out[17][k] = both - s1 - s2 - rate * K;
-    out[18][k] = own_2 - rate * b;
-    out[19][k] = both - s1 + s2 + rate * K;
-    out[20][k] = own_2 + 2.0 * s1 + rate * b;
-    out[21][k] = half;
+    store(out, k,
+          {// Left constraint of θ₁, by θ₁ and θ₂ on the left, on the right, and by τ₁, τ₂.
+           own_1 + 2.0 * s2 + rate * a, both + s1 - s2 + rate * K, own_1 - rate * a, both - s1 - s2 - rate * K, half,
+           -half,
+           // Left constraint of θ₂, without τ₁.
+           both + s1 - s2 + rate * K, own_2 - 2.0 * s1 + rate * b, both + s1 + s2 - rate * K, own_2 - rate * b, half,
+           // Right constraint of θ₁.
+           own_1 - rate * a, both + s1 + s2 - rate * K, own_1 - 2.0 * s2 + rate * a, both - s1 + s2 + rate * K, half,
+           -half,
+           // Right constraint of θ₂.
+           both - s1 - s2 - rate * K, own_2 - rate * b, both - s1 + s2 + rate * K, own_2 + 2.0 * s1 + rate * b, half});
   };
   for_each_interval(intervals, columns, sine_of, formulas);
 }
@@ -144,19 +126,11 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
     const double by_D_w1 = 0.5 * rate * (turn * K * w2 - S * delta_2);  // ½ ℓ_Dω₁ / h
     const double by_D_w2 = 0.5 * rate * (turn * K * w1 - S * delta_1);
     const double by_w1_w2 = turn * S * rate * rate;  // ℓ_ω₁ω₂ / h²
-    // Rows and columns: θ₁, θ₂ on the left, θ₁, θ₂ on the right, τ₁, τ₂.
-    out[0][k] = own_1 - 2.0 * by_D_w1;
-    out[1][k] = by_D_w1 - by_D_w2 - by_D_D + by_w1_w2;
-    out[2][k] = own_2 + 2.0 * by_D_w2;
-    out[3][k] = own_1;
-    out[4][k] = -by_D_w1 - by_D_w2 - by_D_D - by_w1_w2;
-    out[5][k] = own_1 + 2.0 * by_D_w1;
-    out[6][k] = by_D_w1 + by_D_w2 - by_D_D - by_w1_w2;
-    out[7][k] = own_2;
-    out[8][k] = by_D_w2 - by_D_w1 - by_D_D + by_w1_w2;
-    out[9][k] = own_2 - 2.0 * by_D_w2;
-    out[10][k] = factor * h;
-    out[11][k] = factor * h;
+    store(out, k,
+          {// Rows and columns: θ₁, θ₂ on the left, θ₁, θ₂ on the right, τ₁, τ₂.
+           own_1 - 2.0 * by_D_w1, by_D_w1 - by_D_w2 - by_D_D + by_w1_w2, own_2 + 2.0 * by_D_w2, own_1,
+           -by_D_w1 - by_D_w2 - by_D_D - by_w1_w2, own_1 + 2.0 * by_D_w1, by_D_w1 + by_D_w2 - by_D_D - by_w1_w2, own_2,
+           by_D_w2 - by_D_w1 - by_D_D + by_w1_w2, own_2 - 2.0 * by_D_w2, factor * h, factor * h});
   };
   for_each_interval(intervals, columns, cosine_of, formulas);
 }

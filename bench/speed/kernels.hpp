@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "methods/runtime/instruction_set.hpp"
 
@@ -37,6 +38,15 @@ template <std::size_t count, class Pointer>
   std::array<Pointer, count> copy{};
   for (std::size_t i = 0; i < count; ++i) copy[i] = pointers[i];
   return copy;
+}
+
+/// Writes the outputs of interval k. Written out like this, and not as a loop, the loop over the intervals is
+/// vectorised.
+template <std::size_t count>
+[[gnu::always_inline]] inline void store(const std::array<double*, count>& out, std::size_t k,
+                                         const std::array<double, count>& values) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) { ((out[i][k] = values[i]), ...); }
+  (std::make_index_sequence<count>());
 }
 
 /// Multiplications with additions on registers alone, `turns` times; the result only keeps them from being left out.

@@ -43,11 +43,6 @@ class TwoLinkManipulatorBounded final : public TwoLinkManipulator {
     bounds.u = Bounds::all(2, -largest_torque, largest_torque);
     return bounds;
   }
-  [[nodiscard]] ProblemCard card() const override {
-    ProblemCard card = TwoLinkManipulator::card();
-    card.reference.reset();
-    return card;
-  }
 };
 
 /// A line "NAME:   1234 kB" of the kernel's report on this process, in bytes; none where the system does not tell.

@@ -25,33 +25,23 @@ Row row_of_labels(const Benchmark& benchmark) {
   return row;
 }
 
-/// Operations or bytes per second; none if it is no benchmark of the machine.
-std::optional<double> rate_of(const Benchmark& benchmark) {
-  const auto operations = benchmark.median_of(operations_per_second);
-  return operations ? operations : benchmark.median_of(bytes_per_second);
+/// The roof as (nanoseconds, limit), from the rows of the machine; none where a benchmark that it takes did not run.
+std::optional<std::pair<double, std::string>> roof_of(const Selection& machine, double operations, double bytes,
+                                                      double working_set) {
+  const Row& arithmetic = machine.where("limit", "arithmetic").front();
+  const Selection holds_arrays = machine.where([&](const Row& level) {
+    return working_set > level.number("more_than_bytes", working_set) &&
+           working_set <= level.number("up_to_bytes", 0.0);
+  });
+  const Row& memory = holds_arrays.front();
+  const auto computing = ratio(nanoseconds * operations, arithmetic.number("rate"));
+  const auto moving = ratio(nanoseconds * bytes, memory.number("rate"));
+  if (!computing || !moving) return std::nullopt;
+  return *computing >= *moving ? std::pair(*computing, arithmetic.text("limit"))
+                               : std::pair(*moving, memory.text("limit"));
 }
 
-/// The roof as (nanoseconds, limit); none where a benchmark that it takes did not run.
-std::optional<std::pair<double, std::string>> roof_of(const Benchmarks& benchmarks, const std::string& instruction_set,
-                                                      double operations, double bytes, double working_set) {
-  std::optional<double> arithmetic;
-  std::optional<std::pair<double, std::string>> memory;
-  for (const auto& [name, benchmark] : benchmarks) {
-    const auto rate = rate_of(benchmark);
-    if (!rate || benchmark.label("instruction_set") != instruction_set) continue;
-    const std::string limit = benchmark.label("limit");
-    if (limit == "arithmetic") {
-      arithmetic = nanoseconds * operations / *rate;
-    } else if (working_set > std::stod(benchmark.label("more_than_bytes")) &&
-               working_set <= std::stod(benchmark.label("up_to_bytes"))) {
-      memory = {nanoseconds * bytes / *rate, limit};
-    }
-  }
-  if (!arithmetic || !memory) return std::nullopt;
-  return *arithmetic >= memory->first ? std::pair(*arithmetic, std::string("arithmetic")) : *memory;
-}
-
-Row interval_row(const Benchmark& benchmark, double time, const Benchmarks& all) {
+Row interval_row(const Benchmark& benchmark, double time, const Selection& machine) {
   Row row = row_of_labels(benchmark);
   const double operations = benchmark.median_of(operations_per_interval).value_or(0.0);
   row.set("repetitions", benchmark.numbers.at(ns_per_interval).size());
@@ -64,7 +54,7 @@ Row interval_row(const Benchmark& benchmark, double time, const Benchmarks& all)
   row.set("bytes", bytes);
   row.set("operations_per_byte", operations / *bytes);
   const double working_set = *bytes * row.number("intervals", 0.0);
-  if (const auto roof = roof_of(all, row.text("instruction_set"), operations, *bytes, working_set)) {
+  if (const auto roof = roof_of(machine.matching(row, {"instruction_set"}), operations, *bytes, working_set)) {
     row.set("roof_nanoseconds", roof->first);
     row.set("roof_limit", roof->second);
     row.set("roof_share", roof->first / time);
@@ -118,9 +108,9 @@ Table interval_table(const Benchmarks& benchmarks) {
   Table table({"way", "quantity", "problem", "links", "method", "tableau", "stages", "instruction_set", "intervals",
                "repetitions", "nanoseconds", "smallest_nanoseconds", "operations", "bytes", "operations_per_byte",
                "operations_per_second", "roof_nanoseconds", "roof_limit", "roof_share"});
+  const Table machine = machine_table(benchmarks);
   for (const auto& [name, benchmark] : benchmarks) {
-    if (const auto time = benchmark.median_of(ns_per_interval))
-      table.append(interval_row(benchmark, *time, benchmarks));
+    if (const auto time = benchmark.median_of(ns_per_interval)) table.append(interval_row(benchmark, *time, machine));
   }
   return table;
 }
@@ -128,7 +118,8 @@ Table interval_table(const Benchmarks& benchmarks) {
 Table machine_table(const Benchmarks& benchmarks) {
   Table table({"instruction_set", "limit", "rate", "array_bytes"});
   for (const auto& [name, benchmark] : benchmarks) {
-    const auto rate = rate_of(benchmark);
+    const auto operations = benchmark.median_of(operations_per_second);
+    const auto rate = operations ? operations : benchmark.median_of(bytes_per_second);
     if (!rate) continue;
     Row row = row_of_labels(benchmark);
     row.set("rate", rate);

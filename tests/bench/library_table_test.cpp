@@ -1,4 +1,4 @@
-#include "bench/summary/library_table.hpp"
+#include "bench/summary/profile_tables.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bench/summary/performance_profile.hpp"
+#include "bench/summary/profile_tables.hpp"
 
 #include <cmath>
 #include <map>
