@@ -76,6 +76,7 @@ class Equivalence final : public Experiment {
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
          of(measured_.plain_residual)},
         {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+        {"horizon_difference", "", "of T", of(measured_.horizon_difference)},
     };
   }
   void check(const std::vector<Case>& cases) override {
@@ -88,7 +89,7 @@ class Equivalence final : public Experiment {
     if (!solved.trajectory || !is_usable(solved)) return;
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
-    if (trajectory.has_costates()) {
+    if (trajectory.has_stage_costates()) {
       // By the coefficients that the theorem predicts, and by those of the state scheme without exchanging the halves.
       const Tableau& tableau = trajectory.tableau;
       const auto residual = [&](const AdjointCoefficients& coefficients) {
@@ -96,6 +97,9 @@ class Equivalence final : public Experiment {
       };
       measured_.adjoint_residual = residual(adjoint_coefficients(tableau));
       measured_.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
+    } else if (trajectory.has_costates()) {
+      solved.note("Its stages have no costates to put into the adjoint scheme: constraints along the path have "
+                  "multipliers of their own there.");
     }
     if (here.method == "dmoc") {
       answers_.push_back({here, trajectory});
@@ -104,10 +108,17 @@ class Equivalence final : public Experiment {
     Case by_dmoc = here;
     by_dmoc.method = "dmoc";
     for (const auto& [dmoc, answer] : answers_) {
-      const bool is_partner = dmoc.same_curve(by_dmoc) && answer.node_times == trajectory.node_times;
+      const bool is_partner =
+          dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
       if (is_partner) measured_.dmoc = answer;
     }
-    if (!measured_.dmoc) return;
+    if (!measured_.dmoc) {
+      solved.note("Not compared: DMOC was not solved on this grid, or on another branch.");
+      return;
+    }
+    const auto horizon = [](const Trajectory& any) { return any.node_times[any.intervals()]; };
+    measured_.horizon_difference =
+        std::abs(horizon(trajectory) - horizon(*measured_.dmoc)) / horizon(*measured_.dmoc);
     measured_.objective_difference = std::abs(trajectory.cost - measured_.dmoc->cost) / std::abs(measured_.dmoc->cost);
     measured_.in_dmoc = violation_in(here, "dmoc", trajectory);
     measured_.of_dmoc = violation_in(here, here.method, *measured_.dmoc);
@@ -134,6 +145,7 @@ class Equivalence final : public Experiment {
   struct {
     std::optional<Trajectory> dmoc;  // DMOC's answer on the same grid
     std::optional<double> objective_difference;
+    std::optional<double> horizon_difference;
     std::optional<ForeignViolation> in_dmoc;  // this method's answer in DMOC's constraints
     std::optional<ForeignViolation> of_dmoc;  // DMOC's answer in this method's constraints
     std::optional<double> adjoint_residual;

@@ -47,6 +47,7 @@ struct Trajectory {
   [[nodiscard]] Eigen::Index intervals() const noexcept { return node_times.size() - 1; }
   [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }
   [[nodiscard]] bool has_costates() const noexcept { return psi_q.size() > 0; }
+  [[nodiscard]] bool has_stage_costates() const noexcept { return stage_psi_q.size() > 0; }
 };
 
 }  // namespace dmocbench
