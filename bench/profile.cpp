@@ -1,5 +1,4 @@
-// Across the library: what every method solves from the problems' own guesses, how fast and how accurately.
-#include <algorithm>
+// All problems by every method from the problems' own guesses: success, speed and accuracy.
 #include <cmath>
 #include <optional>
 
@@ -11,9 +10,7 @@
 #include "bench/summary/library_table.hpp"
 #include "bench/summary/performance_profile.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 class Profile final : public Experiment {
  public:
@@ -90,8 +87,6 @@ class Profile final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Profile(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Profile(), argc, argv); }

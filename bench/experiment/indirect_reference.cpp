@@ -1,8 +1,6 @@
 #include "bench/experiment/indirect_reference.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
