@@ -84,7 +84,7 @@ template <class... Members>
   return [=](const auto& record) { return member(record, members...); };
 }
 
-/// Reads a field from an object that belongs to the record being written, whatever the record is:
+/// Reads a field from an object outside the record that is written:
 /// `of(error_, &TrajectoryError::state)`. The object is read when the row is made.
 template <class Object, class... Members>
 [[nodiscard]] auto of(const Object& object, Members... members) {
