@@ -30,7 +30,7 @@ template <class Record>
 /// The columns that tell a fitted order.
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
-  return {{"slope", "", "fitted order", from(fit, &FittedOrder::slope)},
+  return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},
           {"standard_error", "", "of the order; empty with two points",
            [fit](const Record& record) {
              const FittedOrder& order = record.*fit;

@@ -110,7 +110,7 @@ Table solve_exponents(const Table& solves) {
     if (!line || line->points < fewest_grids) continue;
     Row row;
     for (std::size_t i = 0; i < keys.size(); ++i) row.set(keys[i], Cell(curve[i]));
-    row.set("exponent", Cell(line->slope));
+    row.set("exponent", Cell(line->order));
     row.set("standard_error", Cell(line->standard_error));
     row.set("grids", Cell(static_cast<long long>(line->points)));
     // The abscissa is N instead of a step: the smallest is that of the coarsest grid.

@@ -136,7 +136,7 @@ class NewtonOnGrid {
 double relative_difference(const Eigen::MatrixXd& difference, const Eigen::MatrixXd& values) {
   constexpr double vanishing = 1e-6;
   const Eigen::Index half = values.rows() / 2;
-  const auto relative = [](const auto& part, const auto& whole) {
+  const auto relative = [&](const auto& part, const auto& whole) {
     return part.template lpNorm<Eigen::Infinity>() / std::max(vanishing, whole.template lpNorm<Eigen::Infinity>());
   };
   return std::max(relative(difference.topRows(half), values.topRows(half)),

@@ -4,44 +4,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-ExpressionVector constants(const Eigen::VectorXd& values) {
-  ExpressionVector result(values.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i) result[i] = Expression(values[i]);
-  return result;
-}
-
-/// The state of an end: its unknowns, and numbers for the rest.
-struct End {
-  ExpressionVector q;
-  ExpressionVector p;  // Hamiltonian only
-  ExpressionVector v;
-};
-
-/// Hands out the unknowns of both ends in order.
-class EndUnknowns {
- public:
-  EndUnknowns(Eigen::Index n, NodeState node_state) : n_(n), node_state_(node_state) {}
-
-  End take_end(bool has_velocity, const BoundaryState& given) {
-    End end;
-    end.q = counter_.take(n_);
-    if (node_state_ == NodeState::momentum) end.p = counter_.take(n_);
-    end.v = node_state_ == NodeState::velocity || has_velocity ? counter_.take(n_) : constants(given.v);
-    return end;
-  }
-  Expression take_scalar() { return counter_.take(); }
-  [[nodiscard]] std::size_t taken() const { return counter_.taken(); }
-
- private:
-  Eigen::Index n_;
-  NodeState node_state_;
-  InputCounter counter_;
-};
-
-}  // namespace
-
 EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeState node_state, bool mayer) {
   EndRules rules;
   rules.node_state = node_state;
@@ -57,11 +19,26 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
 }
 
 std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced, const EndRules& rules) {
-  EndUnknowns unknowns(traced.configuration_size(), rules.node_state);
-  const End first = unknowns.take_end(rules.first_has_velocity(), problem.initial_state());
-  const End last = unknowns.take_end(rules.last_has_velocity(), problem.final_state());
-  const Expression running = rules.mayer ? unknowns.take_scalar() : Expression(0.0);
-  const Expression horizon = rules.free_horizon ? unknowns.take_scalar() : Expression(problem.horizon());
+  /// The state of an end: its unknowns, and numbers for the rest.
+  struct End {
+    ExpressionVector q;
+    ExpressionVector p;  // Hamiltonian only
+    ExpressionVector v;
+  };
+  const Eigen::Index n = traced.configuration_size();
+  InputCounter unknowns;
+  const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
+    End end;
+    end.q = unknowns.take(n);
+    if (rules.node_state == NodeState::momentum) end.p = unknowns.take(n);
+    const bool is_unknown = rules.node_state == NodeState::velocity || has_velocity;
+    end.v = is_unknown ? unknowns.take(n) : ExpressionVector(given.v.cast<Expression>());
+    return end;
+  };
+  const End first = take_end(rules.first_has_velocity(), problem.initial_state());
+  const End last = take_end(rules.last_has_velocity(), problem.final_state());
+  const Expression running = rules.mayer ? unknowns.take() : Expression(0.0);
+  const Expression horizon = rules.free_horizon ? unknowns.take() : Expression(problem.horizon());
   const State first_state{first.q, first.v, Expression(0.0)};
   const State last_state{last.q, last.v, horizon};
   const TracedProblem::EndValues ends = traced.at_ends(first_state, last_state);
