@@ -113,7 +113,7 @@ template <class Record>
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {
-      {"slope", "", "fitted order", from(fit, &FittedOrder::slope)},
+      {"slope", "", "fitted order", from(fit, &FittedOrder::order)},
       {"standard_error", "", "of the order; empty with two points",
        [fit](const Record& record) { return (record.*fit).points > 2 ? Cell((record.*fit).standard_error) : Cell(); }},
       {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
