@@ -1,7 +1,6 @@
-// Which value of a problem's least cost can be trusted: routes to it that share as little as possible, compared with
-// the reference that the problem states.
+// The least cost of a problem by routes that share as little as possible, compared with the reference that the problem
+// states.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -19,9 +18,7 @@
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// A tableau and its number of stages: "lobatto4" is lobatto with four.
 std::pair<std::string, int> parse_route(const std::string& text) {
@@ -212,8 +209,6 @@ class Certify final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Certify(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Certify(), argc, argv); }

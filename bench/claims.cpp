@@ -10,9 +10,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 const Columns<JudgedClaim> columns{
     {"claim", "", "short name", &JudgedClaim::id},
@@ -58,13 +56,11 @@ int judge_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
       "claims",
       "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.", argc,
-      argv, dmocbench::judge_all);
+      argv, dmocbench::programs::judge_all);
 }

@@ -12,9 +12,7 @@
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// FILE,FILE,...
 std::vector<std::filesystem::path> files_of(const std::string& list) {
@@ -54,9 +52,7 @@ int compare_files(CommandLine& line) {
                                                                                                                  : 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
@@ -65,5 +61,5 @@ int main(int argc, char** argv) {
       "Mann-Whitney test finds the repetitions apart and the ratio of medians reaches the threshold; it takes 5 "
       "repetitions at least. Noise that lasts for a whole run, such as another program beside it, the test cannot "
       "know.",
-      argc, argv, dmocbench::compare_files);
+      argc, argv, dmocbench::programs::compare_files);
 }

@@ -7,9 +7,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 class Consistency final : public Experiment {
  public:
@@ -44,8 +42,6 @@ class Consistency final : public Experiment {
   std::optional<MomentumConsistency> result_;
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Consistency(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Consistency(), argc, argv); }

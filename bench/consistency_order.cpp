@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -15,9 +14,7 @@
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// The quantities that are compared with the exact ones, with their names in the tables.
 constexpr std::array<std::pair<const char*, double ConsistencyErrors::*>, 6> quantities{
@@ -108,10 +105,10 @@ struct Results {
 /// next power of h still counts.
 std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   constexpr double rounding = 1e-15;
-  constexpr std::ptrdiff_t fitted = 6;
+  constexpr std::size_t fitted = 6;
   std::erase_if(points, [](const GridError& point) { return point.error < rounding; });
   std::ranges::sort(points, {}, &GridError::step);
-  if (std::ssize(points) > fitted) points.erase(points.begin() + fitted, points.end());
+  points.resize(std::min(points.size(), fitted));
   return fit_order(points);
 }
 
@@ -160,9 +157,7 @@ int measure_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
@@ -170,5 +165,5 @@ int main(int argc, char** argv) {
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
       "(consistency_order_slopes.csv).",
-      argc, argv, dmocbench::measure_all);
+      argc, argv, dmocbench::programs::measure_all);
 }

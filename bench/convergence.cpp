@@ -1,4 +1,4 @@
-// Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and what accuracy costs.
+// Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and the cost of accuracy.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -15,9 +15,7 @@
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// The value of --reference: N, 0 for the finest grid of each curve, or `exact_reference`.
 long long parse_reference(const std::string& text) {
@@ -148,8 +146,6 @@ class Convergence final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Convergence(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Convergence(), argc, argv); }

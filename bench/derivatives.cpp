@@ -6,9 +6,7 @@
 #include "bench/derivatives/measured_derivatives.hpp"
 #include "bench/experiment/experiment.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 const std::string limited_memory = "limited_memory";
 
@@ -77,10 +75,10 @@ class Derivatives final : public Experiment {
     if (the_case.variant == limited_memory) options.passed_on.emplace("hessian_approximation", "limited-memory");
     const bool is_exact = the_case.derivatives == "tape" || the_case.derivatives == "adolc";
     if (!is_exact || !the_case.variant.empty()) {
-      const Answer* exact = partner_of(the_case);
+      const SolvedCase* exact = partner_of(the_case);
       options.most_iterations = std::min(options.most_iterations, most_iterations);
       options.most_seconds =
-          exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->seconds) : limit_without_tape;
+          exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->solution.seconds) : limit_without_tape;
     }
     return Experiment::solver_for(the_case, options);
   }
@@ -88,23 +86,18 @@ class Derivatives final : public Experiment {
   void complete(SolvedCase& solved) override {
     const Case& the_case = solved.the_case;
     if (solved.trajectory && the_case.derivatives == "tape" && the_case.variant.empty() && is_usable(solved)) {
-      answers_.push_back({the_case, *solved.trajectory, solved.solution.seconds});
+      answers_.push_back(solved);
+      answers_.back().program.reset();  // it is large
     }
     measured_ = {};
-    if (const Answer* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
-      const Eigen::MatrixXd& q = exact->trajectory.q;
+    if (const SolvedCase* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
+      const Eigen::MatrixXd& q = exact->trajectory->q;
       measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
     }
     if (solved.program) evaluate(solved);
   }
 
  private:
-  struct Answer {
-    Case the_case;
-    Trajectory trajectory;
-    double seconds;
-  };
-
   /// Errors and times at the start of the solve.
   void evaluate(const SolvedCase& solved) {
     Transcription& program = *solved.program;
@@ -121,18 +114,18 @@ class Derivatives final : public Experiment {
   }
 
   /// The tape's solve of the same program; null if there is none.
-  [[nodiscard]] const Answer* partner_of(const Case& the_case) const {
+  [[nodiscard]] const SolvedCase* partner_of(const Case& the_case) const {
     Case by_tape = the_case;
     by_tape.derivatives = "tape";
     by_tape.variant = "";
-    const auto found = std::ranges::find_if(answers_, [&](const Answer& answer) {
+    const auto found = std::ranges::find_if(answers_, [&](const SolvedCase& answer) {
       return answer.the_case.same_curve(by_tape) &&
              answer.the_case.grid.relative_times() == the_case.grid.relative_times();
     });
     return found == answers_.end() ? nullptr : &*found;
   }
 
-  std::vector<Answer> answers_;
+  std::vector<SolvedCase> answers_;  // by the tape
   struct {
     std::optional<double> jacobian_error;
     std::optional<double> hessian_error;
@@ -141,8 +134,6 @@ class Derivatives final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Derivatives(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Derivatives(), argc, argv); }

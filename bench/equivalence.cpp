@@ -16,9 +16,7 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// Largest difference of two tables relative to the largest entry of the second.
 double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -153,8 +151,6 @@ class Equivalence final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Equivalence(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Equivalence(), argc, argv); }

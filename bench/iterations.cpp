@@ -9,9 +9,7 @@
 #include "methods/diagnostics/kkt_fill.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 class Iterations final : public Experiment {
  public:
@@ -85,12 +83,10 @@ class Iterations final : public Experiment {
   }
 
   std::vector<std::string> crashes_{"none"};
-  KktFill fill_;  // this and what follows: of the case that is completed
-  std::optional<ReplayError> replay_;
+  KktFill fill_;                       // of the case that is completed
+  std::optional<ReplayError> replay_;  // likewise
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Iterations(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Iterations(), argc, argv); }

@@ -1,5 +1,4 @@
-// What there is: problems with everything they prescribe and what is known of their optimum, methods, tableaus,
-// solvers, derivative back ends.
+// Lists problems with their data and their known optimum, methods, tableaus, solvers, derivative back ends.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,9 +10,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 std::string listed(const Eigen::VectorXd& vector) { return fmt::format("({:.6g})", fmt::join(vector, ", ")); }
 
@@ -141,12 +138,10 @@ int print_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
       "list", "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", argc,
-      argv, dmocbench::print_all);
+      argv, dmocbench::programs::print_all);
 }

@@ -10,9 +10,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 class LocalMinima final : public Experiment {
  public:
@@ -78,8 +76,6 @@ class LocalMinima final : public Experiment {
   IndependentChecks checks_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::LocalMinima(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::LocalMinima(), argc, argv); }

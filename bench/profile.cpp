@@ -1,5 +1,4 @@
-// Across the library: what every method solves from the problems' own guesses, how fast and how accurately.
-#include <algorithm>
+// All problems by every method from the problems' own guesses: success, speed and accuracy.
 #include <cmath>
 #include <optional>
 
@@ -10,9 +9,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/profile_tables.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 class Profile final : public Experiment {
  public:
@@ -89,8 +86,6 @@ class Profile final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Profile(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Profile(), argc, argv); }

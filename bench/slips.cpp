@@ -1,5 +1,4 @@
 // Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
-#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -12,9 +11,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 struct Slip {
   std::string problem;
@@ -113,12 +110,10 @@ int evaluate_slips(CommandLine& line) {
   return 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
       "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-      argc, argv, dmocbench::evaluate_slips);
+      argc, argv, dmocbench::programs::evaluate_slips);
 }

@@ -1,4 +1,4 @@
-// One or more solutions, written out as motions: nodes, stages and what a picture shows.
+// One or more solutions, written out as motions: nodes, stages and the quantities of a picture.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// A row per minor iteration. Columns of the quadratic program are named x3 (variable 3 of the program, from 0) or s5
 /// (the slack of constraint 5).
@@ -101,8 +99,6 @@ class Solve final : public Experiment {
   IndependentChecks checks_;         // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::Solve(), argc, argv); }
+int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Solve(), argc, argv); }

@@ -14,9 +14,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 /// The energy along the unforced ellipse: of one period, or over all of them.
 template <class Energy>
@@ -171,9 +169,7 @@ int write_tables(CommandLine& line) {
   return 0;
 }
 
-}  // namespace
-
-}  // namespace dmocbench
+}  // namespace dmocbench::programs
 
 int main(int argc, char** argv) {
   return dmocbench::run_program(
@@ -182,5 +178,5 @@ int main(int argc, char** argv) {
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
       "(structure_energy.csv, structure_energy_behaviour.csv) and along the optimal orbital transfer "
       "(structure_transfer.csv).",
-      argc, argv, dmocbench::write_tables);
+      argc, argv, dmocbench::programs::write_tables);
 }

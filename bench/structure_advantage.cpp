@@ -1,4 +1,4 @@
-// How much of DMOC's saving belongs to the method, and how much to the solver: the same programs by solvers that know
+// How much of DMOC's saving is due to the method, and how much to the solver: the same programs by solvers that use
 // more or less of their structure.
 #include <cmath>
 #include <memory>
@@ -17,9 +17,7 @@
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-namespace dmocbench {
-
-namespace {
+namespace dmocbench::programs {
 
 const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
 
@@ -123,8 +121,8 @@ class StructureAdvantage final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace
+}  // namespace dmocbench::programs
 
-}  // namespace dmocbench
-
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::StructureAdvantage(), argc, argv); }
+int main(int argc, char** argv) {
+  return dmocbench::run_experiment(dmocbench::programs::StructureAdvantage(), argc, argv);
+}

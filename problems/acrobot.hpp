@@ -97,8 +97,8 @@ class Acrobot final : public Problem {
           .digits = 6,
           .certificate = "Gauss s = 3 on 800 and s = 4 on 500 intervals agree; replayed, the end met to 4e-4",
           .remark =
-              "the best of about a hundred starts, many of them around it; another minimum is 93.09407; not "
-              "known to be the least"};
+              "the best of about a hundred starts, many of them around it; another minimum is 93.09407; not known to "
+              "be the least"};
     }
     return ReferenceOptimum{
         .objective = 54.412699,
@@ -107,9 +107,9 @@ class Acrobot final : public Problem {
         .published = {{4.4432421953665, "PROPT guide, 80 collocation points"}},
         .remark =
             "the published cost is impossible: no motion costs less than 4 b2 dV = 27.468. Coarse grids have such "
-            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this motion. The best of more than a "
-            "hundred starts, many of them around it; not known to be the least. From the guess every method ends in a "
-            "minimum of its own"};
+            "false optima: DMOC with s = 1 and N = 128 finds 23.16 near this motion. The best of more than a hundred "
+            "starts, many of them around it; not known to be the least. From the guess every method ends in a minimum "
+            "of its own"};
   }
 
   static constexpr double mass_1 = 1.0;           // kg

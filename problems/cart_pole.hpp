@@ -32,7 +32,18 @@ class CartPole final : public Problem {
     return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",
             .guess = "x = d t/T, theta = pi t/T - 2 sin(pi t/T), v their slopes, u = 0",
-            .reference = reference_optimum()};
+            // The bounds need not hold: they are not active at the optimum.
+            .reference = with_default_parameters(
+                *this,
+                {.objective = 57.9447803067,
+                 .digits = 10,
+                 .certificate = "Gauss and Lobatto with s = 4 on 192 intervals, a replay and, without the bounds, "
+                                "which are not active, the indirect method agree",
+                 .published = {{58.8839489745, "Dymos, test_cartpole_opt.py, after the tutorial (tolerance 1e-3)"}},
+                 .remark = "two minima: the pole swings back first (57.944780, from which the guess starts) or forward "
+                           "first (58.807667), which the straight line and the published value are on; Dymos adds u(T) "
+                           "= 0 and is 0.13 % above that one"},
+                {"bounded"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -72,7 +83,7 @@ class CartPole final : public Problem {
   /// The optimum is about 58.
   [[nodiscard]] double cost_scale() const override { return 1e-2; }
 
-  /// x on the straight line; θ swings back first, which is where the cheaper of two minima lies.
+  /// x on the straight line; θ swings back first, as in the cheaper of two minima.
   [[nodiscard]] MotionPoint guess(double t) const override {
     using std::numbers::pi;
     MotionPoint point = Problem::guess(t);
@@ -96,22 +107,6 @@ class CartPole final : public Problem {
   }
 
  private:
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
-    // The bounds need not hold: they are not active at the optimum.
-    if (!has_default_parameters({"bounded"})) return std::nullopt;
-    return ReferenceOptimum{
-        .objective = 57.9447803067,
-        .digits = 10,
-        .certificate =
-            "Gauss and Lobatto with s = 4 on 192 intervals, a replay and, without the bounds, which are not active, "
-            "the indirect method agree",
-        .published = {{58.8839489745, "Dymos, test_cartpole_opt.py, after the tutorial (tolerance 1e-3)"}},
-        .remark =
-            "two minima: the pole swings back first (57.944780, from which the guess starts) or forward first "
-            "(58.807667), which the straight line and the published value are on; Dymos adds u(T) = 0 and is 0.13 % "
-            "above that one"};
-  }
-
   static constexpr double swing_back = 2.0;  // rad
 };
 

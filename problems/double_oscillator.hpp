@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "methods/mechanics/problem.hpp"
+#include "problems/common_parameters.hpp"
 
 namespace dmocbench {
 
@@ -24,13 +25,22 @@ class DoubleOscillator final : public Problem {
 
   [[nodiscard]] std::string name() const override { return "double_oscillator"; }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "two shaken masses whose damper is the control, initial velocity and final state free",
-            .source =
-                "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, "
-                "Petit: "
-                "Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)",
-            .guess = "everything at rest, u = 0",
-            .reference = reference_optimum()};
+    return {
+        .description = "two shaken masses whose damper is the control, initial velocity and final state free",
+        .source =
+            "OptimalControlProblems.jl and CTBenchmarks.jl, problem double_oscillator, after Coudurier, Lepreux, "
+            "Petit: Optimal bang-bang control of a mechanical double oscillator using averaging methods (2018)",
+        .guess = "everything at rest, u = 0",
+        .reference = with_default_parameters(
+            *this,
+            {.objective = 9.11034863017e-4,
+             .digits = 11,
+             .certificate =
+                 "Gauss with 3 stages and Lobatto with 4; the replays of both controls have the same cost to 12 digits",
+             .published = {{0.000910190, "CTBenchmarks.jl, midpoint rule, N = 200"},
+                           {0.000910336, "CTBenchmarks.jl, trapezoidal rule, N = 200"}},
+             .remark = "the published values are those of their grids: ours of the midpoint and the trapezoidal rule "
+                       "on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x_1", "x_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -69,22 +79,6 @@ class DoubleOscillator final : public Problem {
             {"x_2", "m", x.q[1]},
             {"shaking_force", "N", sin(2.0 * std::numbers::pi / horizon() * x.t)},
             {"u", "", x.u[0]}};
-  }
-
- private:
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
-    if (!has_default_parameters()) return std::nullopt;
-    return ReferenceOptimum{
-        .objective = 9.11034863017e-4,
-        .digits = 11,
-        .certificate =
-            "Gauss with 3 stages and Lobatto with 4; the replays of both controls have the same cost to 12 "
-            "digits",
-        .published = {{0.000910190, "CTBenchmarks.jl, midpoint rule, N = 200"},
-                      {0.000910336, "CTBenchmarks.jl, trapezoidal rule, N = 200"}},
-        .remark =
-            "the published values are those of their grids: ours of the midpoint and the trapezoidal rule on 200 "
-            "intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"};
   }
 };
 

@@ -20,7 +20,8 @@ class ForcedOscillator final : public Problem {
     return {.description = "harmonic oscillator from rest to rest, least control effort; constant mass, optimum 1/pi",
             .source = "minimum energy control of a linear system, closed form; not in the paper",
             .time_unit = {.name = "", .factor = 1.0},
-            .reference = reference_optimum()};
+            .reference =
+                ReferenceOptimum{.objective = std::numbers::inv_pi, .digits = 16, .certificate = "closed form: 1/pi"}};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -40,13 +41,6 @@ class ForcedOscillator final : public Problem {
   /// Translations, ξ = 1, under which the kinetic energy is invariant; the spring's force counts as one of the forces.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector::Constant(1, Expression(1.0));
-  }
-
- private:
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
-    constexpr int all_digits = 16;
-    return ReferenceOptimum{
-        .objective = std::numbers::inv_pi, .digits = all_digits, .certificate = "closed form: 1/pi"};
   }
 };
 

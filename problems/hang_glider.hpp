@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
@@ -70,11 +68,11 @@ class HangGlider final : public Problem {
   }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = Problem::bounds();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     bounds.last.free_configuration(0);
     bounds.horizon = {1.0, 100.0};
     // As in COPS: without ẋ >= 0 a glider that turns back in the thermal could gain altitude without end.
-    bounds.v = {Eigen::Vector2d(0.0, -infinity), Eigen::Vector2d(infinity, infinity)};
+    bounds.v = Bounds::none(2);
+    bounds.v.lower[0] = 0.0;
     bounds.u = Bounds::all(1, 0.0, 1.4);
     return bounds;
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "problems/circle_to_circle.hpp"
+#include "problems/orbital_transfer.hpp"
 
 namespace dmocbench {
 

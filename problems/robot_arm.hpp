@@ -108,18 +108,17 @@ class RobotArm final : public Problem {
                                   "u_theta is singular in the middle of the motion",
                               .remark = "the published values are those of the equations without Coriolis terms"};
     }
-    return ReferenceOptimum{
-        .objective = 9.1409117459,
-        .digits = 11,
-        .certificate =
-            "switching times: all controls are bang-bang and the motion is symmetric in time, so that u_rho "
-            "switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its mirror image, found with T "
-            "by Newton's method on the integrated half of the motion; Gauss with 3 stages on a grid with nodes at "
-            "these times has the same T to 11 digits",
-        .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
-        .remark =
-            "COPS prints the value of its grid, which does not know the switching times: ours of the trapezoidal rule "
-            "on 200 intervals is 9.14140, on 400 9.14103"};
+    return ReferenceOptimum{.objective = 9.1409117459,
+                            .digits = 11,
+                            .certificate =
+                                "switching times: all controls are bang-bang and the motion is symmetric in time, so "
+                                "that u_rho switches at T/4 and 3T/4, u_theta at T/2, u_phi at 0.3058824 T and its "
+                                "mirror image, found with T by Newton's method on the integrated half of the motion; "
+                                "Gauss with 3 stages on a grid with nodes at these times has the same T to 11 digits",
+                            .published = {{9.14138, "COPS 3.0, trapezoidal rule, N = 200"}},
+                            .remark =
+                                "COPS prints the value of its grid, which does not know the switching times: ours of "
+                                "the trapezoidal rule on 200 intervals is 9.14140, on 400 9.14103"};
   }
 
   /// I_φ(ρ).

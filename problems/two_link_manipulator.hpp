@@ -33,7 +33,11 @@ class TwoLinkManipulator : public Problem {
     return {
         .description = "swing-up of a planar two-link arm in fixed time, least control effort",
         .source = "Ober-Bloebaum, Junge, Marsden: Discrete Mechanics and Optimal Control: an Analysis, section 4.2.2",
-        .reference = reference_optimum()};
+        .reference = with_default_parameters(*this, {.objective = 80.37902916907,
+                                                     .digits = 13,
+                                                     .certificate = by_indirect_method(13),
+                                                     .remark = "the paper gives no data and shows the cost in a figure "
+                                                               "only; other minima near 89.56, 167, 171, 192, 205"})};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta_1", "theta_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau_1", "tau_2"}; }
@@ -88,19 +92,6 @@ class TwoLinkManipulator : public Problem {
             {"tip_y", "m", elbow_y + parameter("length_2") * sin(x.q[1])},
             {"tau_1", "N m", x.u[0]},
             {"tau_2", "N m", x.u[1]}};
-  }
-
- private:
-  [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
-    if (!has_default_parameters()) return std::nullopt;
-    return ReferenceOptimum{
-        .objective = 80.37902916907,
-        .digits = 13,
-        .certificate =
-            "the indirect method with Gauss of orders 16 and 20; the replay of its control has the same cost to 13 "
-            "digits",
-        .remark =
-            "the paper gives no data and shows the cost in a figure only; other minima near 89.56, 167, 171, 192, 205"};
   }
 };
 

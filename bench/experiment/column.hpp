@@ -84,7 +84,7 @@ template <class... Members>
   return [=](const auto& record) { return member(record, members...); };
 }
 
-/// Reads a field from an object that belongs to the record being written, whatever the record is:
+/// Reads a field from an object outside the record that is written:
 /// `of(error_, &TrajectoryError::state)`. The object is read when the row is made.
 template <class Object, class... Members>
 [[nodiscard]] auto of(const Object& object, Members... members) {
@@ -113,7 +113,7 @@ template <class Record>
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {
-      {"slope", "", "fitted order", from(fit, &FittedOrder::slope)},
+      {"slope", "", "fitted order", from(fit, &FittedOrder::order)},
       {"standard_error", "", "of the order; empty with two points",
        [fit](const Record& record) { return (record.*fit).points > 2 ? Cell((record.*fit).standard_error) : Cell(); }},
       {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},

@@ -11,8 +11,8 @@ class App;
 
 namespace dmocbench {
 
-/// The options of a program: their names, where their values go, what `--help` says of them and of the values they
-/// have by default.
+/// The options of a program: their names, the variables that take their values, and their help, which shows the values
+/// that these variables have at first.
 ///
 /// CLI11 is behind it, in command_line.cpp alone: its headers take a compiler longer than most programs do.
 class CommandLine {

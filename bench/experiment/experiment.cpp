@@ -24,11 +24,6 @@ namespace dmocbench {
 
 namespace {
 
-constexpr int exit_solved = 0;
-constexpr int exit_some_failed = 1;
-constexpr int exit_interrupted = 130;
-constexpr int most_jobs = 256;
-
 void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
 
 /// Cases in a row that differ in their grid only, together.
@@ -94,8 +89,8 @@ class Run {
     write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
     fmt::print("{}: {} rows, {} not solved, {} on another branch: {}\n", experiment_.card().name, table.rows().size(),
                failures, other_branch, table_file().string());
-    if (!complete) return exit_interrupted;
-    return failures > 0 ? exit_some_failed : exit_solved;
+    if (!complete) return 130;
+    return failures > 0 ? 1 : 0;
   }
 
  private:
@@ -152,7 +147,7 @@ class Run {
     }
   }
 
-  /// Grid after grid, the cases that differ in method, solver and variant only in turn.
+  /// Grid after grid; the cases that differ in method, solver and variant only are solved in turn.
   void solve_in_turn() {
     std::map<std::tuple<std::string, std::string, int, std::size_t>, std::vector<std::size_t>> grids;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
@@ -283,7 +278,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
     add_options(line, experiment.options());
     if (card.problems_are_independent) {
-      line.number("--jobs", experiment.options().jobs, 1, most_jobs,
+      line.number("--jobs", experiment.options().jobs, 1, 256,
                   "problems worked on at the same time, each in a process of its own");
     }
     experiment.add_options(line);

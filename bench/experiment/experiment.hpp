@@ -11,15 +11,15 @@
 
 namespace dmocbench {
 
-/// What is fixed of an experiment, whatever its cases are.
+/// The properties of an experiment that do not depend on its cases.
 struct ExperimentCard {
   std::string name;                       ///< of the binary, and of the table unless the user gives another
-  std::string description;                ///< what `--help` says
-  ExperimentOptions options;              ///< what is chosen unless the user chooses; then what is chosen
-  bool tells_branches = true;             ///< rows tell their branch; to know it takes the solves of a common start
+  std::string description;                ///< in `--help`
+  ExperimentOptions options;              ///< the defaults; then the choice of the user
+  bool tells_branches = true;             ///< rows tell their branch, which takes the solves of a common start
   bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
-  bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that what
-                             ///< else the machine does meets all of them alike
+  bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
+                             ///< other load of the machine slows all of them alike
   bool polishes = false;     ///< solved cases are tightened by Newton steps (polish.hpp)
 };
 

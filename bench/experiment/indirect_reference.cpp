@@ -1,10 +1,9 @@
 #include "bench/experiment/indirect_reference.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/solve_case.hpp"

@@ -102,7 +102,7 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
   const Table nodes = Table::from_csv(read_file(nodes_file));
   const Table stages = Table::from_csv(read_file(stages_file));
 
-  // One control per stage time, joined linearly: the trajectory of a one-stage method, whatever wrote the file.
+  // One control per stage time, joined linearly: the trajectory of a one-stage method.
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
   trajectory.node_times = columns(nodes, {"t"}, "", nodes_file);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <ranges>
 #include <set>
 
@@ -29,7 +28,7 @@ long long parse_count(std::string_view option, std::string_view text) {
   return *count;
 }
 
-/// Cuts off what stands before the separator and moves `rest` behind it.
+/// Returns the text before the separator and moves `rest` behind it.
 std::string_view take_part(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   const std::string_view part = rest.substr(0, end);

@@ -11,7 +11,7 @@
 
 namespace dmocbench {
 
-/// What every experiment lets its user choose.
+/// The options that all experiments have.
 struct ExperimentOptions {
   std::vector<std::string> problems = paper_problem_names();  ///< "all" alone: every problem there is
   std::vector<std::string> methods = {};                      ///< empty: all
@@ -63,7 +63,7 @@ void add_options(CommandLine& line, ExperimentOptions& options);
 [[nodiscard]] std::pair<std::string_view, std::string_view> parse_assignment(std::string_view option,
                                                                              std::string_view text);
 
-/// The whole text as a number. Throws `Error` that says what it was wanted for.
+/// The whole text as a number. Throws `Error` that begins with `wanted_for`.
 [[nodiscard]] double parse_number(std::string_view wanted_for, std::string_view text);
 
 }  // namespace dmocbench

@@ -35,7 +35,7 @@ bool write_all(int descriptor, std::string_view content) {
 
 std::string reason() { return std::strerror(errno); }  // NOLINT(concurrency-mt-unsafe): one thread writes
 
-/// Closes what was written to `path`; undoes it and throws, by errno, if it is not whole.
+/// Closes a file. If it is not whole, calls `undo` and throws an error with the reason in errno.
 void close_or_undo(int descriptor, bool is_whole, const std::filesystem::path& path, const auto& undo) {
   const std::string failure = is_whole ? "" : reason();
   if (descriptor >= 0) ::close(descriptor);

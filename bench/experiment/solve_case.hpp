@@ -26,7 +26,7 @@ struct Case {
   std::string solver = {};
   std::string derivatives = "tape";  ///< the back end that the solver sees
   Grid grid = Grid::uniform(1);
-  std::string variant = {};  ///< what an experiment varies besides; empty in most
+  std::string variant = {};  ///< a choice that only some experiments vary; empty in others
   CostForm form = CostForm::bolza;
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
@@ -41,14 +41,14 @@ struct Case {
   [[nodiscard]] bool same_curve(const Case& other) const;
 };
 
-/// Everything an experiment may want to know of one solve.
+/// The result of one solve.
 struct SolvedCase {
   Case the_case;
   std::shared_ptr<Transcription> program = nullptr;  ///< null if the case could not start
   Solution solution = {};
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
-  std::string branch = {};  ///< "same" or "other" than that of the start; empty if nobody can tell
+  std::string branch = {};                              ///< "same" or "other" than that of the start; empty if unknown
   std::optional<double> setup_seconds = std::nullopt;
   std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
   std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
@@ -80,7 +80,7 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
 
-/// True of solves that were answered on the wanted branch: what curves, orders and claims are made of.
+/// True of solves that ended on the wanted branch; curves, orders and claims use only these.
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
 [[nodiscard]] bool is_usable(const Row& row);
 

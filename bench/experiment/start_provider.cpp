@@ -46,7 +46,7 @@ std::string origin_of(const std::filesystem::path& nodes_file) {
   return {};
 }
 
-/// A replay that leaves the set where the equations make sense has no error to speak of: infinity.
+/// The error of a replay; infinity if it leaves the set where the equations make sense.
 double replayed(const Problem& problem, const Trajectory& trajectory) {
   try {
     return replay_error(problem, trajectory).norm();
@@ -113,18 +113,16 @@ Motion StartProvider::motion_for(const Case& the_case) {
     throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
                               kind_, the_case.label()));
   }
-  const CommonStart& start = common_start(the_case);
-  const bool own = start.method == the_case.method && the_case.intervals() == final_intervals;
-  return own ? start.finer : start.motion;
+  const FoundStart& start = common_start(the_case);
+  if (!start) throw NoStart(start.error());
+  const bool own = start->method == the_case.method && the_case.intervals() == final_intervals;
+  return own ? start->finer : start->motion;
 }
 
 std::optional<Motion> StartProvider::branch_for(const Case& the_case) {
   if (kind_ != "guess") return motion_for(the_case);
-  try {
-    return common_start(the_case).motion;
-  } catch (const NoStart&) {
-    return std::nullopt;
-  }
+  const FoundStart& start = common_start(the_case);
+  return start ? std::optional(start->motion) : std::nullopt;
 }
 
 Trajectory StartProvider::solve(const Case& the_case) {
@@ -134,12 +132,10 @@ Trajectory StartProvider::solve(const Case& the_case) {
   return *solved.trajectory;
 }
 
-const StartProvider::CommonStart& StartProvider::common_start(const Case& the_case) {
+const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {
   const Key key{the_case.problem->name(), the_case.tableau, the_case.stages};
-  auto known = common_.find(key);
-  if (known == common_.end()) known = common_.emplace(key, find_common_start(the_case)).first;
-  if (!known->second) throw NoStart(known->second.error());
-  return *known->second;
+  if (const auto known = common_.find(key); known != common_.end()) return known->second;
+  return common_.emplace(key, find_common_start(the_case)).first->second;
 }
 
 StartProvider::FoundStart StartProvider::find_common_start(const Case& the_case) const {

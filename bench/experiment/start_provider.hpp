@@ -17,7 +17,7 @@
 
 namespace dmocbench {
 
-/// There is no motion that a case could start from; the sentence says why.
+/// There is no motion that a case could start from; the sentence gives the reason.
 class NoStart : public Error {
  public:
   using Error::Error;
@@ -49,7 +49,7 @@ class StartProvider {
   /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch.
   [[nodiscard]] Trajectory solve(const Case& the_case);
 
-  /// Told what is being solved on the way to a common start.
+  /// Called before each solve on the way to a common start, with a description of it.
   std::function<void(const std::string&)> on_progress;
 
  private:
@@ -58,9 +58,9 @@ class StartProvider {
     Motion motion;  // solved on coarse_intervals
     Motion finer;   // the same branch on twice as many
   };
-  using FoundStart = tl::expected<CommonStart, std::string>;  // or why there is none
+  using FoundStart = tl::expected<CommonStart, std::string>;  // or the reason why there is none
   using Key = std::tuple<std::string, std::string, int>;
-  [[nodiscard]] const CommonStart& common_start(const Case& the_case);
+  [[nodiscard]] const FoundStart& common_start(const Case& the_case);
   [[nodiscard]] FoundStart find_common_start(const Case& the_case) const;
   [[nodiscard]] const Motion& motion_in_file(const Problem& problem);
 

@@ -28,24 +28,16 @@ std::vector<std::string> take_record(std::string_view& rest) {
   std::size_t i = 0;
   for (; i < rest.size(); ++i) {
     const char c = rest[i];
-    if (inside_quotes) {
-      if (c != '"') {
-        fields.back() += c;
-      } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
-        fields.back() += c;
-        ++i;
-      } else {
-        inside_quotes = false;
-      }
-    } else if (c == '"') {
-      inside_quotes = true;
+    if (c == '"') {
+      inside_quotes = !inside_quotes;
+      if (inside_quotes && i > 0 && rest[i - 1] == '"') fields.back() += c;  // a quote in quotes is written twice
+    } else if (inside_quotes || (c != ',' && c != '\n' && c != '\r')) {
+      fields.back() += c;
     } else if (c == ',') {
       fields.emplace_back();
     } else if (c == '\n') {
       ++i;
       break;
-    } else if (c != '\r') {
-      fields.back() += c;
     }
   }
   rest.remove_prefix(i);

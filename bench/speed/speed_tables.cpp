@@ -168,7 +168,7 @@ Table solve_exponents(const Table& solves) {
       const auto line = fit_order(points);
       if (!line || line->points < fewest_grids) continue;
       Row row = fields_of(curve.front(), {"problem", "method", "solver", "threads"});
-      row.set("exponent", line->slope);
+      row.set("exponent", line->order);
       row.set("standard_error", line->standard_error);
       row.set("grids", line->points);
       // The abscissa is N instead of a step: the smallest is that of the coarsest grid.

@@ -2,8 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
-#include <string>
+#include <optional>
 #include <utility>
 
 #include "bench/summary/ratios.hpp"
@@ -17,9 +16,15 @@ constexpr double same_objective = 1e-6;
 constexpr double same_error = 1e-4;
 
 struct Quantity {
-  const char* name = "";
-  const char* column = "";
+  const char* name;
+  const char* column;
   bool is_per_interval = false;  ///< in the table
+
+  [[nodiscard]] std::optional<double> cost(const Row& row) const {
+    auto value = row.number(column);
+    if (value && is_per_interval) *value *= row.number("intervals", 0.0);
+    return value;
+  }
 };
 
 constexpr std::array quantities{
@@ -32,26 +37,15 @@ constexpr std::array quantities{
     Quantity{"elimination_operations", "elimination_operations_per_interval", true},
 };
 
-Cost cost_of(const Quantity& quantity) {
-  return [=](const Row& row) {
-    auto value = row.number(quantity.column);
-    if (value && quantity.is_per_interval) *value *= row.number("intervals", 0.0);
-    return value;
-  };
-}
-
 const ColumnNames program_columns{"problem", "method", "tableau", "stages", "intervals"};
 const ColumnNames line_columns{"problem", "method", "tableau", "stages", "solver", "factorisation"};
 
 /// The rows that count.
 Selection comparable_rows(const Selection& table) {
-  const Selection rows = table.usable();
-  const auto objective = [](const Row& row) {
-    return row.number("objective", std::numeric_limits<double>::infinity());
-  };
+  const Selection rows = table.usable().with_number("objective");
   return rows.where([&](const Row& row) {
-    const double lowest = -rows.matching(row, program_columns).max([&](const Row& other) { return -objective(other); });
-    return objective(row) - lowest <= same_objective * std::abs(lowest);
+    const double lowest = rows.matching(row, program_columns).min("objective");
+    return row.number("objective", 0.0) - lowest <= same_objective * std::abs(lowest);
   });
 }
 
@@ -66,7 +60,7 @@ Table advantage_ratios(const Selection& advantage) {
                                .matching(line.front(), {"problem", "tableau", "stages", "solver", "factorisation"});
     if (line.front().text("method") == "dmoc" || dmoc.empty()) continue;
     for (const Quantity& quantity : quantities) {
-      const Cost cost = cost_of(quantity);
+      const Cost cost = [&](const Row& row) { return quantity.cost(row); };
       for (const Row& row : line.where([&](const Row& solved) { return cost(solved).has_value(); })) {
         Row result = fields_of(row, line_columns);
         result.set("intervals", row.text("intervals"));

@@ -5,11 +5,43 @@
 
 #include <Eigen/Core>
 
-#include "bench/structure_advantage/node_order.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/kkt_system.hpp"
 
 namespace dmocbench::interior_point {
+
+/// A symmetric order of the KKT matrix of a program with an interval structure in which all but a few dense lines lie
+/// in a narrow band: rows and unknowns of node 0, unknowns and rows of interval 0, rows and unknowns of node 1, ...
+/// Lines of the KKT matrix are numbered unknowns first, then rows.
+///
+/// An unknown of the whole horizon (T) would be a dense line, and the band without it singular where time is minimal.
+/// So every interval has a copy of it, and further rows, the ties, say that neighbouring copies are equal.
+struct NodeOrder {
+  /// Where a line goes: to position `at` of the band, or of the border.
+  struct Line {
+    bool in_border = false;
+    std::size_t at = 0;
+  };
+  /// Positions in the band.
+  struct Copies {
+    std::size_t unknown = 0;
+    std::vector<std::size_t> of_intervals;
+    std::vector<std::size_t> ties;  ///< tie k: copy k + 1 - copy k = 0
+  };
+
+  /// Where `line` stands in an entry of the matrix that it has with the line `other`.
+  [[nodiscard]] Line place(std::size_t line, std::size_t other) const;
+
+  std::vector<Line> lines;             ///< variable_count() + constraint_count(); copied ones by their first copies
+  std::vector<Copies> copies;          ///< one per unknown of the whole horizon
+  std::vector<std::size_t> intervals;  ///< the interval that a line belongs to, or begins
+  std::size_t band_size = 0;           ///< lines of the band, copies and ties included
+  std::size_t border_size = 0;         ///< lines of the border: rows that couple both ends
+  std::size_t half_bandwidth = 0;      ///< largest distance of an entry of the band from the diagonal
+};
+
+/// Bandwidth and border are found from the program's patterns. Throws `Error` if the program has no interval structure.
+[[nodiscard]] NodeOrder node_order(const NonlinearProgram& program);
 
 /// The KKT system of a program with an interval structure as a general band matrix, by LAPACK's LU factorisation with
 /// partial pivoting (dgbtrf). It exchanges rows across intervals, which the elimination by intervals cannot do, and
@@ -20,7 +52,7 @@ namespace dmocbench::interior_point {
 /// Zavala, Computational Optimization and Applications 64, 2016, the test for tangential steps): the step t for the
 /// gradient alone, along which the equalities do not change, must have
 ///
-///   tᵀ (H + diag(d)) t + Σ (∇a_i · t)² / e_i >= 1e-12 |t|²,  the sum over rows that are no equalities.
+///   tᵀ (H + diag(d)) t + Σ (∇a_i · t)² / e_i >= 1e-12 |t|²,  the sum over the inequalities.
 ///
 /// It takes one more right-hand side. A Hessian that is indefinite in other directions only passes: the step is then no
 /// minimum of the quadratic program, but the line search can still make progress along it.
@@ -38,54 +70,48 @@ class BandedKkt final : public KktSystem {
   [[nodiscard]] double factorisation_operations() const;
 
  private:
-  /// Where an entry of the program's matrices goes.
-  struct Target {
-    std::size_t entry;
+  /// An entry of the program's matrices: where its value stands, between which lines, and where it goes.
+  struct Entry {
+    bool in_jacobian;
+    Eigen::Index number;
+    Eigen::Index line;
+    Eigen::Index other;
     double* at;
-    double* mirror;  ///< by symmetry; null on the diagonal
-  };
+    double* mirror;  ///< by symmetry; null on the diagonal, and in the border
 
+    [[nodiscard]] double value(const KktMatrix& matrix) const {
+      return (in_jacobian ? matrix.jacobian : matrix.hessian)[number];
+    }
+  };
   /// An entry of a row that says that two copies of an unknown are equal.
   struct Tie {
     double* at;
     double value;
   };
 
-  void find_targets();
+  void find_entries(const NonlinearProgram& program);
   [[nodiscard]] double* band_entry(std::size_t row, std::size_t column);
   [[nodiscard]] double* place_of(std::size_t first, std::size_t second);
-  [[nodiscard]] Target target_of(std::size_t entry, std::size_t row, std::size_t column);
   void assemble(const KktMatrix& matrix);
-  [[nodiscard]] bool factorise();
   [[nodiscard]] bool substitute();
-  void write_right_hand_sides(const Eigen::VectorXd& slope, const Eigen::VectorXd& rows);
-  void read_step(Eigen::Index side, Eigen::VectorXd& primal_step, Eigen::VectorXd& multiplier_step) const;
-  void multiply(const KktMatrix& matrix, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
-  [[nodiscard]] bool curves_upwards(const KktMatrix& matrix);
-  [[nodiscard]] bool is_solution(const KktMatrix& matrix, const Eigen::VectorXd& slope, const Eigen::VectorXd& rows,
-                                 const Eigen::VectorXd& primal_step, const Eigen::VectorXd& multiplier_step);
+  [[nodiscard]] double& side_of(std::size_t line, Eigen::Index side);
+  [[nodiscard]] Eigen::VectorXd solution_of(Eigen::Index side);
+  [[nodiscard]] Eigen::VectorXd product(const KktMatrix& matrix, const Eigen::VectorXd& vector) const;
+  [[nodiscard]] bool curves_upwards(const KktMatrix& matrix, const Eigen::VectorXd& tangential_step) const;
 
-  const NonlinearProgram& program_;
   NodeOrder order_;
-  SparsityPattern hessian_pattern_;
-  SparsityPattern jacobian_pattern_;
-  std::vector<bool> is_free_;
-  std::size_t leading_;  // of the band in LAPACK's storage: 2 kl + ku + 1
+  Eigen::Index unknowns_;
+  std::vector<bool> is_free_;  // one per line
+  std::size_t leading_;        // of the band in LAPACK's storage: 2 kl + ku + 1
   std::vector<double> band_;
   std::vector<int> exchanged_;    // rows, as LAPACK tells them
   Eigen::MatrixXd border_;        // band_size x border_size
   Eigen::MatrixXd corner_;        // border_size x border_size
   Eigen::MatrixXd sides_;         // band_size x (step, tangential step, border)
   Eigen::MatrixXd corner_sides_;  // border_size x (step, tangential step)
-  std::vector<Target> hessian_;
-  std::vector<Target> jacobian_;
+  std::vector<Entry> entries_;    // without those of fixed unknowns
   std::vector<Tie> ties_;
   std::vector<double*> diagonal_;  // of all lines
-  Eigen::VectorXd tangential_;
-  Eigen::VectorXd tangential_multipliers_;
-  // What `multiply` gives.
-  Eigen::VectorXd unknown_products_;
-  Eigen::VectorXd row_products_;
 };
 
 }  // namespace dmocbench::interior_point

@@ -5,12 +5,9 @@
 
 #define DMOCBENCH_INLINE inline
 #define DMOCBENCH_ANY_SIZE 0
+#define DMOCBENCH_COUNT_OPERATION ++operations  // of all eight lanes
 
 namespace dmocbench::interior_point::counting {
-
-namespace plain {
-#include "methods/runtime/lanes.inc"
-}  // namespace plain
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): operators and kernels are plain functions
 long long operations = 0;
@@ -18,30 +15,8 @@ double operations_per_interval = 0.0;
 SegmentKernel uncounted;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
-/// Eight numbers. A product or quotient is counted once for all eight.
-struct Lanes {
-  using Vector = plain::Lanes::Vector;
-  using Mask = plain::Lanes::Mask;
-
-  Vector v;
-
-  static Lanes all(double value) { return {Vector{} + value}; }
-
-  friend Lanes operator+(const Lanes& a, const Lanes& b) { return {a.v + b.v}; }
-  friend Lanes operator-(const Lanes& a, const Lanes& b) { return {a.v - b.v}; }
-  friend Lanes operator-(const Lanes& a) { return {-a.v}; }
-  friend Lanes operator*(const Lanes& a, const Lanes& b) { return counted(a.v * b.v); }
-  friend Lanes operator/(const Lanes& a, const Lanes& b) { return counted(a.v / b.v); }
-  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
-  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
-
- private:
-  static Lanes counted(const Vector& result) {
-    ++operations;
-    return {result};
-  }
-};
-
+#include "methods/runtime/lanes.inc"
+//
 #include "methods/solvers/interior_point/intervals/segment_kernel.inc"
 
 void counted_backward(const EliminationPlan& plan, const NewtonArrays& arrays, SegmentGroup& group) {

@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-/// What one factorisation of the KKT matrix takes, for the whole grid.
+/// The cost of one factorisation of the KKT matrix, for the whole grid.
 struct OperationCount {
   /// Multiplications, each with an addition, and divisions; none where a solver does not tell.
   std::optional<double> elimination;

@@ -125,7 +125,7 @@ void append_fit(Table& table, const std::string& quantity, const std::string& co
   Row row = fields_of(head, {"problem", "method", "tableau", "stages"});
   row.set("quantity", quantity);
   if (order) {
-    row.set("slope", order->slope);
+    row.set("slope", order->order);
     if (order->points > 2) row.set("standard_error", order->standard_error);
     row.set("finest", fit.grids.back().text("intervals"));
     row.set("coarsest", fit.grids.front().text("intervals"));

@@ -10,26 +10,6 @@
 
 namespace dmocbench {
 
-namespace {
-
-/// ∂Φ/∂T at given velocities, then L_vt, at the last node.
-Eigen::VectorXd end_rates(const Problem& problem, const Trajectory& trajectory) {
-  const TracedProblem traced(problem);
-  PointFunction rate(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
-    ExpressionVector time(1);
-    time << x.t;
-    ExpressionVector rates(1 + problem.configuration_size());
-    rates << gradient(problem.final_cost(x.state()), time), traced.at(x).momentum_by_time;
-    return rates;
-  });
-  const Eigen::Index last = trajectory.intervals();
-  Eigen::VectorXd value(1 + problem.configuration_size());
-  rate.evaluate(trajectory.node(last), trajectory.node_times[last], value);
-  return value;
-}
-
-}  // namespace
-
 MomentumConsistency momentum_consistency(const Problem& problem, const Trajectory& trajectory) {
   const TracedProblem traced(problem);
   if (!traced.has_symmetry()) {
@@ -140,9 +120,17 @@ Eigen::VectorXd control_hamiltonian(const Problem& problem, const Trajectory& tr
 
 double free_horizon_residual(const Problem& problem, const Trajectory& trajectory) {
   const Eigen::VectorXd hamiltonian = control_hamiltonian(problem, trajectory);
+  const TracedProblem traced(problem);
+  const Eigen::Index n = traced.configuration_size();
+  PointFunction end_rates(n, traced.control_size(), [&](const ControlledState& x) {  // ∂Φ/∂T at given v, then L_vt
+    ExpressionVector rates(1 + n);
+    rates << gradient(problem.final_cost(x.state()), ExpressionVector::Constant(1, x.t)), traced.at(x).momentum_by_time;
+    return rates;
+  });
   const Eigen::Index last = trajectory.intervals();
-  const Eigen::VectorXd rates = end_rates(problem, trajectory);
-  return hamiltonian[last] + rates[0] - trajectory.psi_p.row(last).dot(rates.tail(rates.size() - 1));
+  Eigen::VectorXd rates(1 + n);
+  end_rates.evaluate(trajectory.node(last), trajectory.node_times[last], rates);
+  return hamiltonian[last] + rates[0] - trajectory.psi_p.row(last).dot(rates.tail(n));
 }
 
 }  // namespace dmocbench

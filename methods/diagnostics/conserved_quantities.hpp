@@ -8,8 +8,8 @@
 
 namespace dmocbench {
 
-// Momentum, energy and control Hamiltonian along a discrete motion: what exact motions conserve, or change by a known
-// amount only.
+// Momentum, energy and control Hamiltonian along a discrete motion. Exact motions conserve them, or change them by the
+// work of forces.
 
 /// The balance between forces and momentum along a discrete motion (eq:noether_force_d).
 struct MomentumConsistency {

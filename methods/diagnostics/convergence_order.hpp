@@ -13,7 +13,7 @@ struct GridError {
 
 /// A straight line through log(error) over log(step).
 struct FittedOrder {
-  double slope = 0.0;           ///< the order
+  double order = 0.0;
   double standard_error = 0.0;  ///< of the order; 0 with two points
   double finest = 0.0;          ///< smallest step used
   double coarsest = 0.0;        ///< largest step used

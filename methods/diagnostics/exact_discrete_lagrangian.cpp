@@ -4,7 +4,6 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/replay.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/numerics/dense_solve.hpp"
@@ -63,9 +62,7 @@ ExactDiscreteLagrangian::ExactDiscreteLagrangian(const Problem& problem, const C
 }
 
 LongVector ExactDiscreteLagrangian::control(long double t) const {
-  const PhaseVector inputs{t};
-  const PhaseVector values = replay<long double>(control_, std::span<const long double>(inputs));
-  return Eigen::Map<const LongVector>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return OutputBlocks<long double>(control_, {t}).take(static_cast<Eigen::Index>(control_.outputs().size()));
 }
 
 void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& rate, long double t) const {
@@ -76,23 +73,22 @@ void ExactDiscreteLagrangian::derivative(const PhaseVector& state, PhaseVector& 
   inputs.resize(static_cast<std::size_t>(3 * n_), 0.0L);
   inputs.push_back(t);
   // At a = 0 the residual is -L_vv q̈; at the true q̈ its derivatives give the variational equations.
-  PhaseVector values = replay<long double>(equation_, std::span<const long double>(inputs));
-  const auto block = [&](Eigen::Index first, Eigen::Index columns) {
-    return Eigen::Map<const LongMatrix>(values.data() + first, n_, columns);
-  };
-  const LongMatrix mass = block(n_, n_);
+  OutputBlocks<long double> at_zero(equation_, inputs);
+  const LongVector force = at_zero.take(n_);
+  const LongMatrix mass = at_zero.take(n_, n_);
   x_dot.q = x.v;
-  x_dot.v = -solve_square(mass, LongVector(block(0, 1)));
+  x_dot.v = -solve_square(mass, force);
   std::copy(x_dot.v.begin(), x_dot.v.end(), inputs.begin() + 2 * n_);
-  values = replay<long double>(equation_, std::span<const long double>(inputs));
+  OutputBlocks<long double> blocks(equation_, inputs);
+  static_cast<void>(blocks.take(n_, 1 + n_));  // the residual, and L_vv again
+  const LongMatrix by_q = blocks.take(n_, n_);
+  const LongMatrix by_v = blocks.take(n_, n_);
   x_dot.q_variation = x.v_variation;
   // lazyProduct: the blocked product costs seconds of compile time and pays off only for large matrices.
-  const LongMatrix residual_variation =
-      block(n_ + n_ * n_, n_).lazyProduct(x.q_variation) + block(n_ + 2 * n_ * n_, n_).lazyProduct(x.v_variation);
+  const LongMatrix residual_variation = by_q.lazyProduct(x.q_variation) + by_v.lazyProduct(x.v_variation);
   x_dot.v_variation = -solve_square(mass, residual_variation);
-  const Eigen::Index behind = n_ + 3 * n_ * n_;
-  x_dot.action = values[static_cast<std::size_t>(behind)];
-  x_dot.work = x.q_variation.transpose() * block(behind + 1, 1).col(0);
+  x_dot.action = blocks.take(1)(0, 0);
+  x_dot.work = x.q_variation.transpose() * blocks.take(n_).col(0);
 }
 
 ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVector& v_0, long double h) const {
@@ -106,8 +102,7 @@ ExactInterval ExactDiscreteLagrangian::along(const LongVector& q_0, const LongVe
     PhaseVector inputs(state.begin(), state.begin() + 2 * n_);
     inputs.resize(static_cast<std::size_t>(3 * n_), 0.0L);
     inputs.push_back(t);
-    const PhaseVector values = replay<long double>(momentum_, std::span<const long double>(inputs));
-    return LongVector(Eigen::Map<const LongVector>(values.data(), n_));
+    return LongVector(OutputBlocks<long double>(momentum_, inputs).take(n_));
   };
   ExactInterval interval;
   interval.q_0 = q_0;

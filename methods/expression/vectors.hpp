@@ -8,7 +8,7 @@
 
 #include "methods/expression/expression.hpp"
 
-/// What Eigen has to know about a traced number.
+/// Eigen's traits of a traced number.
 template <>
 struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocbench::Expression> {
   using Real = dmocbench::Expression;

@@ -55,8 +55,8 @@ Eigen::VectorXd phase_point(LegendreTransform& legendre, const BoundaryState& en
 /// The maximum principle is stated here for fixed ends, a fixed horizon and free controls.
 void require_smooth_class(const Problem& problem) {
   const TracedProblem traced(problem);
-  const auto refuse = [&](const std::string& what) {
-    throw Error("the indirect method does not know " + what + ", which " + problem.name() +
+  const auto refuse = [&](const std::string& feature) {
+    throw Error("the indirect method does not know " + feature + ", which " + problem.name() +
                 " has; measure against a finer grid instead");
   };
   const ProblemBounds bounds = problem.bounds();

@@ -50,7 +50,7 @@ struct HorizonBounds {
   [[nodiscard]] bool is_free() const noexcept { return lower != upper; }
 };
 
-/// Everything that a problem bounds.
+/// All bounds of a problem.
 struct ProblemBounds {
   EndBounds first;        ///< on (q, q̇)(0)
   EndBounds last;         ///< on (q, q̇)(T)

@@ -76,7 +76,7 @@ class Problem {
   /// T > 0; where T is free, the guess takes this value.
   [[nodiscard]] virtual double horizon() const = 0;
 
-  // What a problem may prescribe besides.
+  // Optional parts of a problem.
 
   /// Bounds on the ends, on T and along the motion. Default: both ends and T fixed, nothing else bounded. Overrides
   /// start from `Problem::bounds()`.

@@ -32,7 +32,7 @@ struct ReferenceOptimum {
   std::string remark = {};
 };
 
-/// What people want to know about a problem besides its mathematics: words, units and a reference. No solver reads it.
+/// Words, units and a reference for people who read about a problem. No solver uses them.
 struct ProblemCard {
   std::string description = {};  ///< one line
   std::string source = {};       ///< where the problem comes from

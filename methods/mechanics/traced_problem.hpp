@@ -52,7 +52,7 @@ class TracedProblem {
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
 
   /// The formulas at many points, in numbers: row i belongs to points[i] at time times[i]. The columns hold p, L_q and
-  /// f (n each), C, h, then L_vv column by column; what stands behind them is not for callers.
+  /// f (n each), C, h, then L_vv column by column; further columns are not for callers.
   [[nodiscard]] Eigen::MatrixXd table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const;
 
   /// All formulas with the given point substituted.

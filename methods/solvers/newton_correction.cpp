@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
 
 namespace dmocbench {
@@ -16,7 +15,6 @@ namespace {
 using interior_point::FactorisationStatus;
 using interior_point::IntervalKkt;
 using interior_point::KktSystem;
-using interior_point::RefinedKkt;
 using interior_point::SparseKkt;
 
 /// The least distance to a bound by which a multiplier is divided.
@@ -36,9 +34,7 @@ std::unique_ptr<KktSystem> any_point(const NonlinearProgram& program) {
 
 /// By intervals where the structure allows it, since that takes time linear in their number.
 std::unique_ptr<KktSystem> make_system(const NonlinearProgram& program) {
-  if (auto by_intervals = IntervalKkt::make(program)) {
-    return std::make_unique<RefinedKkt>(program, std::move(*by_intervals));
-  }
+  if (auto by_intervals = IntervalKkt::make(program)) return std::move(*by_intervals);
   return any_point(program);
 }
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <set>
 #include <type_traits>
+#include <utility>
 
 #include <adolc/adolc.h>
 
@@ -186,7 +187,8 @@ class Dense {
   Dense(int rows, int columns)
       : entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)),
         rows_(static_cast<std::size_t>(rows)) {
-    for (int i = 0; i < rows; ++i) rows_[static_cast<std::size_t>(i)] = entries_.data() + i * columns;
+    double* next = entries_.data();
+    for (double*& row : rows_) row = std::exchange(next, next + columns);
   }
   [[nodiscard]] double** rows() { return rows_.data(); }
   [[nodiscard]] double& operator()(std::size_t i, std::size_t j) { return rows_[i][j]; }

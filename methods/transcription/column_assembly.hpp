@@ -23,10 +23,10 @@ struct ColumnPlace {
   friend bool operator==(const ColumnPlace&, const ColumnPlace&) = default;
 };
 
-/// What becomes of the entries of an array that is assembled.
+/// How columns are combined with the array.
 enum class AssemblyMode : std::uint8_t {
   whole,  ///< all are written; those that no column reaches are set to 0
-  part,   ///< columns are added to what is there
+  part,   ///< columns are added to the present entries
 };
 
 /// How columns of one value per interval make up one long array: column e stands at places[e].

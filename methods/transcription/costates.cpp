@@ -54,8 +54,8 @@ Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eige
   return local / transcription.cost_scale();
 }
 
-/// What the multipliers of an interval say about its stages, one column per stage: Ψ^p_i, and w_i (DMOC, Hamiltonian)
-/// or -α_i/(h b_i) (tangent-space).
+/// The costates of the stages of an interval that follow from its multipliers, one column per stage: Ψ^p_i, and w_i
+/// (DMOC, Hamiltonian) or -α_i/(h b_i) (tangent-space).
 struct StageMultipliers {
   Eigen::MatrixXd psi_p;  ///< n × s
   Eigen::MatrixXd other;  ///< n × s

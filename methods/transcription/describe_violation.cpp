@@ -26,17 +26,17 @@ class Wording {
         n_(problem.configuration_size()) {}
 
   [[nodiscard]] std::string row(std::size_t row) const {
+    const Places& rows = layout_->structure().rows;
+    const Place place = rows[row];
     const LayoutShape& shape = layout_->shape();
-    if (row < layout_->node_row_column(shape.node_rows)) {
-      const std::size_t nodes = layout_->intervals() + 1;
-      return node_row(static_cast<Eigen::Index>(row / nodes), row % nodes);
+    const auto column = static_cast<Eigen::Index>(rows.run_of(row));  // one run per equation of a node or an interval
+    if (column < shape.node_rows) return node_row(column, place.index);
+    const Eigen::Index own = column - shape.node_rows;
+    if (own < shape.interval_rows()) return interval_row(own, place.index);
+    if (place.kind == Place::Kind::border) {
+      return fmt::format("boundary_conditions[{}]", row - rows.runs().back().first);
     }
-    const std::size_t head = layout_->interval_row_column(0);
-    if (row < layout_->interval_row_column(shape.interval_rows())) {
-      const std::size_t column = (row - head) / layout_->intervals();
-      return interval_row(static_cast<Eigen::Index>(column), (row - head) % layout_->intervals());
-    }
-    return end_row(row);
+    return "lagrangian: the momentum p = L_v of " + coordinate((own - shape.interval_rows()) % n_) + where(place);
   }
 
   [[nodiscard]] std::string unknown(std::size_t unknown) const {
@@ -121,17 +121,6 @@ class Wording {
     return fmt::format("row {} of the method", column);
   }
 
-  [[nodiscard]] std::string end_row(std::size_t row) const {
-    const std::size_t first_condition = layout_->row_count() - static_cast<std::size_t>(layout_->shape().conditions);
-    if (row >= first_condition) {
-      return fmt::format("boundary_conditions[{}]", row - first_condition);
-    }
-    const Place place = layout_->structure().rows[row];
-    const std::size_t head = layout_->interval_row_column(layout_->shape().interval_rows());
-    const auto i = static_cast<Eigen::Index>(row - head) % n_;
-    return "lagrangian: the momentum p = L_v of " + coordinate(i) + where(place);
-  }
-
   const Problem* problem_;
   const Transcription* transcription_;
   const Layout* layout_;
@@ -155,9 +144,9 @@ Worst farthest_outside(const Eigen::VectorXd& values, const Eigen::VectorXd& low
   return worst;
 }
 
-std::string missed(const std::string& what, double amount) {
-  if (std::isnan(amount)) return what + " is not a number.";
-  return fmt::format("Missed most is {}, by {:.3g}.", what, amount);
+std::string missed(const std::string& quantity, double amount) {
+  if (std::isnan(amount)) return quantity + " is not a number.";
+  return fmt::format("Missed most is {}, by {:.3g}.", quantity, amount);
 }
 
 bool is_held(double value, double bound) {

@@ -9,8 +9,11 @@ Layout::Layout(const LayoutShape& shape) : shape_(shape) {
   place_ends();
 }
 
-Eigen::Index Layout::node_columns() const noexcept {
-  return shape_.node_state == NodeState::configuration ? shape_.configuration_size : 2 * shape_.configuration_size;
+std::size_t Layout::append(Places& places, Place::Kind kind, Eigen::Index count) const {
+  const std::size_t head = places.size();
+  const std::size_t length = kind == Place::Kind::node ? shape_.intervals + 1 : shape_.intervals;
+  for (Eigen::Index i = 0; i < count; ++i) places.append(kind, 0, length);
+  return head;
 }
 
 void Layout::append_singles(Places& places, std::size_t node) const {
@@ -18,38 +21,31 @@ void Layout::append_singles(Places& places, std::size_t node) const {
 }
 
 void Layout::append_unknowns() {
+  using enum Place::Kind;
   const Eigen::Index m = shape_.control_size;
-  const std::size_t intervals = shape_.intervals;
   Places& unknowns = structure_.unknowns;
-  structure_.intervals = intervals;
-  const auto node_wise = [&](Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) unknowns.append(Place::Kind::node, 0, intervals + 1);
-  };
-  const auto interval_wise = [&](Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) unknowns.append(Place::Kind::interval, 0, intervals);
-  };
-  node_wise(node_columns());
-  interval_wise((shape_.stages - 1) * node_columns());
-  node_wise(shape_.shares_controls ? m : 0);
-  interval_wise((shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m);
-  cost_column_ = unknowns.size();
-  node_wise(shape_.mayer ? 1 : 0);
+  structure_.intervals = shape_.intervals;
+  append(unknowns, node, node_columns());
+  rates_ = append(unknowns, interval, interior_stages() * node_columns());
+  controls_ = append(unknowns, node, shape_.shares_controls ? m : 0);
+  inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m);
+  cost_column_ = append(unknowns, node, shape_.mayer ? 1 : 0);
   single_unknowns_ = unknowns.size();
   if (shape_.first_has_velocity) append_singles(unknowns, 0);
-  if (shape_.last_has_velocity) append_singles(unknowns, intervals);
-  if (shape_.free_horizon) unknowns.append(Place::Kind::border, 0, 1);
+  if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals);
+  if (shape_.free_horizon) unknowns.append(border, 0, 1);
 }
 
 void Layout::append_rows() {
-  const std::size_t intervals = shape_.intervals;
+  using enum Place::Kind;
   Places& rows = structure_.rows;
-  for (Eigen::Index i = 0; i < shape_.node_rows; ++i) rows.append(Place::Kind::node, 0, intervals + 1);
-  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) rows.append(Place::Kind::interval, 0, intervals);
+  append(rows, node, shape_.node_rows);
+  interval_rows_ = append(rows, interval, shape_.interval_rows());
   single_rows_ = rows.size();
   const bool own_ties = shape_.node_state == NodeState::momentum;
   if (shape_.first_has_velocity && own_ties) append_singles(rows, 0);
-  if (shape_.last_has_velocity && own_ties) append_singles(rows, intervals);
-  if (shape_.conditions > 0) rows.append(Place::Kind::border, 0, static_cast<std::size_t>(shape_.conditions));
+  if (shape_.last_has_velocity && own_ties) append_singles(rows, shape_.intervals);
+  if (shape_.conditions > 0) rows.append(border, 0, static_cast<std::size_t>(shape_.conditions));
 }
 
 void Layout::place_interval() {
@@ -58,7 +54,7 @@ void Layout::place_interval() {
     for (Eigen::Index i = 0; i < node_columns(); ++i) unknown_places_.emplace_back(configuration_column(i) + right);
     for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_column(i) + right);
   }
-  for (Eigen::Index i = 0; i < (shape_.stages - 1) * node_columns(); ++i) {
+  for (Eigen::Index i = 0; i < interior_stages() * node_columns(); ++i) {
     unknown_places_.emplace_back(rate_column(0, i));
   }
   for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
@@ -97,45 +93,12 @@ void Layout::place_ends() {
   for (Eigen::Index i = 0; i < shape_.conditions; ++i) end_row_places_.emplace_back(own_row++);
 }
 
-std::size_t Layout::configuration_column(Eigen::Index i) const noexcept {
-  return static_cast<std::size_t>(i) * (shape_.intervals + 1);
-}
-
-std::size_t Layout::second_column(Eigen::Index i) const noexcept {
-  return configuration_column(shape_.configuration_size + i);
-}
-
-std::size_t Layout::rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  return configuration_column(node_columns()) +
-         static_cast<std::size_t>(stage * shape_.configuration_size + i) * shape_.intervals;
-}
-
-std::size_t Layout::second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-  return rate_column(shape_.stages - 1 + stage, i);
-}
-
 std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noexcept {
   const Eigen::Index m = shape_.control_size;
-  const Eigen::Index slopes = (shape_.node_state == NodeState::configuration ? 1 : 2) * (shape_.stages - 1);
-  const std::size_t head = rate_column(slopes, 0);
-  if (!shape_.shares_controls) return head + static_cast<std::size_t>(stage * m + i) * shape_.intervals;
-  if (stage == 0) return head + static_cast<std::size_t>(i) * (shape_.intervals + 1);
+  if (!shape_.shares_controls) return interval_column(inner_controls_, stage * m + i);
+  if (stage == 0) return controls_ + static_cast<std::size_t>(i) * (shape_.intervals + 1);
   if (stage == shape_.stages - 1) return control_column(0, i) + 1;
-  return control_column(0, m) + static_cast<std::size_t>((stage - 1) * m + i) * shape_.intervals;
-}
-
-std::size_t Layout::node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
-
-std::size_t Layout::interval_row_column(Eigen::Index i) const noexcept {
-  return node_row_column(shape_.node_rows) + static_cast<std::size_t>(i) * shape_.intervals;
-}
-
-std::size_t Layout::first_velocity(Eigen::Index i) const noexcept {
-  return single_unknowns_ + static_cast<std::size_t>(i);
-}
-
-std::size_t Layout::last_velocity(Eigen::Index i) const noexcept {
-  return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
+  return interval_column(inner_controls_, (stage - 1) * m + i);
 }
 
 }  // namespace dmocbench

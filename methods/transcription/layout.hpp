@@ -12,7 +12,7 @@
 
 namespace dmocbench {
 
-/// What a layout is made for.
+/// The sizes from which a layout follows.
 struct LayoutShape {
   std::size_t intervals = 0;
   Eigen::Index configuration_size = 0;
@@ -35,11 +35,11 @@ struct LayoutShape {
 
 /// Where the unknowns and rows of all intervals stand in the program's vectors.
 ///
-/// Vectors are stored column by column: all q_1 of all nodes, all q_2, ..., then p or v, interior slopes, controls, z;
-/// at last v_0, v_N and T where they are unknowns. Every local quantity of an element is therefore contiguous over the
-/// intervals: that of interval k stands at `first` + k. For a quantity of the left node `first` is the head of its
-/// column, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then p =
-/// L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
+/// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, interior rates, controls,
+/// z; at last v_0, v_N and T where they are unknowns. Every local quantity of an element is therefore contiguous over
+/// the intervals: that of interval k stands at `first` + k. For a quantity of the left node `first` is the head of its
+/// column, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then
+/// p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
   explicit Layout(const LayoutShape& shape);
@@ -57,18 +57,32 @@ class Layout {
   [[nodiscard]] const std::vector<ColumnPlace>& end_row_places() const noexcept { return end_row_places_; }
 
   // Heads of columns. A node column has N + 1 entries, an interval column N.
-  [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t second_column(Eigen::Index i) const noexcept;  ///< of p_i or v_i
-  [[nodiscard]] std::size_t rate_column(Eigen::Index stage, Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept {
+    return static_cast<std::size_t>(i) * (shape_.intervals + 1);
+  }
+  [[nodiscard]] std::size_t second_column(Eigen::Index i) const noexcept {  ///< of p_i or v_i
+    return configuration_column(shape_.configuration_size + i);
+  }
+  [[nodiscard]] std::size_t rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
+    return interval_column(rates_, stage * shape_.configuration_size + i);
+  }
+  [[nodiscard]] std::size_t second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
+    return rate_column(interior_stages() + stage, i);
+  }
   [[nodiscard]] std::size_t control_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t cost_column() const noexcept { return cost_column_; }  ///< of z, in Mayer form
-  [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t interval_row_column(Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
+  [[nodiscard]] std::size_t interval_row_column(Eigen::Index i) const noexcept {
+    return interval_column(interval_rows_, i);
+  }
 
-  // Single unknowns, where they are there.
-  [[nodiscard]] std::size_t first_velocity(Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept;
+  // Single unknowns, in programs that have them.
+  [[nodiscard]] std::size_t first_velocity(Eigen::Index i) const noexcept {
+    return single_unknowns_ + static_cast<std::size_t>(i);
+  }
+  [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept {
+    return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
+  }
   [[nodiscard]] std::size_t horizon() const noexcept { return variable_count() - 1; }
 
   [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
@@ -78,7 +92,16 @@ class Layout {
   [[nodiscard]] const IntervalStructure& structure() const noexcept { return structure_; }
 
  private:
-  [[nodiscard]] Eigen::Index node_columns() const noexcept;
+  /// Of q, and of p or v.
+  [[nodiscard]] Eigen::Index node_columns() const noexcept {
+    return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size;
+  }
+  /// The head of interval column i behind `first`.
+  [[nodiscard]] std::size_t interval_column(std::size_t first, Eigen::Index i) const noexcept {
+    return first + static_cast<std::size_t>(i) * shape_.intervals;
+  }
+  /// `count` runs of one kind. Returns the head of the first.
+  std::size_t append(Places& places, Place::Kind kind, Eigen::Index count) const;
   /// One of each configuration at one node.
   void append_singles(Places& places, std::size_t node) const;
   void append_unknowns();
@@ -87,7 +110,11 @@ class Layout {
   void place_ends();
 
   LayoutShape shape_;
+  std::size_t rates_ = 0;           // head of the interior rates
+  std::size_t controls_ = 0;        // of the controls
+  std::size_t inner_controls_ = 0;  // of those that no other interval shares
   std::size_t cost_column_ = 0;
+  std::size_t interval_rows_ = 0;
   std::size_t single_unknowns_ = 0;  // where v_0, v_N, T begin
   std::size_t single_rows_ = 0;      // where the rows of the ends begin
   IntervalStructure structure_;

@@ -11,107 +11,97 @@ namespace dmocbench {
 
 namespace {
 
-/// Writes a motion into the unknowns of a transcription, kind by kind.
-class Sampler {
- public:
-  Sampler(Transcription& transcription, const Motion& motion)
-      : transcription_(&transcription),
-        layout_(&transcription.layout()),
-        motion_(&motion),
-        legendre_(transcription.traced_problem()),
-        horizon_(transcription.guessed_horizon()),
-        x_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transcription.variable_count()))) {
-    if (transcription.has_free_horizon()) {
-      const auto place = static_cast<Eigen::Index>(layout_->horizon());
-      x_[place] =
-          std::clamp(motion.horizon, transcription.variable_lower()[place], transcription.variable_upper()[place]);
-      horizon_ = x_[place];
+/// The tables of a motion in the unknowns of a program; `second_rates` has Ṗ_i or V̇_i, a row per stage. Costs so far
+/// are 0.
+Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory& motion,
+                            const Eigen::MatrixXd& second_rates) {
+  const Layout& layout = transcription.layout();
+  const Eigen::Index nodes = motion.q.rows();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transcription.variable_count()));
+  const auto set = [&](std::size_t column, const auto& values) {
+    x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
+  };
+  /// The rows of stage i in a stage table.
+  const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, nodes - 1, motion.stages()); };
+  const bool has_second = layout.node_state() != NodeState::configuration;
+  const Eigen::MatrixXd& second = layout.node_state() == NodeState::momentum ? motion.p : motion.v;
+  for (Eigen::Index c = 0; c < motion.q.cols(); ++c) {
+    set(layout.configuration_column(c), motion.q.col(c));
+    if (has_second) set(layout.second_column(c), second.col(c));
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      set(layout.rate_column(i, c), motion.stage_v(rows_of(i), c));
+      if (has_second) set(layout.second_rate_column(i, c), second_rates(rows_of(i), c));
     }
   }
-
-  Eigen::VectorXd sampled() {
-    sample_nodes();
-    move_into_bounds();
-    sample_intervals();
-    if (layout_->shape().mayer) sum_costs();
-    move_into_bounds();
-    return x_;
+  for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
+    // Where neighbours share a control, that of the first stage is taken.
+    for (Eigen::Index i = layout.stages() - 1; i >= 0; --i) {
+      set(layout.control_column(i, c), motion.stage_u(rows_of(i), c));
+    }
   }
+  if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
+  if (layout.shape().last_has_velocity) set(layout.last_velocity(0), motion.v.row(nodes - 1).transpose());
+  if (transcription.has_free_horizon()) set(layout.horizon(), motion.node_times.tail<1>());
+  return x;
+}
 
- private:
-  /// The motion at time t of the program.
-  [[nodiscard]] MotionPoint point(double t) const {
-    const double stretch = motion_->horizon / horizon_;
-    MotionPoint point = motion_->at(t * stretch);
+/// A motion at the nodes and stages of a program with horizon T.
+Trajectory tables_of(const Transcription& transcription, const Motion& motion, double horizon) {
+  const double stretch = motion.horizon / horizon;
+  const auto point_at = [&](double t) {
+    MotionPoint point = motion.at(t * stretch);
     point.v *= stretch;
     return point;
+  };
+  const TracedProblem& problem = transcription.traced_problem();
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::VectorXd widths = horizon * transcription.grid().relative_widths();
+  Trajectory tables;
+  tables.tableau = transcription.tableau();
+  tables.node_times = horizon * transcription.grid().relative_times();
+  for (Eigen::MatrixXd* table : {&tables.q, &tables.p, &tables.v}) table->setZero(tables.node_times.size(), n);
+  LegendreTransform legendre(problem);
+  for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
+    const MotionPoint node = point_at(tables.node_times[k]);
+    tables.q.row(k) = node.q.transpose();
+    tables.v.row(k) = node.v.transpose();
+    if (transcription.layout().node_state() != NodeState::momentum) continue;
+    tables.p.row(k) = legendre.momentum(node.q, node.v, tables.node_times[k]).transpose();
   }
+  const Eigen::Index s = tables.stages();
+  tables.stage_v.resize(widths.size() * s, n);
+  tables.stage_u.resize(widths.size() * s, problem.control_size());
+  for (Eigen::Index row = 0; row < tables.stage_v.rows(); ++row) {
+    const Eigen::Index k = row / s;
+    const MotionPoint stage = point_at(tables.node_times[k] + tables.tableau.c[row % s] * widths[k]);
+    tables.stage_v.row(row) = stage.v.transpose();
+    tables.stage_u.row(row) = stage.u.transpose();
+  }
+  return tables;
+}
 
-  double& entry(std::size_t column, Eigen::Index k) { return x_[static_cast<Eigen::Index>(column) + k]; }
-
-  void sample_nodes() {
-    const Eigen::VectorXd times = horizon_ * transcription_->grid().relative_times();
-    for (Eigen::Index k = 0; k < times.size(); ++k) {
-      const MotionPoint node = point(times[k]);
-      Eigen::VectorXd second = node.v;
-      if (layout_->node_state() == NodeState::momentum) {
-        second = legendre_.momentum(node.q, node.v, times[k]);
-      }
-      for (Eigen::Index i = 0; i < node.q.size(); ++i) {
-        entry(layout_->configuration_column(i), k) = node.q[i];
-        if (layout_->node_state() != NodeState::configuration) entry(layout_->second_column(i), k) = second[i];
-        if (k == 0 && layout_->shape().first_has_velocity) entry(layout_->first_velocity(i), 0) = node.v[i];
-        if (k + 1 == times.size() && layout_->shape().last_has_velocity)
-          entry(layout_->last_velocity(i), 0) = node.v[i];
-      }
+/// Sets interior rates of p or v to the mean rates of their intervals, of which there is one per entry of `widths`.
+void set_mean_rates(const Layout& layout, Eigen::Index n, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const auto nodes = x.segment(static_cast<Eigen::Index>(layout.second_column(c)), widths.size() + 1);
+    const Eigen::VectorXd rates = (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
+    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
+      x.segment(static_cast<Eigen::Index>(layout.second_rate_column(i, c)), widths.size()) = rates;
     }
   }
+}
 
-  void sample_intervals() {
-    const Eigen::VectorXd times = horizon_ * transcription_->grid().relative_times();
-    const Eigen::VectorXd widths = horizon_ * transcription_->grid().relative_widths();
-    const Eigen::VectorXd& c = transcription_->tableau().c;
-    for (Eigen::Index k = 0; k < widths.size(); ++k) {
-      for (Eigen::Index stage = 0; stage < c.size(); ++stage) {
-        const MotionPoint at_stage = point(times[k] + c[stage] * widths[k]);
-        for (Eigen::Index i = 0; i < at_stage.u.size(); ++i)
-          entry(layout_->control_column(stage, i), k) = at_stage.u[i];
-        if (stage < layout_->interior_stages()) sample_rates(at_stage, stage, k, widths[k]);
-      }
-    }
+/// Sets the cost so far such that the equations of the Mayer form hold.
+void sum_costs(Transcription& transcription, Eigen::VectorXd& x) {
+  const Layout& layout = transcription.layout();
+  Eigen::VectorXd constraints(static_cast<Eigen::Index>(transcription.constraint_count()));
+  transcription.constraints(x, constraints);  // z_{k+1} - z_k - cost, with every z = 0
+  const auto row = static_cast<Eigen::Index>(layout.interval_row_column(layout.shape().interval_rows() - 1));
+  const auto column = static_cast<Eigen::Index>(layout.cost_column());
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout.intervals()); ++k) {
+    x[column + k + 1] = x[column + k] - constraints[row + k];
   }
-
-  void sample_rates(const MotionPoint& at_stage, Eigen::Index stage, Eigen::Index k, double h) {
-    for (Eigen::Index i = 0; i < at_stage.v.size(); ++i) {
-      entry(layout_->rate_column(stage, i), k) = at_stage.v[i];
-      if (layout_->node_state() == NodeState::configuration) continue;
-      const std::size_t column = layout_->second_column(i);
-      entry(layout_->second_rate_column(stage, i), k) = (entry(column, k + 1) - entry(column, k)) / h;
-    }
-  }
-
-  /// Sets the cost so far such that the equations of the Mayer form hold.
-  void sum_costs() {
-    Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription_->constraint_count()));
-    transcription_->constraints(x_, rows);  // z_{k+1} - z_k - cost, with every z = 0
-    const std::size_t row = layout_->interval_row_column(layout_->shape().interval_rows() - 1);
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout_->intervals()); ++k) {
-      entry(layout_->cost_column(), k + 1) =
-          entry(layout_->cost_column(), k) - rows[static_cast<Eigen::Index>(row) + k];
-    }
-  }
-
-  void move_into_bounds() {
-    x_ = x_.cwiseMax(transcription_->variable_lower()).cwiseMin(transcription_->variable_upper());
-  }
-
-  Transcription* transcription_;
-  const Layout* layout_;
-  const Motion* motion_;
-  LegendreTransform legendre_;
-  double horizon_;
-  Eigen::VectorXd x_;
-};
+}
 
 void require_same_grid(const Transcription& transcription, const Trajectory& trajectory) {
   const Eigen::VectorXd& times = trajectory.node_times;
@@ -125,6 +115,7 @@ void require_same_grid(const Transcription& transcription, const Trajectory& tra
 
 /// Ṗ_i or V̇_i at all stages, in the order of the trajectory's stage tables.
 Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const Trajectory& trajectory) {
+  if (node_state == NodeState::configuration) return {};
   const TracedProblem traced(problem);
   EquationsOfMotion motion(traced);
   PointFunction force(traced.configuration_size(), traced.control_size(),
@@ -146,7 +137,22 @@ Eigen::MatrixXd second_rates(const Problem& problem, NodeState node_state, const
 }  // namespace
 
 Eigen::VectorXd sample(Transcription& transcription, const Motion& motion) {
-  return Sampler(transcription, motion).sampled();
+  const Layout& layout = transcription.layout();
+  const Eigen::VectorXd& lower = transcription.variable_lower();
+  const Eigen::VectorXd& upper = transcription.variable_upper();
+  double horizon = transcription.guessed_horizon();
+  if (transcription.has_free_horizon()) {
+    const auto place = static_cast<Eigen::Index>(layout.horizon());
+    horizon = std::clamp(motion.horizon, lower[place], upper[place]);
+  }
+  const Trajectory tables = tables_of(transcription, motion, horizon);
+  Eigen::VectorXd x = unknowns_of(transcription, tables, Eigen::MatrixXd::Zero(tables.stage_v.rows(), tables.q.cols()));
+  x = x.cwiseMax(lower).cwiseMin(upper);
+  if (layout.node_state() != NodeState::configuration) {
+    set_mean_rates(layout, tables.q.cols(), horizon * transcription.grid().relative_widths(), x);
+  }
+  if (layout.shape().mayer) sum_costs(transcription, x);
+  return x.cwiseMax(lower).cwiseMin(upper);
 }
 
 Motion guessed_motion(const Problem& problem) {
@@ -155,39 +161,8 @@ Motion guessed_motion(const Problem& problem) {
 
 Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription, const Trajectory& trajectory) {
   require_same_grid(transcription, trajectory);
-  const Layout& layout = transcription.layout();
-  const NodeState node_state = layout.node_state();
-  const Eigen::Index nodes = trajectory.q.rows();
-  Eigen::VectorXd x(static_cast<Eigen::Index>(transcription.variable_count()));
-  const auto set = [&](std::size_t column, const auto& values) {
-    x.segment(static_cast<Eigen::Index>(column), values.size()) = values;
-  };
-  /// The rows of stage i in a stage table.
-  const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, nodes - 1, trajectory.stages()); };
-  for (Eigen::Index c = 0; c < trajectory.q.cols(); ++c) {
-    set(layout.configuration_column(c), trajectory.q.col(c));
-    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.rate_column(i, c), trajectory.stage_v(rows_of(i), c));
-    }
-  }
-  for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
-    for (Eigen::Index i = 0; i < layout.stages(); ++i) {
-      set(layout.control_column(i, c), trajectory.stage_u(rows_of(i), c));
-    }
-  }
-  if (layout.shape().first_has_velocity) set(layout.first_velocity(0), trajectory.v.row(0).transpose());
-  if (layout.shape().last_has_velocity) set(layout.last_velocity(0), trajectory.v.row(nodes - 1).transpose());
-  if (transcription.has_free_horizon()) set(layout.horizon(), trajectory.node_times.tail<1>());
-  if (node_state == NodeState::configuration) return x;
-  const Eigen::MatrixXd rates = second_rates(problem, node_state, trajectory);
-  const Eigen::MatrixXd& second = node_state == NodeState::momentum ? trajectory.p : trajectory.v;
-  for (Eigen::Index c = 0; c < second.cols(); ++c) {
-    set(layout.second_column(c), second.col(c));
-    for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.second_rate_column(i, c), rates(rows_of(i), c));
-    }
-  }
-  return x;
+  const NodeState node_state = transcription.layout().node_state();
+  return unknowns_of(transcription, trajectory, second_rates(problem, node_state, trajectory));
 }
 
 }  // namespace dmocbench

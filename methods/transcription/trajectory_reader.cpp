@@ -22,52 +22,41 @@ Eigen::MatrixXd read_momenta(Transcription& transcription, const Eigen::VectorXd
 void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Trajectory& trajectory) {
   const Layout& layout = transcription.layout();
   const Eigen::Index n = transcription.traced_problem().configuration_size();
-  const Eigen::Index m = transcription.traced_problem().control_size();
   const Eigen::Index s = layout.stages();
   const Eigen::MatrixXd table = transcription.tabulate(transcription.functions().stages, primal);
-  const Eigen::Index rows = table.rows() * s;
-  trajectory.stage_times.resize(rows);
-  trajectory.stage_q.resize(rows, n);
-  trajectory.stage_v.resize(rows, n);
-  trajectory.stage_u.resize(rows, m);
-  const Eigen::Index width = 2 * n + 1;
-  for (Eigen::Index k = 0; k < table.rows(); ++k) {
-    for (Eigen::Index i = 0; i < s; ++i) {
-      const Eigen::Index row = k * s + i;
-      trajectory.stage_q.row(row) = table.row(k).segment(i * width, n);
-      trajectory.stage_v.row(row) = table.row(k).segment(i * width + n, n);
-      trajectory.stage_times[row] = table(k, i * width + 2 * n);
-      for (Eigen::Index c = 0; c < m; ++c) {
-        trajectory.stage_u(row, c) = primal[static_cast<Eigen::Index>(layout.control_column(i, c)) + k];
-      }
+  const Eigen::Index intervals = table.rows();
+  trajectory.stage_times.resize(intervals * s);
+  trajectory.stage_q.resize(intervals * s, n);
+  trajectory.stage_v.resize(intervals * s, n);
+  trajectory.stage_u.resize(intervals * s, transcription.traced_problem().control_size());
+  for (Eigen::Index i = 0; i < s; ++i) {
+    const auto rows = Eigen::seqN(i, intervals, s);
+    const auto stage = table.middleCols(i * (2 * n + 1), 2 * n + 1);
+    trajectory.stage_q(rows, Eigen::all) = stage.leftCols(n);
+    trajectory.stage_v(rows, Eigen::all) = stage.middleCols(n, n);
+    trajectory.stage_times(rows) = stage.col(2 * n);
+    for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
+      trajectory.stage_u(rows, c) = primal.segment(static_cast<Eigen::Index>(layout.control_column(i, c)), intervals);
     }
   }
 }
 
-/// P_i = L_v(Q_i, Q̇_i).
-Eigen::MatrixXd stage_momenta(const TracedProblem& problem, const Trajectory& trajectory) {
+/// P_i = L_v(Q_i, Q̇_i), and v_k with L_v(q_k, v_k) = p_k; each solve starts from the velocity of a nearby stage.
+void transform(const TracedProblem& problem, Trajectory& trajectory) {
   LegendreTransform legendre(problem);
-  Eigen::MatrixXd p(trajectory.stage_q.rows(), trajectory.stage_q.cols());
-  for (Eigen::Index i = 0; i < p.rows(); ++i) {
+  trajectory.stage_p.resizeLike(trajectory.stage_q);
+  for (Eigen::Index i = 0; i < trajectory.stage_p.rows(); ++i) {
     const MotionPoint stage = trajectory.stage(i);
-    p.row(i) = legendre.momentum(stage.q, stage.v, trajectory.stage_times[i]).transpose();
+    trajectory.stage_p.row(i) = legendre.momentum(stage.q, stage.v, trajectory.stage_times[i]).transpose();
   }
-  return p;
-}
-
-/// v_k with L_v(q_k, v_k) = p_k; each solve starts from the velocity of a nearby stage.
-Eigen::MatrixXd velocities(const TracedProblem& problem, const Trajectory& trajectory) {
-  LegendreTransform legendre(problem);
-  Eigen::MatrixXd v(trajectory.q.rows(), trajectory.q.cols());
-  const Eigen::Index last_stage = trajectory.stage_v.rows() - 1;
-  for (Eigen::Index k = 0; k < v.rows(); ++k) {
-    const Eigen::Index nearby = std::min(k * trajectory.stages(), last_stage);
-    v.row(k) = legendre
-                   .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(), trajectory.node_times[k],
-                             trajectory.stage_v.row(nearby).transpose())
-                   .transpose();
+  trajectory.v.resizeLike(trajectory.q);
+  for (Eigen::Index k = 0; k < trajectory.v.rows(); ++k) {
+    const Eigen::Index nearby = std::min(k * trajectory.stages(), trajectory.stage_v.rows() - 1);
+    trajectory.v.row(k) = legendre
+                              .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(),
+                                        trajectory.node_times[k], trajectory.stage_v.row(nearby).transpose())
+                              .transpose();
   }
-  return v;
 }
 
 }  // namespace
@@ -89,8 +78,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   }
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
-  trajectory.stage_p = stage_momenta(transcription.traced_problem(), trajectory);
-  trajectory.v = velocities(transcription.traced_problem(), trajectory);
+  transform(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);

@@ -15,7 +15,7 @@ double slope_of(const std::vector<std::vector<ConsistencyErrors>>& errors, const
                 std::size_t tableau, double ConsistencyErrors::*quantity) {
   std::vector<GridError> points;
   for (std::size_t k = 0; k < steps.size(); ++k) points.push_back({steps[k], errors[k][tableau].*quantity});
-  return fit_order(points).value_or(FittedOrder{}).slope;
+  return fit_order(points).value_or(FittedOrder{}).order;
 }
 
 TEST(ConsistencyOrder, LegendreTransformsAndForcesAreOnePowerOfTheStepBelowLagrangianAndMap) {

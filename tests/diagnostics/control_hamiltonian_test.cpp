@@ -1,9 +1,8 @@
-#include "methods/diagnostics/conserved_quantities.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"

@@ -18,7 +18,7 @@ TEST(FitOrder, IsExactOnAPower) {
   for (const double order : {1.0, 2.0, 3.5, -2.0}) {
     const auto fitted = fit_order(powers(order, 7.0, {0.1, 0.05, 0.025, 0.02}));
     ASSERT_TRUE(fitted.has_value());
-    EXPECT_NEAR(fitted->slope, order, 1e-13);
+    EXPECT_NEAR(fitted->order, order, 1e-13);
     EXPECT_NEAR(fitted->standard_error, 0.0, 1e-13);
     EXPECT_EQ(fitted->points, 4);
     EXPECT_EQ(fitted->finest, 0.02);
@@ -36,7 +36,7 @@ TEST(FitOrder, GivesTheTextbookSlopeAndStandardError) {
   }
   const auto fitted = fit_order(points);
   ASSERT_TRUE(fitted.has_value());
-  EXPECT_NEAR(fitted->slope, 1.4, 1e-13);
+  EXPECT_NEAR(fitted->order, 1.4, 1e-13);
   EXPECT_NEAR(fitted->standard_error, std::sqrt(0.42), 1e-13);
 }
 
@@ -51,7 +51,7 @@ TEST(FitOrder, LeavesOutPointsWithoutALogarithm) {
   }
   const auto fitted = fit_order(points);
   ASSERT_TRUE(fitted.has_value());
-  EXPECT_NEAR(fitted->slope, 2.0, 1e-13);
+  EXPECT_NEAR(fitted->order, 2.0, 1e-13);
   EXPECT_EQ(fitted->points, 3);
   EXPECT_EQ(fitted->coarsest, 0.1);
 }
@@ -59,7 +59,7 @@ TEST(FitOrder, LeavesOutPointsWithoutALogarithm) {
 TEST(FitOrder, HasNoStandardErrorWithTwoPointsAndNoSlopeWithFewer) {
   const auto fitted = fit_order(powers(2.0, 3.0, {0.1, 0.2}));
   ASSERT_TRUE(fitted.has_value());
-  EXPECT_NEAR(fitted->slope, 2.0, 1e-13);
+  EXPECT_NEAR(fitted->order, 2.0, 1e-13);
   EXPECT_EQ(fitted->standard_error, 0.0);
   EXPECT_FALSE(fit_order({}).has_value());
   EXPECT_FALSE(fit_order({{0.1, 1.0}}).has_value());

@@ -1,9 +1,8 @@
-#include "methods/diagnostics/conserved_quantities.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench {

@@ -74,7 +74,7 @@ TEST(IntervalReplay, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
             tests::solve(*problem, scheme, Grid::uniform(intervals), tests::common_start(*problem)).trajectory;
         jumps.push_back({1.0 / intervals, interval_replay(*problem, motion).jump});
       }
-      const double order = fit_order(jumps)->slope;
+      const double order = fit_order(jumps)->order;
       EXPECT_GT(order, scheme.stages + 2.0 - 0.35) << name << ", " << scheme.label();
       EXPECT_LT(order, 2.0 * scheme.stages + 1.0 + 0.35) << name << ", " << scheme.label();
     }

@@ -1,7 +1,6 @@
-#include "methods/diagnostics/conserved_quantities.hpp"
-
 #include <gtest/gtest.h>
 
+#include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -56,7 +55,7 @@ TEST(MomentumConsistency, OfTangentFallsWithTheThirdPowerOfTheStepFromItsKnownVa
       EXPECT_NEAR(largest, known.defects[i], 0.2 * known.defects[i]) << grids[i];
       defects.push_back({1.0 / grids[i], largest});
     }
-    EXPECT_NEAR(fit_order(defects)->slope, 3.0, 0.1) << known.problem;
+    EXPECT_NEAR(fit_order(defects)->order, 3.0, 0.1) << known.problem;
   }
 }
 

@@ -58,7 +58,7 @@ TEST(ReplayError, FallsAsTheOrderOfTheMethodPredicts) {
             tests::solve(*problem, {method, 1}, Grid::uniform(intervals), tests::common_start(*problem)).trajectory;
         errors.push_back({1.0 / intervals, replay_error(*problem, trajectory).norm()});
       }
-      EXPECT_NEAR(fit_order(errors)->slope, 2.0, 0.2) << name << ", " << method;
+      EXPECT_NEAR(fit_order(errors)->order, 2.0, 0.2) << name << ", " << method;
     }
   }
 }
@@ -72,7 +72,7 @@ TEST(ReplayError, KnowsTheTimeThatALagrangianDependsOn) {
           tests::solve(problem, {method, 1}, Grid::uniform(intervals), tests::common_start(problem)).trajectory;
       errors.push_back({1.0 / intervals, replay_error(problem, trajectory).norm()});
     }
-    EXPECT_NEAR(fit_order(errors)->slope, 2.0, 0.2) << method;
+    EXPECT_NEAR(fit_order(errors)->order, 2.0, 0.2) << method;
   }
 }
 

@@ -65,7 +65,7 @@ class StageOrders : public testing::TestWithParam<std::tuple<std::string, Orders
 void expect_order(const std::map<std::string, std::vector<GridError>>& errors,
                   const std::vector<std::string>& quantities, double order) {
   for (const std::string& quantity : quantities) {
-    const double slope = fit_order(errors.at(quantity)).value_or(FittedOrder()).slope;
+    const double slope = fit_order(errors.at(quantity)).value_or(FittedOrder()).order;
     EXPECT_NEAR(slope, order, 0.35) << quantity;
   }
 }

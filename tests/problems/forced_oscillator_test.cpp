@@ -45,7 +45,7 @@ TEST(ForcedOscillator, ApproachesItsOptimumWithTwiceTheNumberOfStages) {
       }
       const auto order = fit_order(errors);
       ASSERT_TRUE(order.has_value());
-      EXPECT_NEAR(order->slope, 2.0 * stages, 0.25) << method << ", s = " << stages;
+      EXPECT_NEAR(order->order, 2.0 * stages, 0.25) << method << ", s = " << stages;
     }
   }
 }

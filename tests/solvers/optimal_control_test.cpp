@@ -23,7 +23,7 @@ TEST(DoubleIntegrator, HasTheDiscreteOptimumOfTheMidpointRuleInClosedForm) {
       EXPECT_NEAR(trajectory.cost, 6.0 / (1.0 - h * h), 1e-8) << method << ", N = " << intervals;
       if (intervals >= 8) errors.push_back({h, trajectory.cost - 6.0});
     }
-    EXPECT_NEAR(fit_order(errors)->slope, 2.0, 0.02) << method;
+    EXPECT_NEAR(fit_order(errors)->order, 2.0, 0.02) << method;
   }
 }
 
@@ -57,7 +57,7 @@ TEST(HarmonicOscillator, NeedsNoControlBetweenTheEndsOfAFreeMotion) {
           tests::solve(problem, {method, 1}, Grid::uniform(intervals), guessed_motion(problem), 1e-12).trajectory;
       errors.push_back({1.0 / intervals, trajectory.stage_u.lpNorm<Eigen::Infinity>()});
     }
-    EXPECT_NEAR(fit_order(errors)->slope, 2.0, 0.1) << method;
+    EXPECT_NEAR(fit_order(errors)->order, 2.0, 0.1) << method;
   }
 }
 

@@ -42,7 +42,7 @@ Slopes slopes(const Problem& problem, const Scheme& scheme, const std::vector<lo
     control.push_back({step, error.control});
     costate.push_back({step, error.costate.value()});
   }
-  const auto slope = [](const std::vector<GridError>& errors) { return fit_order(errors)->slope; };
+  const auto slope = [](const std::vector<GridError>& errors) { return fit_order(errors)->order; };
   return {slope(state), slope(momentum), slope(control), slope(costate)};
 }
 

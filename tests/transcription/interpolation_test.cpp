@@ -106,7 +106,7 @@ TEST(ControlAt, IsOfOrderTwoForOneStageAndOfOrderSForMore) {
       }
       errors.push_back({1.0 / static_cast<double>(intervals), worst});
     }
-    EXPECT_NEAR(fit_order(errors)->slope, std::max(2, s), 0.1) << "s = " << s;
+    EXPECT_NEAR(fit_order(errors)->order, std::max(2, s), 0.1) << "s = " << s;
   }
 }
 

@@ -55,7 +55,7 @@ TEST_P(StageOrder, OfTheControlsIsOneMoreThanTheNumberOfStages) {
     }
     errors.push_back({1.0 / static_cast<double>(intervals), worst});
   }
-  const double slope = fit_order(errors)->slope;
+  const double slope = fit_order(errors)->order;
   EXPECT_GT(slope, stages + 1 - 0.2);
   EXPECT_LT(slope, stages + 1 + 0.2);
 }

@@ -10,7 +10,7 @@
 
 namespace dmocbench::interior_point {
 
-/// What the values of the program are at a point.
+/// The program's values at a point.
 struct Evaluation {
   Eigen::VectorXd constraints;  ///< residuals c: a(x) - value of an equality, a(x) - s of an inequality
   double objective = 0.0;       ///< f
@@ -18,7 +18,7 @@ struct Evaluation {
   double phi = 0.0;             ///< φ_μ = f - μ Σ ln d
 };
 
-/// What the optimality conditions leave at an iterate, the parts of (5) that do not depend on μ, and the mean
+/// The residuals of the optimality conditions at an iterate, the parts of (5) that do not depend on μ, and the mean
 /// magnitudes of multipliers by which they are scaled.
 struct OptimalityErrors {
   double stationarity = 0.0;

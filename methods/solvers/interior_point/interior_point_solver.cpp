@@ -52,10 +52,8 @@ constexpr double mu_of_warm_start = 1e-6;
 constexpr double push_of_warm_start = 1e-6;
 constexpr double correctable = 2.0;  // see try_second_order_correction
 
-/// One solve by the primal-dual interior-point method with a filter line search of Wächter and Biegler ("On the
-/// implementation of an interior-point filter line-search algorithm for large-scale nonlinear programming",
-/// Mathematical Programming 106, 2006). Numbers in brackets are those of its equations, A-1 to A-9 the steps of its
-/// Algorithm A.
+/// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
+/// A-9 the steps of its Algorithm A.
 class InteriorPointRun {
  public:
   InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
@@ -348,9 +346,9 @@ tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_syste
                                                                                   const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
   if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  auto by_intervals = interior_point::IntervalKkt::make(program);
-  if (!by_intervals) return tl::unexpected(by_intervals.error());
-  return std::make_unique<interior_point::RefinedKkt>(program, std::move(*by_intervals));
+  return interior_point::IntervalKkt::make(program).map([&](auto by_intervals) {
+    return std::make_unique<interior_point::RefinedKkt>(program, std::move(by_intervals));
+  });
 }
 
 }  // namespace
@@ -384,10 +382,8 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
   }
   interior_point::InteriorPointRun run(program, **kkt, options());
   std::optional<Status> end = run.begin(start);
-  for (;;) {
-    if (end) return run.solution(*end);
-    end = run.iterate();
-  }
+  while (!end) end = run.iterate();
+  return run.solution(*end);
 }
 
 }  // namespace dmocbench

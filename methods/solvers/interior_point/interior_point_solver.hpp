@@ -13,7 +13,7 @@ namespace interior_point {
 class KktSystem;
 }
 
-/// What the user of `InteriorPointSolver` may choose.
+/// The choices of a user of `InteriorPointSolver`.
 struct InteriorPointOptions {
   enum class Factorisation : std::uint8_t {
     intervals,  ///< interval by interval; a program whose structure does not allow it is refused

@@ -35,7 +35,7 @@ struct KktStep {
   Eigen::VectorXd& multipliers;  ///< δλ, one per constraint
 };
 
-/// What a factorisation found.
+/// The outcome of a factorisation.
 enum class FactorisationStatus : std::uint8_t {
   solved,         ///< H + diag(d) is positive definite on the null space of the equalities; the step is there
   wrong_inertia,  ///< it is not

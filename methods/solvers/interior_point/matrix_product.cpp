@@ -16,7 +16,7 @@ PatternRun transpose_of(const PatternRun& run) {
   return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
 }
 
-/// What a run adds to the entries `begin` .. `end` - 1 of the result.
+/// Adds the product of a run to the entries `begin` .. `end` - 1 of the result.
 void add_part(const PatternRun& run, Eigen::Index begin, Eigen::Index end, const Eigen::VectorXd& values,
               const Eigen::VectorXd& vector, Eigen::VectorXd& result) {
   const Eigen::Index first = std::max(begin, run.row);

@@ -24,7 +24,7 @@ class NewtonResidual {
   /// The residual that was computed last. As a right-hand side it asks for the correction of the step.
   [[nodiscard]] KktRightHandSide value() const noexcept { return {.gradient = gradient_, .constraints = constraints_}; }
 
-  /// The residual divided by what is allowed: the sum of `accuracy` times the largest entry of the right-hand side, the
+  /// The residual divided by its limit: the sum of `accuracy` times the largest entry of the right-hand side, the
   /// rounding of the sums that the residual is left of, and the program's `rounding_floor`. Gradient and constraints
   /// have limits of their own; the larger ratio counts. Infinite if a number is not finite. `matrix` and `step` are
   /// those of the last `compute`.

@@ -22,11 +22,8 @@ void InertiaShift::keep() noexcept {
 bool InertiaShift::raise() noexcept {
   constexpr double first = 1e-4;
   constexpr double largest = 1e20;
-  if (shift_ == 0.0) {
-    shift_ = last_ == 0.0 ? first : third_of_last();
-  } else {
-    shift_ *= last_ == 0.0 ? 100.0 : 8.0;
-  }
+  const bool is_first = last_ == 0.0;
+  shift_ = shift_ > 0.0 ? shift_ * (is_first ? 100.0 : 8.0) : is_first ? first : third_of_last();
   return shift_ <= largest;
 }
 
@@ -108,10 +105,6 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
 double NewtonStep::directional_derivative(const Iterate& at, double mu, const Iterate& step) const {
   const double of_objective = dot_product(program_.gradient(), step.x);
   return program_.has_bounds() ? of_objective + mu * program_.bounds().barrier_derivative(at, step) : of_objective;
-}
-
-KktMatrix NewtonStep::matrix_with(const Eigen::VectorXd& hessian) const {
-  return {.hessian = hessian, .jacobian = program_.jacobian(), .diagonal = diagonal_, .compliance = compliance_};
 }
 
 /// Prepares the matrix and returns the right-hand side, with the slacks eliminated: ds = E (dλ - ∇_s), E the

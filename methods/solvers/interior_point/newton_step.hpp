@@ -63,7 +63,9 @@ class NewtonStep {
   [[nodiscard]] double linear_seconds() const noexcept { return linear_seconds_; }
 
  private:
-  [[nodiscard]] KktMatrix matrix_with(const Eigen::VectorXd& hessian) const;
+  [[nodiscard]] KktMatrix matrix_with(const Eigen::VectorXd& hessian) const {
+    return {hessian, program_.jacobian(), diagonal_, compliance_};
+  }
   [[nodiscard]] KktRightHandSide reduce(double shift, const Eigen::VectorXd& gradient,
                                         const Eigen::VectorXd& constraints, Iterate& step);
   [[nodiscard]] bool solve(const Eigen::VectorXd& hessian, double shift, const Eigen::VectorXd& gradient,

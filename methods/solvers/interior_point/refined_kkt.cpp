@@ -45,7 +45,7 @@ FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHan
   return refine(*robust_, matrix, right_hand_side, step) ? robust : FactorisationStatus::singular;
 }
 
-/// Refines a step of `kkt`; false if its residual stays above what is tolerable.
+/// Refines a step of `kkt`; false if its residual stays above `tolerable`.
 bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                         const KktStep& step) {
   const auto excess_of_step = [&] {

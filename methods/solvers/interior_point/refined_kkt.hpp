@@ -13,15 +13,14 @@ namespace dmocbench::interior_point {
 /// A fast KKT system made safe by iterative refinement and by a fallback to a sparse factorisation with pivoting
 /// (sparse_kkt.hpp):
 ///
-/// - The residual of a step is computed and the step is refined until it is accurate enough. If refinement does not
-///   reach that, the sparse factorisation solves the system.
+/// - A step is refined until its residual is small enough. If refinement does not reach that, the sparse factorisation
+///   solves the system.
 /// - A step that is `untrusted` or `singular` goes to the sparse factorisation at once.
 /// - `wrong_inertia` is believed, except that every fourth one in a row is checked by the sparse factorisation: the
 ///   test of the fast system may be stricter than the truth.
 ///
-/// A residual costs a good part of an elimination (`bench/speed/speed`). So the two steps after an accurate one are
-/// not checked, nor the seven steps after a very accurate one: their matrices differ little, and Newton's method, whose
-/// right-hand sides are exact, tolerates an inaccurate step.
+/// A residual costs a good part of an elimination (`bench/speed/speed`), so the two steps after an accurate one are not
+/// checked, nor the seven after a very accurate one: their matrices differ little, and Newton's method corrects itself.
 class RefinedKkt : public KktSystem {
  public:
   static constexpr double usual_accuracy = 1e-6;

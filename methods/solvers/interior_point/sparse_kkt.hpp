@@ -11,13 +11,21 @@
 
 namespace dmocbench::interior_point {
 
-/// The KKT system of any program, by the sparse factorisation of MUMPS: what elimination by intervals is measured by,
-/// and what helps it where pivots have to be exchanged across intervals.
+/// An order of elimination for the KKT matrix of a program with an interval structure, by nested dissection: the node
+/// in the middle of the horizon comes last, before it the nodes in the middle of either half, and so on down to some
+/// intervals, which are eliminated one after the other. A line that has to wait for a better pivot then waits for a few
+/// nodes only, not for the rest of the horizon.
+///
+/// The position of every line, unknowns first, then rows; empty if the program tells no interval structure.
+[[nodiscard]] std::vector<int> dissection_order(const NonlinearProgram& program);
+
+/// The KKT system of any program, by the sparse factorisation of MUMPS: the yardstick of the elimination by
+/// intervals, and its fallback where pivots have to be exchanged across intervals.
 class SparseKkt final : public KktSystem {
  public:
   enum class Order : std::uint8_t {
     found,  ///< by MUMPS, which knows nothing of intervals: fewer operations, found in five times their time
-    along_the_horizon,  ///< by dissection (dissection_order.hpp), if the program tells an interval structure
+    along_the_horizon,  ///< by `dissection_order`, if the program tells an interval structure
   };
 
   enum class Inertia : std::uint8_t {

@@ -1,5 +1,3 @@
-#include "methods/solvers/interior_point/dissection_order.hpp"
-
 #include <algorithm>
 #include <string>
 

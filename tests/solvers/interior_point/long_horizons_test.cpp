@@ -133,7 +133,7 @@ class GroupSweeps {
  public:
   GroupSweeps(const Transcription& program, const KktNumbers& numbers) : numbers_(numbers) {
     entries_ = interval_entries(program).value();
-    padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
+    padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size()) * entries_.intervals);
     const auto give = [&](Source source, const Eigen::VectorXd& values) {
       arrays_.arrays[static_cast<std::size_t>(source)] = values.data();
     };
@@ -144,9 +144,9 @@ class GroupSweeps {
     give(Source::gradient, numbers_.slope);
     give(Source::rows, numbers_.rows);
     give(Source::padded, padded_);
-    for (const PaddedColumn& column : entries_.padded) {
-      const double* from = arrays_.of(column.source) + column.entry;
-      std::copy_n(from, column.length, padded_.data() + column.padded_first + column.begin);
+    for (const PaddedRun& run : entries_.padded) {
+      const double* from = arrays_.of(run.source) + run.entry;
+      std::copy_n(from, run.length, padded_.data() + run.padded_first + run.begin);
     }
     weights_.setConstant(state_size(entries_.shape), 1e3);
     arrays_.terminal_weights = weights_.data();

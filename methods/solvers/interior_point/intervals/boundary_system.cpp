@@ -13,8 +13,6 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-double value_at(const Eigen::VectorXd& vector, std::size_t i) { return vector[static_cast<Eigen::Index>(i)]; }
-
 /// Factors that bring the largest entries of rows and columns near 1.
 Eigen::VectorXd equilibration(const Eigen::MatrixXd& lower) {
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(lower.rows());
@@ -36,8 +34,8 @@ double smallest_eigenvalue(double a, double b, double c) {
 /// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
 DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
   const Eigen::Index n = factors.rows();
-  constexpr double far_from_zero = 1e-11;  // hundreds of times what rounding leaves of dependent rows
-  // What elimination leaves of dependent rows is rounding, a few units of it per row.
+  constexpr double far_from_zero = 1e-11;  // hundreds of times the rounding of dependent rows
+  // Elimination turns a dependent row into a few units of rounding per row.
   const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   DenseInertia inertia;
   double smallest = std::numeric_limits<double>::infinity();
@@ -76,85 +74,75 @@ DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_han
 
 BoundarySystem::BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries)
     : state_size_(state_size(entries.shape)), node_(entries.shape.node), node_sums_(entries.shape.node_sums) {
-  number_unknowns(entries);
-  number_rows(entries);
+  number_lines(entries);
   place(entries);
   drop_what_is_fixed(program);
   matrix_.resize(size_, size_);
   right_hand_side_.resize(size_);
-  const auto kept = static_cast<Eigen::Index>(kept_.size());
-  reduced_.resize(kept, kept);
 }
 
-void BoundarySystem::number_unknowns(const IntervalEntries& entries) {
-  const auto single = [&](std::size_t end) {
-    for (const std::size_t unknown : entries.single_unknowns[end]) unknowns_.push_back({unknown, size_++});
+void BoundarySystem::number_lines(const IntervalEntries& entries) {
+  const auto append = [&](const std::vector<Eigen::Index>& numbers, std::vector<Binding>& list) {
+    for (const Eigen::Index number : numbers) list.push_back({number, size_++});
   };
-  for (int i = 0; i < node_; ++i) unknowns_.push_back({entries.node_unknowns[static_cast<std::size_t>(i)], i});
-  for (std::size_t i = 0; i < entries.shared_unknowns.size(); ++i) {
-    unknowns_.push_back({entries.shared_unknowns[i], node_ + node_sums_ + static_cast<Eigen::Index>(i)});
-  }
-  size_ = state_size_;
-  single(0);
+  append(entries.node_unknowns, unknowns_);
+  size_ += node_sums_;
+  append(entries.global_unknowns, unknowns_);
+  append(entries.end_unknowns[0], unknowns_);
   last_state_ = size_;
-  for (int i = 0; i < node_; ++i) {
-    last_unknowns_.push_back({entries.node_unknowns[static_cast<std::size_t>(i)] + entries.intervals, last_state_ + i});
-  }
-  size_ += state_size_;
-  single(1);
-}
+  append(entries.node_unknowns, last_unknowns_);
+  for (Binding& of_last_node : last_unknowns_) of_last_node.number += entries.intervals;
+  size_ = last_state_ + state_size_;
+  append(entries.end_unknowns[1], unknowns_);
 
-void BoundarySystem::number_rows(const IntervalEntries& entries) {
-  first_row_ = size_;
   multiplier_at_ = size_;
   carry_at_ = multiplier_at_ + state_size_;
   last_rows_ = carry_at_ + node_sums_;
   size_ = last_rows_ + node_sums_;
-  for (int i = 0; i < node_sums_; ++i) {
-    const std::size_t first = entries.node_rows[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < node_sums_; ++i) {
+    const Eigen::Index first = entries.equality_rows[static_cast<std::size_t>(i)];
     first_rows_.push_back({first, carry_at_ + i});
     rows_.push_back({first + entries.intervals, last_rows_ + i});
   }
-  for (const std::size_t row : entries.single_rows) rows_.push_back({row, size_++});
+  append(entries.end_rows, rows_);
 }
 
 void BoundarySystem::place(const IntervalEntries& entries) {
-  std::map<std::size_t, Eigen::Index> unknown_at;
-  std::map<std::size_t, Eigen::Index> row_at;
-  for (const auto& list : {unknowns_, last_unknowns_}) {
-    for (const Binding& bound : list) unknown_at[bound.number] = bound.at;
-  }
-  for (const auto& list : {first_rows_, rows_}) {
-    for (const Binding& bound : list) row_at[bound.number] = bound.at;
-  }
-  const auto look_up = [](const std::map<std::size_t, Eigen::Index>& places, std::size_t number) {
-    const auto found = places.find(number);
-    if (found == places.end()) throw Error("an entry of the ends belongs to neither of them");
+  using Lines = std::map<Eigen::Index, Eigen::Index>;
+  const auto lines_of = [](const auto&... lists) {
+    Lines lines;
+    for (const auto* list : {&lists...}) {
+      for (const Binding& binding : *list) lines[binding.number] = binding.at;
+    }
+    return lines;
+  };
+  const Lines unknown_at = lines_of(unknowns_, last_unknowns_);
+  const Lines row_at = lines_of(first_rows_, rows_);
+  const auto look_up = [](const Lines& lines, Eigen::Index number) {
+    const auto found = lines.find(number);
+    if (found == lines.end()) throw Error("an entry of the ends belongs to neither of them");
     return found->second;
   };
   for (const EndEntry& entry : entries.ends) {
     const bool is_row = entry.source == Source::jacobian;
     const Eigen::Index row = look_up(is_row ? row_at : unknown_at, entry.row);
     const Eigen::Index column = look_up(unknown_at, entry.column);
-    const bool defines_carry = is_row && row >= carry_at_ && row < last_rows_;
-    placed_.push_back(
-        {entry.source, entry.entry, std::max(row, column), std::min(row, column), defines_carry ? -1.0 : 1.0});
+    const double sign = is_row && defines_carry(row) ? -1.0 : 1.0;
+    placed_.push_back({entry.source, entry.entry, std::max(row, column), std::min(row, column), sign});
   }
 }
 
 void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
   std::vector<bool> moves(static_cast<std::size_t>(size_), true);
   const auto drop = [&](Eigen::Index at) { moves[static_cast<std::size_t>(at)] = false; };
-  for (const auto& list : {unknowns_, last_unknowns_}) {
-    for (const Binding& bound : list) {
-      const auto i = static_cast<Eigen::Index>(bound.number);
-      if (program.variable_lower()[i] == program.variable_upper()[i]) drop(bound.at);
+  for (const auto* list : {&unknowns_, &last_unknowns_}) {
+    for (const auto& [number, at] : *list) {
+      if (program.variable_lower()[number] == program.variable_upper()[number]) drop(at);
     }
   }
   // Where nothing but the first interval is in the rows of the first node, s_0 is zero.
-  const bool nothing_carried = std::none_of(placed_.begin(), placed_.end(), [&](const Placed& entry) {
-    return entry.row >= carry_at_ && entry.row < last_rows_;
-  });
+  const bool nothing_carried =
+      std::ranges::none_of(placed_, [&](const Placed& entry) { return defines_carry(entry.row); });
   for (Eigen::Index i = 0; i < node_sums_ && nothing_carried; ++i) {
     drop(node_ + i);
     drop(carry_at_ + i);
@@ -181,46 +169,40 @@ void BoundarySystem::assemble(const KktMatrix& matrix, const KktRightHandSide& r
   right_hand_side_.segment(multiplier_at_, n) = -horizon.value.gamma;
   for (const Placed& entry : placed_) {
     const Eigen::VectorXd& values = entry.source == Source::jacobian ? matrix.jacobian : matrix.hessian;
-    matrix_(entry.row, entry.column) += entry.sign * value_at(values, entry.entry);
+    matrix_(entry.row, entry.column) += entry.sign * values[entry.entry];
   }
-  for (const Binding& unknown : unknowns_) {
-    matrix_(unknown.at, unknown.at) += value_at(matrix.diagonal, unknown.number);
-    right_hand_side_[unknown.at] -= value_at(right_hand_side.gradient, unknown.number);
+  for (const auto& [number, at] : unknowns_) {
+    matrix_(at, at) += matrix.diagonal[number];
+    right_hand_side_[at] -= right_hand_side.gradient[number];
   }
-  for (const Binding& row : rows_) {
-    matrix_(row.at, row.at) -= matrix.compliance_of(static_cast<Eigen::Index>(row.number));
-    right_hand_side_[row.at] -= value_at(right_hand_side.constraints, row.number);
+  for (const auto& [number, at] : rows_) {
+    matrix_(at, at) -= matrix.compliance_of(number);
+    right_hand_side_[at] -= right_hand_side.constraints[number];
   }
-}
-
-FactorisationStatus BoundarySystem::factorise_and_solve() {
-  reduced_ = matrix_(kept_, kept_);
-  Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
-  const DenseInertia inertia = solve_symmetric(reduced_, reduced_solution);
-  is_certain_ = inertia.is_certain;
-  if (inertia.is_singular) return FactorisationStatus::singular;
-  const auto wanted = std::count_if(kept_.begin(), kept_.end(), [&](Eigen::Index at) { return at >= first_row_; });
-  if (inertia.negative != wanted) return FactorisationStatus::wrong_inertia;
-  solution_.setZero(size_);
-  solution_(kept_) = reduced_solution;
-  return FactorisationStatus::solved;
 }
 
 FactorisationStatus BoundarySystem::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const Horizon& horizon) {
   assemble(matrix, right_hand_side, horizon);
-  const FactorisationStatus status = factorise_and_solve();
-  if (status != FactorisationStatus::solved) return status;
+  Eigen::MatrixXd reduced = matrix_(kept_, kept_);
+  Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
+  const DenseInertia inertia = solve_symmetric(reduced, reduced_solution);
+  is_certain_ = inertia.is_certain;
+  if (inertia.is_singular) return FactorisationStatus::singular;
+  const auto rows = std::ranges::count_if(kept_, [&](Eigen::Index at) { return at >= multiplier_at_; });
+  if (inertia.negative != rows) return FactorisationStatus::wrong_inertia;
+  solution_.setZero(size_);
+  solution_(kept_) = reduced_solution;
   state_ = solution_.head(state_size_);
   multiplier_ = solution_.segment(multiplier_at_, state_size_);
-  return status;
+  return FactorisationStatus::solved;
 }
 
 void BoundarySystem::write(const KktStep& step) const {
-  for (const auto& list : {unknowns_, last_unknowns_}) {
-    for (const Binding& unknown : list) step.primal[static_cast<Eigen::Index>(unknown.number)] = solution_[unknown.at];
+  for (const auto* list : {&unknowns_, &last_unknowns_}) {
+    for (const auto& [number, at] : *list) step.primal[number] = solution_[at];
   }
-  for (const Binding& row : rows_) step.multipliers[static_cast<Eigen::Index>(row.number)] = solution_[row.at];
+  for (const auto& [number, at] : rows_) step.multipliers[number] = solution_[at];
 }
 
 }  // namespace dmocbench::interior_point

@@ -12,7 +12,7 @@
 
 namespace dmocbench::interior_point {
 
-/// What the factorisation of a small symmetric matrix tells.
+/// The inertia that the factorisation of a small symmetric matrix shows.
 struct DenseInertia {
   bool is_singular = false;
   bool is_certain = false;  ///< no eigenvalue of the scaled matrix is near zero
@@ -31,7 +31,7 @@ class BoundarySystem {
   /// Throws `Error` if the ends have an entry that belongs to neither of them.
   BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries);
 
-  /// The value of the whole horizon, and what its elimination left out.
+  /// The value of the whole horizon, and the terms that its elimination left out.
   struct Horizon {
     const SegmentValue& value;
     const Eigen::MatrixXd& last_carry;  ///< s_N lacks `last_carry` x_N (node_sums x node, see `moves_by_increment`)
@@ -53,35 +53,33 @@ class BoundarySystem {
  private:
   /// An unknown or a row of the program that belongs to this system: its number in the program, and its place here.
   struct Binding {
-    std::size_t number;
+    Eigen::Index number;
     Eigen::Index at;
   };
   /// An entry of the program's matrix, and where it goes; `sign` is -1 where it defines s_0.
   struct Placed {
     Source source;
-    std::size_t entry;
+    Eigen::Index entry;
     Eigen::Index row;
     Eigen::Index column;
     double sign;
   };
 
-  void number_unknowns(const IntervalEntries& entries);
-  void number_rows(const IntervalEntries& entries);
+  void number_lines(const IntervalEntries& entries);
   void place(const IntervalEntries& entries);
   void drop_what_is_fixed(const NonlinearProgram& program);
   void assemble(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const Horizon& horizon);
-  [[nodiscard]] FactorisationStatus factorise_and_solve();
+  [[nodiscard]] bool defines_carry(Eigen::Index row) const { return row >= carry_at_ && row < last_rows_; }
 
   Eigen::Index state_size_ = 0;
-  Eigen::Index size_ = 0;       // before fixed unknowns are left out
-  Eigen::Index first_row_ = 0;  // unknowns come before, multipliers from here on
+  Eigen::Index node_ = 0;
+  Eigen::Index node_sums_ = 0;
+  Eigen::Index size_ = 0;  // before fixed unknowns are left out
   // First places of blocks.
   Eigen::Index last_state_ = 0;
-  Eigen::Index multiplier_at_ = 0;
-  Eigen::Index carry_at_ = 0;   // rows that define s_0
-  Eigen::Index last_rows_ = 0;  // rows of the last node
-  int node_ = 0;
-  int node_sums_ = 0;
+  Eigen::Index multiplier_at_ = 0;  // unknowns come before, multipliers from here on
+  Eigen::Index carry_at_ = 0;       // rows that define s_0
+  Eigen::Index last_rows_ = 0;      // rows of the last node
 
   std::vector<Binding> unknowns_;       // whose gradients, diagonals and steps belong here
   std::vector<Binding> last_unknowns_;  // x_N, whose gradients and diagonals belong to the last interval
@@ -92,7 +90,6 @@ class BoundarySystem {
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_hand_side_;
-  Eigen::MatrixXd reduced_;
   bool is_certain_ = false;
   Eigen::VectorXd solution_;
   Eigen::VectorXd state_;

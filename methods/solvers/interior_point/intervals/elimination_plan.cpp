@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <Eigen/Core>
@@ -13,13 +12,13 @@ namespace {
 
 /// Rows and columns in the order of elimination: position -> natural number.
 struct Order {
-  std::vector<int> rows;
-  std::vector<int> columns;  // of Z
-  std::vector<double> pivots;
+  Eigen::VectorXi rows;
+  Eigen::VectorXi columns;  // of Z
+  Eigen::VectorXd pivots;   // their magnitudes
 };
 
 /// Derivatives of the equalities of an interval with respect to Z.
-Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays& arrays, std::size_t interval) {
+Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays& arrays, Eigen::Index interval) {
   const Shape& shape = entries.shape;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(shape.rows, next_size(shape));
   for (const LocalEntry& entry : entries.local) {
@@ -32,17 +31,15 @@ Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays
 /// `columns_in_order`: the columns are taken as they stand, the first of them dependent.
 std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
-    std::vector<int> list(static_cast<std::size_t>(count));
-    std::iota(list.begin(), list.end(), 0);
-    return list;
+    return Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1);
   };
-  Order order{numbers(left.rows()), numbers(left.cols()), {}};
+  Order order{numbers(left.rows()), numbers(left.cols()), Eigen::VectorXd(left.rows())};
   if (!left.allFinite()) return std::nullopt;
   Eigen::VectorXd row_scale = left.cwiseAbs().rowwise().maxCoeff();
   if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
   constexpr double smallest = 1e-12;  // of a row's largest entry: beyond it a pivot is rounding
   for (Eigen::Index p = 0; p < left.rows(); ++p) {
-    // The largest entry of what is left, with every row measured by its own largest entry.
+    // The largest remaining entry, with every row measured by its own largest entry.
     const Eigen::Index height = left.rows() - p;
     const Eigen::Index width = columns_in_order ? 1 : left.cols() - p;
     Eigen::Index row = 0;
@@ -55,24 +52,17 @@ std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
     left.row(p).swap(left.row(row));
     left.col(p).swap(left.col(column));
     std::swap(row_scale[p], row_scale[row]);
-    std::swap(order.rows[static_cast<std::size_t>(p)], order.rows[static_cast<std::size_t>(row)]);
-    std::swap(order.columns[static_cast<std::size_t>(p)], order.columns[static_cast<std::size_t>(column)]);
-    order.pivots.push_back(std::abs(pivot));
+    std::swap(order.rows[p], order.rows[row]);
+    std::swap(order.columns[p], order.columns[column]);
+    order.pivots[p] = std::abs(pivot);
     for (Eigen::Index i = p + 1; i < left.rows(); ++i) left.row(i) -= left(i, p) / pivot * left.row(p);
   }
   return order;
 }
 
-/// True if the dependent unknowns are those of the next node.
-bool determines_next_node(const Order& order, const Shape& shape) {
-  if (shape.rows != shape.node) return false;
-  return std::all_of(order.columns.begin(), order.columns.begin() + shape.rows,
-                     [&](int column) { return column < shape.node; });
-}
-
-std::vector<int> inverse(const std::vector<int>& order) {
-  std::vector<int> places(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) places[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+Eigen::VectorXi inverse(const Eigen::VectorXi& order) {
+  Eigen::VectorXi places(order.size());
+  for (int place = 0; const int number : order) places[number] = place++;
   return places;
 }
 
@@ -83,37 +73,37 @@ class Slots {
       : blocks_{shape}, row_at_(inverse(order.rows)), next_at_(inverse(order.columns)) {}
 
   [[nodiscard]] int column(int natural) const {
-    return natural < next_size(blocks_.shape) ? next_at_[static_cast<std::size_t>(natural)] : natural;
+    return natural < next_size(blocks_.shape) ? next_at_[natural] : natural;
   }
-  [[nodiscard]] int row(int natural) const { return row_at_[static_cast<std::size_t>(natural)]; }
+  [[nodiscard]] int row(int natural) const { return row_at_[natural]; }
   [[nodiscard]] const LocalBlocks<Shape>& blocks() const { return blocks_; }
 
-  /// The slot of an entry, and that of its mirror image.
-  [[nodiscard]] std::pair<int, int> of(const LocalEntry& entry) const {
+  /// The slot of an entry.
+  [[nodiscard]] int of(const LocalEntry& entry) const {
     const int node = blocks_.shape.node;
     switch (entry.block) {
       case LocalEntry::Block::equality:
-        return twice(blocks_.equalities()(row(entry.row), column(entry.column)));
+        return blocks_.equalities()(row(entry.row), column(entry.column));
       case LocalEntry::Block::carry:
-        return twice(
-            blocks_.carry()(entry.row, entry.column < node ? entry.column : node + column(entry.column - node)));
+        return blocks_.carry()(entry.row, entry.column < node ? entry.column : node + column(entry.column - node));
       case LocalEntry::Block::inequality:
-        return twice(entry.column < 0 ? blocks_.compliance()(entry.row, 0)
-                                      : blocks_.inequalities()(entry.row, column(entry.column)));
+        if (entry.column < 0) return blocks_.compliance()(entry.row, 0);
+        return blocks_.inequalities()(entry.row, column(entry.column));
       case LocalEntry::Block::hessian:
         break;
     }
-    const int slot = blocks_.hessian()(column(entry.row), column(entry.column));
-    if (entry.column >= next_size(blocks_.shape)) return twice(slot);
-    return {slot, blocks_.hessian()(column(entry.column), column(entry.row))};
+    return blocks_.hessian()(column(entry.row), column(entry.column));
+  }
+  /// The slot of its mirror image, where the blocks have that; else its own.
+  [[nodiscard]] int mirror_of(const LocalEntry& entry) const {
+    const bool has_mirror = entry.block == LocalEntry::Block::hessian && entry.column < next_size(blocks_.shape);
+    return has_mirror ? blocks_.hessian()(column(entry.column), column(entry.row)) : of(entry);
   }
 
  private:
-  static std::pair<int, int> twice(int slot) { return {slot, slot}; }
-
   LocalBlocks<Shape> blocks_;
-  std::vector<int> row_at_;
-  std::vector<int> next_at_;
+  Eigen::VectorXi row_at_;
+  Eigen::VectorXi next_at_;
 };
 
 void append_gathers(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
@@ -123,11 +113,8 @@ void append_gathers(const IntervalEntries& entries, const Slots& slots, Eliminat
     plan.gathers.push_back({entry.source, is_set[at], from_before, entry.first, slot, mirror});
     is_set[at] = true;
   };
-  for (const LocalEntry& entry : entries.local) {
-    const auto [slot, mirror] = slots.of(entry);
-    append(entry, false, slot, mirror);
-  }
-  // What the interval before has put into s_k beyond J_{k,k-1} x_{k-1} is taken back.
+  for (const LocalEntry& entry : entries.local) append(entry, false, slots.of(entry), slots.mirror_of(entry));
+  // The multiple of x_k that the interval before has added to s_k (`moves_by_increment`) is subtracted again.
   for (const LocalEntry& entry : entries.local) {
     if (entry.block != LocalEntry::Block::carry || entry.column >= entries.shape.node) continue;
     if (!moves_by_increment(entries.shape, plan.node_in_next.data(), entry.column)) continue;
@@ -142,55 +129,52 @@ void append_unit_entries(const IntervalEntries& entries, const Slots& slots, Eli
   for (int i = 0; i < shape.node_sums; ++i) {
     plan.unit_entries.push_back(slots.blocks().equalities()(slots.row(i), next_size(shape) + shape.node + i));
   }
-  for (int j = 0; j < shape.interval; ++j) {
-    if (!entries.inner_is_fixed[static_cast<std::size_t>(j)]) continue;
-    const int place = slots.column(shape.node + j);
-    plan.unit_entries.push_back(slots.blocks().hessian()(place, place));
+  for (int column = shape.node; column < next_size(shape); ++column) {
+    const int place = slots.column(column);
+    if (entries.is_fixed_column(column)) plan.unit_entries.push_back(slots.blocks().hessian()(place, place));
   }
 }
 
 void append_scatters(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
   const Shape& shape = entries.shape;
   const ForwardBlocks<Shape> results{shape};
-  for (int i = 0; i < shape.node; ++i) {
-    const std::size_t first = entries.node_unknowns[static_cast<std::size_t>(i)];
-    plan.scatters.push_back({results.next_state()(i, 0), false, first + 1});
+  const auto index_of = [&](int column) {
+    if (column < shape.node) return results.next_state()(column, 0);
+    const int place = slots.column(column);
+    return place >= shape.rows ? results.columns()(place - shape.rows, 0) : results.dependent()(place, 0);
+  };
+  for (int column = 0; column < next_size(shape); ++column) {
+    if (!entries.is_fixed_column(column))
+      plan.scatters.push_back({index_of(column), false, entries.unknown_in(column)});
   }
-  for (int j = 0; j < shape.interval; ++j) {
-    const auto column = static_cast<std::size_t>(j);
-    if (entries.inner_is_fixed[column]) continue;
-    const int place = slots.column(shape.node + j);
-    const int index = place >= shape.rows ? results.columns()(place - shape.rows, 0) : results.dependent()(place, 0);
-    plan.scatters.push_back({index, false, entries.inner_unknowns[column]});
-  }
-  for (int i = 0; i < shape.rows; ++i) {
-    const bool of_node = i < shape.node_sums;
-    const std::size_t first = of_node ? entries.node_rows[static_cast<std::size_t>(i)]
-                                      : entries.interval_rows[static_cast<std::size_t>(i - shape.node_sums)];
+  for (int i = 0; const Eigen::Index first : entries.equality_rows) {
     // Without rows of its own an interval's multipliers come as the derivative with respect to s, in natural order.
     plan.scatters.push_back({results.multipliers()(has_own_rows(shape) ? slots.row(i) : i, 0), true, first});
+    ++i;
   }
 }
 
 }  // namespace
 
 std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, const NewtonArrays& arrays,
-                                                std::size_t interval) {
+                                                Eigen::Index interval) {
   const Eigen::MatrixXd equalities = equalities_of(entries, arrays, interval);
   auto order = find_order(equalities, false);
   if (!order) return std::nullopt;
-  const bool is_plain = determines_next_node(*order, entries.shape);
+  const Shape& shape = entries.shape;
+  // The dependent unknowns are those of the next node.
+  const bool is_plain = shape.rows == shape.node && (order->columns.head(shape.rows).array() < shape.node).all();
   if (is_plain) {
     // The same unknowns in their natural order, for which there are faster kernels.
     const auto natural = find_order(equalities, true);
     if (natural) order = natural;
   }
-  const Slots slots(entries.shape, *order);
+  const Slots slots(shape, *order);
   EliminationPlan plan;
-  plan.shape = entries.shape;
+  plan.shape = shape;
   plan.shape.is_plain = is_plain && std::is_sorted(order->columns.begin(), order->columns.end());
   for (const double pivot : order->pivots) plan.pivot_scales.push_back(1.0 / pivot);
-  for (int i = 0; i < entries.shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
+  for (int i = 0; i < shape.node; ++i) plan.node_in_next.push_back(slots.column(i));
   append_unit_entries(entries, slots, plan);
   append_gathers(entries, slots, plan);
   append_scatters(entries, slots, plan);

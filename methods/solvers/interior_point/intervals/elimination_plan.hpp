@@ -11,6 +11,6 @@ namespace dmocbench::interior_point {
 /// complete pivoting on one interval's numbers; every interval follows this order without exchanges, and measures its
 /// pivots by those found here. None if the equalities of that interval depend on each other.
 [[nodiscard]] std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries,
-                                                              const NewtonArrays& arrays, std::size_t interval);
+                                                              const NewtonArrays& arrays, Eigen::Index interval);
 
 }  // namespace dmocbench::interior_point

@@ -10,16 +10,26 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// The first unknown, or row, of a run of `Places`; the others follow it node by node, interval by interval, or shared
-/// unknown by shared unknown.
-struct Member {
-  Place::Kind kind = Place::Kind::border;
-  std::size_t at = 0;  ///< node or interval
-  int column = -1;     ///< number among the quantities of its kind; -1 for what single nodes have, and border rows
-  bool is_inequality = false;  ///< rows only
+using Block = LocalEntry::Block;
+
+/// The role of a run of unknowns, or of rows.
+struct Quantity {
+  int number = -1;  ///< among the quantities of its kind; -1 for those of single nodes, and rows of the border
+  bool is_inequality = false;
 };
 
-bool in_column(const Member& m, Place::Kind kind) { return m.kind == kind && m.column >= 0; }
+/// The unknown, or row, that a run of a pattern begins with.
+struct Member : Quantity {
+  Place::Kind kind;
+  Eigen::Index index;   ///< of its node or interval
+  Eigen::Index length;  ///< of its run of places, from here on
+};
+
+/// The blocks' entry that a run goes to: its entry i to interval `first` + i, or to the ends where there is none.
+struct Target {
+  std::tuple<Block, int, int> position;
+  Eigen::Index first;
+};
 
 class EntryTable {
  public:
@@ -27,319 +37,240 @@ class EntryTable {
       : program_(program), structure_(structure) {}
 
   tl::expected<IntervalEntries, std::string> make() {
-    result_.intervals = structure_.intervals;
-    place_unknowns();
-    place_rows();
-    result_.shape = {.node = count(result_.node_unknowns),
-                     .node_sums = count(result_.node_rows),
-                     .global = count(result_.shared_unknowns),
-                     .interval = count(result_.inner_unknowns),
-                     .rows = count(result_.node_rows) + count(result_.interval_rows),
-                     .inequalities = count(result_.inequality_rows)};
-    if (free_size(result_.shape) < 0) refuse("an interval has more equalities than unknowns");
-    require_free_between_ends();
+    made_.intervals = static_cast<Eigen::Index>(structure_.intervals);
+    for (const PlaceRun& run : structure_.unknowns.runs()) unknowns_.push_back({unknown_of(run)});
+    for (const PlaceRun& run : structure_.rows.runs()) rows_.push_back(row_of(run));
+    made_.shape = {.node = count(made_.node_unknowns),
+                   .node_sums = count(made_.equality_rows),
+                   .global = count(made_.global_unknowns),
+                   .interval = count(made_.interval_unknowns),
+                   .rows = count(made_.equality_rows) + count(own_rows_),
+                   .inequalities = count(made_.inequality_rows)};
+    made_.equality_rows.insert(made_.equality_rows.end(), own_rows_.begin(), own_rows_.end());
+    if (free_size(made_.shape) < 0) refuse("an interval has more equalities than unknowns");
     if (refusal_.empty()) {
       for (const PatternRun& run : program_.hessian_structure().runs()) place(Source::hessian, run);
       for (const PatternRun& run : program_.jacobian_structure().runs()) place(Source::jacobian, run);
     }
-    append_columns();
-    append_vectors();
     if (!refusal_.empty()) return tl::unexpected(std::move(refusal_));
-    return std::move(result_);
+    append_matrices();
+    append_vectors();
+    return std::move(made_);
   }
 
  private:
-  using Key = std::tuple<LocalEntry::Block, int, int>;
-  /// A block's entry over a stretch of intervals.
-  struct Stretch {
-    std::size_t first = 0;
-    std::size_t begin = 0;
-    std::size_t length = 0;
-    Source source = Source::hessian;
-  };
-
-  static int count(const std::vector<std::size_t>& list) { return static_cast<int>(list.size()); }
+  static int count(const std::vector<Eigen::Index>& list) { return static_cast<int>(list.size()); }
+  /// Adds numbers to a list, and says where the first of them stands.
+  static int append(const PlaceRun& run, std::size_t length, std::vector<Eigen::Index>& list) {
+    const int at = count(list);
+    for (std::size_t i = 0; i < length; ++i) list.push_back(static_cast<Eigen::Index>(run.first + i));
+    return at;
+  }
 
   /// The first reason counts.
-  void refuse(const char* why) {
-    if (refusal_.empty()) refusal_ = why;
+  void refuse(const char* reason) {
+    if (refusal_.empty()) refusal_ = reason;
   }
 
   [[nodiscard]] bool is_of_all(const PlaceRun& run, Place::Kind kind) const {
-    const std::size_t all = kind == Place::Kind::node ? structure_.intervals + 1 : structure_.intervals;
-    return run.kind == kind && run.index == 0 && run.count == all;
+    return run.kind == kind && run.index == 0 &&
+           run.count == structure_.intervals + (kind == Place::Kind::node ? 1 : 0);
   }
-
-  void place_unknowns() {
-    for (const PlaceRun& run : structure_.unknowns.runs()) {
-      Member member{.kind = run.kind, .at = run.index};
-      if (run.kind == Place::Kind::border) {
-        member.column = count(result_.shared_unknowns);
-        append_members(run, result_.shared_unknowns);
-      } else if (is_of_all(run, Place::Kind::node) || is_of_all(run, Place::Kind::interval)) {
-        auto& list = run.kind == Place::Kind::node ? result_.node_unknowns : result_.inner_unknowns;
-        member.column = count(list);
-        list.push_back(run.first);
-      } else if (is_of_an_end(run)) {
-        append_members(run, result_.single_unknowns[run.index == 0 ? 0 : 1]);
-      } else {
-        refuse("an unknown between the ends belongs to no column of its kind");
-      }
-      unknowns_.push_back(member);
-    }
-  }
-
-  void place_rows() {
-    for (const PlaceRun& run : structure_.rows.runs()) {
-      Member member{.kind = run.kind, .at = run.index};
-      if (is_of_all(run, Place::Kind::node)) {
-        member.column = count(result_.node_rows);
-        result_.node_rows.push_back(run.first);
-        if (inequalities_in(run) > 0) refuse("a row of a node is an inequality");
-      } else if (is_of_all(run, Place::Kind::interval)) {
-        const Eigen::Index inequalities = inequalities_in(run);
-        member.is_inequality = inequalities > 0;
-        auto& list = member.is_inequality ? result_.inequality_rows : result_.interval_rows;
-        member.column = count(list);
-        list.push_back(run.first);
-        if (member.is_inequality && inequalities < static_cast<Eigen::Index>(run.count)) {
-          refuse("a row is an equality in some intervals only");
-        }
-      } else {
-        if (run.kind != Place::Kind::border && !is_of_an_end(run)) {
-          refuse("a row between the ends belongs to no column of its kind");
-        }
-        append_members(run, result_.single_rows);
-      }
-      rows_.push_back(member);
-    }
-  }
-
   [[nodiscard]] bool is_of_an_end(const PlaceRun& run) const {
     return run.kind == Place::Kind::node && run.count == 1 && (run.index == 0 || run.index == structure_.intervals);
   }
-  static void append_members(const PlaceRun& run, std::vector<std::size_t>& list) {
-    for (std::size_t i = 0; i < run.count; ++i) list.push_back(run.first + i);
-  }
-
-  [[nodiscard]] Eigen::Index inequalities_in(const PlaceRun& run) const {
-    return different(program_.constraint_lower(), program_.constraint_upper(), run.first, run.count);
-  }
-  [[nodiscard]] Eigen::Index fixed_in(std::size_t first, std::size_t length) const {
-    const auto free = different(program_.variable_lower(), program_.variable_upper(), first, length);
-    return static_cast<Eigen::Index>(length) - free;
-  }
-  static Eigen::Index different(const Eigen::VectorXd& a, const Eigen::VectorXd& b, std::size_t first,
-                                std::size_t length) {
+  /// How many of some consecutive bounds are equal.
+  static Eigen::Index equal_bounds(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, std::size_t first,
+                                   Eigen::Index length) {
     const auto begin = static_cast<Eigen::Index>(first);
-    const auto size = static_cast<Eigen::Index>(length);
-    return (a.segment(begin, size).array() != b.segment(begin, size).array()).count();
+    return (lower.segment(begin, length).array() == upper.segment(begin, length).array()).count();
   }
 
-  void require_free_between_ends() {
-    for (const std::size_t first : result_.node_unknowns) {
-      if (fixed_in(first + 1, result_.intervals - 1) > 0) refuse("an unknown of a node between the ends is fixed");
+  int unknown_of(const PlaceRun& run) {
+    const auto fixed = [&](std::size_t first, Eigen::Index length) {
+      return equal_bounds(program_.variable_lower(), program_.variable_upper(), first, length);
+    };
+    if (run.kind == Place::Kind::border) return append(run, run.count, made_.global_unknowns);
+    if (is_of_all(run, Place::Kind::node)) {
+      if (fixed(run.first + 1, made_.intervals - 1) > 0) refuse("an unknown of a node between the ends is fixed");
+      return append(run, 1, made_.node_unknowns);
     }
-    for (const std::size_t first : result_.inner_unknowns) {
-      const Eigen::Index fixed = fixed_in(first, result_.intervals);
-      result_.inner_is_fixed.push_back(fixed > 0);
-      if (fixed > 0 && fixed < static_cast<Eigen::Index>(result_.intervals)) {
-        refuse("an unknown is fixed in some intervals only");
-      }
+    if (is_of_all(run, Place::Kind::interval)) {
+      const Eigen::Index fixed_ones = fixed(run.first, made_.intervals);
+      if (fixed_ones > 0 && fixed_ones < made_.intervals) refuse("an unknown is fixed in some intervals only");
+      made_.is_fixed.push_back(fixed_ones > 0);
+      return append(run, 1, made_.interval_unknowns);
     }
+    if (!is_of_an_end(run)) refuse("an unknown between the ends belongs to no column of its kind");
+    append(run, run.count, made_.end_unknowns[run.index == 0 ? 0 : 1]);
+    return -1;
   }
 
-  [[nodiscard]] Member unknown(Eigen::Index number) const { return member_of(structure_.unknowns, unknowns_, number); }
-  [[nodiscard]] Member row(Eigen::Index number) const { return member_of(structure_.rows, rows_, number); }
-  static Member member_of(const Places& places, const std::vector<Member>& firsts, Eigen::Index number) {
+  Quantity row_of(const PlaceRun& run) {
+    const auto length = static_cast<Eigen::Index>(run.count);
+    const Eigen::Index equalities =
+        equal_bounds(program_.constraint_lower(), program_.constraint_upper(), run.first, length);
+    if (is_of_all(run, Place::Kind::node)) {
+      if (equalities < length) refuse("a row of a node is an inequality");
+      return {append(run, 1, made_.equality_rows)};
+    }
+    if (is_of_all(run, Place::Kind::interval)) {
+      if (equalities > 0 && equalities < length) refuse("a row is an equality in some intervals only");
+      const bool is_inequality = equalities < length;
+      return {append(run, 1, is_inequality ? made_.inequality_rows : own_rows_), is_inequality};
+    }
+    if (run.kind != Place::Kind::border && !is_of_an_end(run)) {
+      refuse("a row between the ends belongs to no column of its kind");
+    }
+    append(run, run.count, made_.end_rows);
+    return {};
+  }
+
+  static Member member(const Places& places, const std::vector<Quantity>& quantities, Eigen::Index number) {
     const std::size_t run = places.run_of(static_cast<std::size_t>(number));
-    const std::size_t way = static_cast<std::size_t>(number) - places.runs()[run].first;
-    Member member = firsts[run];
-    if (member.kind != Place::Kind::border) {
-      member.at += way;
-    } else if (member.column >= 0) {
-      member.column += static_cast<int>(way);
-    }
+    const PlaceRun& place = places.runs()[run];
+    const Eigen::Index offset = number - static_cast<Eigen::Index>(place.first);
+    Member member{quantities[run], place.kind, static_cast<Eigen::Index>(place.index) + offset,
+                  static_cast<Eigen::Index>(place.count) - offset};
+    if (member.kind == Place::Kind::border && member.number >= 0) member.number += static_cast<int>(offset);
     return member;
   }
 
-  // Columns in the natural order of an interval's unknowns.
-  [[nodiscard]] static int next_node(const Member& m) { return m.column; }
-  [[nodiscard]] int inner(const Member& m) const { return result_.shape.node + m.column; }
-  [[nodiscard]] int this_node(const Member& m) const { return next_size(result_.shape) + m.column; }
-  [[nodiscard]] int shared(const Member& m) const {
-    return next_size(result_.shape) + result_.shape.node + result_.shape.node_sums + m.column;
+  /// The column of an interval's blocks that an unknown stands in; -1 if the interval does not see it.
+  [[nodiscard]] int column_in(Eigen::Index interval, const Member& m) const {
+    const Shape& shape = made_.shape;
+    const int this_node = next_size(shape);
+    if (m.number < 0) return -1;
+    if (m.kind == Place::Kind::border) return this_node + shape.node + shape.node_sums + m.number;
+    if (m.kind == Place::Kind::interval) return m.index == interval ? shape.node + m.number : -1;
+    if (m.index == interval + 1) return m.number;
+    return m.index == interval ? this_node + m.number : -1;
   }
 
-  /// Where an unknown is seen from interval k; -1 if it does not belong to it.
-  [[nodiscard]] int seen_from(const Member& m, std::size_t interval) const {
-    if (m.column < 0) return -1;
-    if (m.kind == Place::Kind::border) return shared(m);
-    if (m.kind == Place::Kind::interval) return m.at == interval ? inner(m) : -1;
-    if (m.at == interval + 1) return next_node(m);
-    return m.at == interval ? this_node(m) : -1;
+  /// Quantity by quantity: with a single interval, a run may go on from one to the next.
+  void place(Source source, PatternRun rest) {
+    while (rest.length > 0) {
+      const Member column = member(structure_.unknowns, unknowns_, rest.column);
+      const Member row = source == Source::hessian ? member(structure_.unknowns, unknowns_, rest.row)
+                                                   : member(structure_.rows, rows_, rest.row);
+      PatternRun run = rest;
+      if (run.row_step == 1) run.length = std::min(run.length, row.length);
+      if (run.column_step == 1) run.length = std::min(run.length, column.length);
+      place(source, run, row, column);
+      rest.entry += run.length;
+      rest.row += run.length * run.row_step;
+      rest.column += run.length * run.column_step;
+      rest.length -= run.length;
+    }
   }
 
-  /// The block of an interval that an entry of a matrix goes to; none if it goes to the ends.
-  struct Target {
-    Key key;
-    std::size_t interval;
-  };
-  using Destination = std::optional<Target>;
-
-  /// True if all entries of a run but the first and the last go to the same block: if it does not leave the quantities
-  /// that it begins in, and moves through both of them, or through one beside something of the whole horizon.
-  [[nodiscard]] bool is_of_one_block(const PatternRun& run, const Places& places_of_rows) const {
-    const auto stays = [&](const Places& places, Eigen::Index first, Eigen::Index step) {
-      const auto last = static_cast<std::size_t>(first + step * (run.length - 1));
-      return places.run_of(static_cast<std::size_t>(first)) == places.run_of(last);
-    };
-    const auto is_of_horizon = [](const Places& places, Eigen::Index number) {
-      return places.runs()[places.run_of(static_cast<std::size_t>(number))].kind == Place::Kind::border;
-    };
-    return stays(places_of_rows, run.row, run.row_step) && stays(structure_.unknowns, run.column, run.column_step) &&
-           (run.row_step == run.column_step || is_of_horizon(places_of_rows, run.row) ||
-            is_of_horizon(structure_.unknowns, run.column));
-  }
-
-  void place(Source source, const PatternRun& run) {
+  void place(Source source, const PatternRun& run, const Member& row, const Member& column) {
     const bool is_hessian = source == Source::hessian;
-    const bool is_block = is_of_one_block(run, is_hessian ? structure_.unknowns : structure_.rows);
-    for (Eigen::Index begin = 0; begin < run.length;) {
-      const Eigen::Index end = is_block && begin == 1 ? std::max<Eigen::Index>(2, run.length - 1) : begin + 1;
-      const Eigen::Index i = run.row + begin * run.row_step;
-      const Member j = unknown(run.column + begin * run.column_step);
-      const bool is_nowhere = is_fixed_inner(j) || (is_hessian && is_fixed_inner(unknown(i)));
-      if (!is_nowhere) {
-        put(is_hessian ? hessian_destination(unknown(i), j) : jacobian_destination(row(i), j), source, run, begin, end);
-      }
-      begin = end;
+    if (is_fixed(column) || (is_hessian && is_fixed(row))) return;
+    const std::optional<Target> to = is_hessian ? hessian_target(row, column) : jacobian_target(row, column);
+    const Eigen::Index begin = to ? std::clamp<Eigen::Index>(-to->first, 0, run.length) : run.length;
+    const Eigen::Index end = to ? std::clamp(made_.intervals - to->first, begin, run.length) : run.length;
+    for (Eigen::Index i = 0; i < run.length; ++i) {
+      if (begin <= i && i < end) continue;
+      made_.ends.push_back({source, run.entry + i, run.row + i * run.row_step, run.column + i * run.column_step});
     }
-  }
-
-  /// Entries `begin` .. `end` - 1 of a run.
-  void put(const Destination& to, Source source, const PatternRun& run, Eigen::Index begin, Eigen::Index end) {
-    const auto number = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
-    if (!to) {
-      for (Eigen::Index i = begin; i < end; ++i) {
-        result_.ends.push_back({source, number(run.entry + i), number(run.row + i * run.row_step),
-                                number(run.column + i * run.column_step)});
-      }
-      return;
-    }
-    const std::size_t first = number(run.entry + begin);
-    Stretch& stretch = stretches_[to->key];
-    if (stretch.length == 0) stretch = {first, to->interval, 0, source};
-    if (first != stretch.first + stretch.length || to->interval != stretch.begin + stretch.length) {
-      refuse("its derivatives are not stored interval by interval");
-    }
-    stretch.length += number(end - begin);
-  }
-
-  [[nodiscard]] Destination hessian_destination(const Member& first, const Member& second) const {
-    const auto interval = interval_of(first, second);
-    if (!interval) return std::nullopt;
-    const int a = seen_from(first, *interval);
-    const int b = seen_from(second, *interval);
-    const int Z = next_size(result_.shape);
-    if (a < 0 || b < 0 || (a >= Z && b >= Z)) return std::nullopt;
-    return Target{{LocalEntry::Block::hessian, std::min(a, b), std::max(a, b)}, *interval};
-  }
-
-  /// The interval whose blocks hold the Hessian's entry of two unknowns: that before a node for the node's own ones.
-  [[nodiscard]] static std::optional<std::size_t> interval_of(const Member& a, const Member& b) {
-    for (const Member* m : {&a, &b}) {
-      if (in_column(*m, Place::Kind::interval)) return m->at;
-    }
-    std::size_t latest = 0;
-    for (const Member* m : {&a, &b}) {
-      if (in_column(*m, Place::Kind::node)) latest = std::max(latest, m->at);
-    }
-    if (latest == 0) return std::nullopt;
-    return latest - 1;
-  }
-
-  [[nodiscard]] bool is_fixed_inner(const Member& m) const {
-    return in_column(m, Place::Kind::interval) && result_.inner_is_fixed[static_cast<std::size_t>(m.column)];
-  }
-
-  [[nodiscard]] Destination jacobian_destination(const Member& row, const Member& of) {
-    if (row.column < 0) return std::nullopt;
-    return row.kind == Place::Kind::interval ? interval_row_destination(row, of) : node_row_destination(row, of);
-  }
-
-  [[nodiscard]] Destination interval_row_destination(const Member& row, const Member& of) {
-    const int column = seen_from(of, row.at);
-    if (column < 0) refuse("a row of an interval reads unknowns of another one");
-    if (row.is_inequality) return Target{{LocalEntry::Block::inequality, row.column, column}, row.at};
-    const int number = result_.shape.node_sums + row.column;
-    return Target{{LocalEntry::Block::equality, number, column}, row.at};
-  }
-
-  [[nodiscard]] Destination node_row_destination(const Member& row, const Member& of) const {
-    const bool from_before =
-        (in_column(of, Place::Kind::interval) || in_column(of, Place::Kind::node)) && of.at + 1 == row.at;
-    if (from_before) {
-      const int Z = next_size(result_.shape);
-      const int seen = seen_from(of, of.at);  // of its own interval, or the left node of it
-      const int column = seen >= Z ? seen - Z : result_.shape.node + seen;
-      return Target{{LocalEntry::Block::carry, row.column, column}, of.at};
-    }
-    const int column = row.at == result_.intervals ? -1 : seen_from(of, row.at);
-    if (column < 0) return std::nullopt;
-    return Target{{LocalEntry::Block::equality, row.column, column}, row.at};
-  }
-
-  void append_columns() {
-    for (const auto& [key, stretch] : stretches_) {
-      const auto& [block, row, column] = key;
-      if (stretch.length == result_.intervals) {
-        result_.local.push_back({block, row, column, stretch.source, stretch.first});
-      } else {
-        const std::size_t padded_first = result_.padded.size() * result_.intervals;
-        result_.padded.push_back({stretch.source, stretch.first, stretch.begin, stretch.length, padded_first});
-        result_.local.push_back({block, row, column, Source::padded, padded_first});
-      }
-    }
-  }
-
-  /// Diagonals, slopes and values of rows, whose columns are those of unknowns and rows.
-  void append_vectors() {
-    const Shape& shape = result_.shape;
-    const int one = next_size(shape) + state_size(shape);
-    using Block = LocalEntry::Block;
-    const auto append_unknown = [&](int column, std::size_t first) {
-      result_.local.push_back({Block::hessian, column, column, Source::diagonal, first});
-      result_.local.push_back({Block::hessian, column, one, Source::gradient, first});
+    if (!to || begin == end) return;
+    const auto moves = [&](const Member& m, Eigen::Index step) {
+      return (m.kind != Place::Kind::border) == (step == 1);
     };
-    for (int i = 0; i < shape.node; ++i) append_unknown(i, result_.node_unknowns[static_cast<std::size_t>(i)] + 1);
-    for (int i = 0; i < shape.interval; ++i) {
-      const auto j = static_cast<std::size_t>(i);
-      if (!result_.inner_is_fixed[j]) append_unknown(shape.node + i, result_.inner_unknowns[j]);
+    const PaddedRun some{source, run.entry + begin, to->first + begin, end - begin, 0};
+    const auto [found, is_new] = runs_.try_emplace(to->position, some);
+    PaddedRun& known = found->second;
+    const bool follows = some.entry == known.entry + known.length && some.begin == known.begin + known.length;
+    const bool is_straight = run.length == 1 || (moves(row, run.row_step) && moves(column, run.column_step));
+    if (!is_straight || !(is_new || follows)) refuse("its derivatives are not stored interval by interval");
+    if (!is_new) known.length += some.length;
+  }
+
+  [[nodiscard]] bool is_fixed(const Member& m) const {
+    return m.kind == Place::Kind::interval && m.number >= 0 && made_.is_fixed_column(made_.shape.node + m.number);
+  }
+
+  /// In the blocks of the interval before a node stand the node's own entries.
+  [[nodiscard]] std::optional<Target> hessian_target(const Member& a, const Member& b) const {
+    const auto interval_of = [](const Member& m) {
+      return m.kind == Place::Kind::border ? -1 : m.index - (m.kind == Place::Kind::node ? 1 : 0);
+    };
+    const Eigen::Index interval = std::max(interval_of(a), interval_of(b));
+    const auto [row, column] = std::minmax({column_in(interval, a), column_in(interval, b)});
+    if (row < 0 || row >= next_size(made_.shape)) return std::nullopt;
+    return Target{{Block::hessian, row, column}, interval};
+  }
+
+  [[nodiscard]] std::optional<Target> jacobian_target(const Member& row, const Member& of) {
+    if (row.number < 0) return std::nullopt;
+    const bool is_of_node = row.kind == Place::Kind::node;
+    if (is_of_node && of.number >= 0 && of.kind != Place::Kind::border && of.index + 1 == row.index) {
+      const int next = of.kind == Place::Kind::node ? 0 : 2 * made_.shape.node;
+      return Target{{Block::carry, row.number, next + of.number}, of.index};
     }
-    for (int i = 0; i < shape.rows; ++i) {
-      const auto j = static_cast<std::size_t>(i);
-      const std::size_t first =
-          i < shape.node_sums ? result_.node_rows[j] : result_.interval_rows[j - result_.node_rows.size()];
-      result_.local.push_back({Block::equality, i, one, Source::rows, first});
+    const int column = column_in(row.index, of);
+    if (column < 0) {
+      if (!is_of_node) refuse("a row of an interval reads unknowns of another one");
+      return std::nullopt;
     }
-    for (int i = 0; i < shape.inequalities; ++i) {
-      const std::size_t first = result_.inequality_rows[static_cast<std::size_t>(i)];
-      result_.local.push_back({Block::inequality, i, one, Source::rows, first});
-      result_.local.push_back({Block::inequality, i, -1, Source::compliance, first});
+    if (row.is_inequality) return Target{{Block::inequality, row.number, column}, row.index};
+    return Target{{Block::equality, (is_of_node ? 0 : made_.shape.node_sums) + row.number, column}, row.index};
+  }
+
+  void append_matrices() {
+    for (auto& [position, run] : runs_) {
+      const auto& [block, row, column] = position;
+      if (run.length == made_.intervals) {
+        made_.local.push_back({block, row, column, run.source, run.entry});
+      } else {
+        run.padded_first = static_cast<Eigen::Index>(made_.padded.size()) * made_.intervals;
+        made_.local.push_back({block, row, column, Source::padded, run.padded_first});
+        made_.padded.push_back(run);
+      }
+    }
+  }
+
+  /// Diagonals, gradients and values of rows.
+  void append_vectors() {
+    const int one = next_size(made_.shape) + state_size(made_.shape);
+    for (int column = 0; column < next_size(made_.shape); ++column) {
+      if (made_.is_fixed_column(column)) continue;
+      made_.local.push_back({Block::hessian, column, column, Source::diagonal, made_.unknown_in(column)});
+      made_.local.push_back({Block::hessian, column, one, Source::gradient, made_.unknown_in(column)});
+    }
+    for (int i = 0; const Eigen::Index first : made_.equality_rows) {
+      made_.local.push_back({Block::equality, i++, one, Source::rows, first});
+    }
+    for (int i = 0; const Eigen::Index first : made_.inequality_rows) {
+      made_.local.push_back({Block::inequality, i, one, Source::rows, first});
+      made_.local.push_back({Block::inequality, i++, -1, Source::compliance, first});
     }
   }
 
   const NonlinearProgram& program_;
   const IntervalStructure& structure_;
-  IntervalEntries result_;
-  std::vector<Member> unknowns_;  // one per run of places
-  std::vector<Member> rows_;
-  std::map<Key, Stretch> stretches_;
+  IntervalEntries made_;
+  std::vector<Eigen::Index> own_rows_;  // equalities of intervals
+  std::vector<Quantity> unknowns_;      // one per run of places
+  std::vector<Quantity> rows_;
+  std::map<std::tuple<Block, int, int>, PaddedRun> runs_;
   std::string refusal_;
 };
 
 }  // namespace
+
+Eigen::Index IntervalEntries::unknown_in(int column) const {
+  const auto in = [](const std::vector<Eigen::Index>& list, int i) { return list[static_cast<std::size_t>(i)]; };
+  if (column < shape.node) return in(node_unknowns, column) + 1;
+  if (column < next_size(shape)) return in(interval_unknowns, column - shape.node);
+  const int state = column - next_size(shape);
+  return state < shape.node ? in(node_unknowns, state) : in(global_unknowns, state - shape.node - shape.node_sums);
+}
+
+bool IntervalEntries::is_fixed_column(int column) const {
+  return column >= shape.node && column < next_size(shape) && is_fixed[static_cast<std::size_t>(column - shape.node)];
+}
 
 tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program) {
   const IntervalStructure* const structure = program.interval_structure();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
 #include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
@@ -21,47 +22,51 @@ struct LocalEntry {
   int row;
   int column;
   Source source;
-  std::size_t first;  ///< that of interval k stands at `first` + k
+  Eigen::Index first;  ///< that of interval k stands at `first` + k
 };
 
 /// An entry of the KKT matrix that belongs to the ends of the horizon: between rows and unknowns of the first and the
 /// last node and of the border.
 struct EndEntry {
   Source source;  ///< hessian or jacobian
-  std::size_t entry;
-  std::size_t row;     ///< of the program: an unknown (hessian) or a row (jacobian)
-  std::size_t column;  ///< of the program: an unknown
+  Eigen::Index entry;
+  Eigen::Index row;     ///< of the program: an unknown (hessian) or a row (jacobian)
+  Eigen::Index column;  ///< of the program: an unknown
 };
 
-/// A column of derivatives that only the intervals from `begin` on have, `length` of them. It is copied to the array of
-/// padded columns, N entries from `padded_first` on, zero elsewhere.
-struct PaddedColumn {
+/// Derivatives that only the intervals from `begin` on have, `length` of them. They are copied to the array of padded
+/// ones, N entries from `padded_first` on, zero elsewhere.
+struct PaddedRun {
   Source source;
-  std::size_t entry;
-  std::size_t begin;
-  std::size_t length;
-  std::size_t padded_first;
+  Eigen::Index entry;
+  Eigen::Index begin;
+  Eigen::Index length;
+  Eigen::Index padded_first;
 };
 
-/// What of a program belongs to its intervals, and what to the ends.
+/// Which entries of a program belong to its intervals, and which to the ends.
 struct IntervalEntries {
   Shape shape{};
-  std::size_t intervals = 0;
+  Eigen::Index intervals = 0;
 
-  // First entries of columns of unknowns and rows: that of node or interval k stands at first + k.
-  std::vector<std::size_t> node_unknowns;
-  std::vector<std::size_t> inner_unknowns;
-  std::vector<std::size_t> node_rows;
-  std::vector<std::size_t> interval_rows;
-  std::vector<std::size_t> inequality_rows;
+  // The first of an unknown, or of a row, of all nodes or intervals: that of node or interval k stands at first + k.
+  std::vector<Eigen::Index> node_unknowns;
+  std::vector<Eigen::Index> interval_unknowns;
+  std::vector<Eigen::Index> equality_rows;  ///< those of nodes, then those of intervals
+  std::vector<Eigen::Index> inequality_rows;
+  std::vector<bool> is_fixed;  ///< one per unknown of an interval
 
-  std::vector<std::size_t> shared_unknowns;
-  std::vector<bool> inner_is_fixed;                         ///< one per inner unknown
-  std::array<std::vector<std::size_t>, 2> single_unknowns;  ///< further unknowns of the first and of the last node
-  std::vector<std::size_t> single_rows;                     ///< further rows of the ends, and those of the border
+  std::vector<Eigen::Index> global_unknowns;
+  std::array<std::vector<Eigen::Index>, 2> end_unknowns;  ///< further unknowns of the first and of the last node
+  std::vector<Eigen::Index> end_rows;                     ///< further rows of the ends, and those of the border
   std::vector<LocalEntry> local;
-  std::vector<PaddedColumn> padded;
+  std::vector<PaddedRun> padded;
   std::vector<EndEntry> ends;
+
+  /// The number of the unknown that interval 0 has in a column of its blocks; s_k has none.
+  [[nodiscard]] Eigen::Index unknown_in(int column) const;
+  /// Whether a column is that of a fixed unknown of an interval.
+  [[nodiscard]] bool is_fixed_column(int column) const;
 };
 
 /// Looks up where a program's runs go. The reason instead if the program has no interval structure, or one that is not

@@ -28,27 +28,21 @@ IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKern
 }
 
 IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
-    : entries_(std::move(entries)), boundary_(program, entries_), choose_(choose), weights_(entries_) {
-  padded_.setZero(static_cast<Eigen::Index>(entries_.padded.size() * entries_.intervals));
-  groups_ = cut_into_groups(entries_.shape, entries_.intervals);
-}
+    : entries_(std::move(entries)),
+      boundary_(program, entries_),
+      choose_(choose),
+      weights_(entries_),
+      padded_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entries_.padded.size()) * entries_.intervals)),
+      groups_(cut_into_groups(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {}
 
 NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side) {
-  NewtonArrays arrays;
-  const auto give = [&](Source source, const Eigen::VectorXd& values) {
-    arrays.arrays[static_cast<std::size_t>(source)] = values.data();
-  };
-  give(Source::jacobian, matrix.jacobian);
-  give(Source::hessian, matrix.hessian);
-  give(Source::diagonal, matrix.diagonal);
-  give(Source::compliance, matrix.compliance);
-  give(Source::gradient, right_hand_side.gradient);
-  give(Source::rows, right_hand_side.constraints);
-  give(Source::padded, padded_);
-  for (const PaddedColumn& column : entries_.padded) {
-    const double* from = arrays.of(column.source) + column.entry;
-    double* to = padded_.data() + column.padded_first + column.begin;
-    for_stretches(static_cast<Eigen::Index>(column.length), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+  NewtonArrays arrays{{matrix.jacobian.data(), matrix.hessian.data(), matrix.diagonal.data(),
+                       right_hand_side.gradient.data(), right_hand_side.constraints.data(), matrix.compliance.data(),
+                       padded_.data()}};
+  for (const PaddedRun& run : entries_.padded) {
+    const double* from = arrays.of(run.source) + run.entry;
+    double* to = padded_.data() + run.padded_first + run.begin;
+    for_stretches(run.length, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
       std::copy_n(from + begin, length, to + begin);
     });
   }
@@ -71,43 +65,43 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
   NewtonArrays arrays = arrays_of(matrix, right_hand_side);
   if (!has_plan_ && !choose_plan(arrays)) return FactorisationStatus::singular;
   weights_.rescale(arrays);
-  FactorisationStatus status = eliminate(arrays, matrix, right_hand_side);
-  if (status == FactorisationStatus::untrusted) {
-    if (!choose_plan(arrays)) return FactorisationStatus::singular;
-    status = eliminate(arrays, matrix, right_hand_side);
+  for (bool may_choose_order = true;; may_choose_order = false) {
+    arrays.terminal_weights = weights_.values().data();
+    for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
+    ++eliminations_;
+    const Elimination found = join(arrays, matrix, right_hand_side);
+    if (found.status == FactorisationStatus::solved) break;
+    if (found.status == FactorisationStatus::untrusted) {
+      if (!may_choose_order) return found.status;
+      if (!choose_plan(arrays)) return FactorisationStatus::singular;
+      continue;
+    }
+    // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
+    // To try the other weights costs less than the sparse factorisation that is asked about a singular system.
+    if (found.status == FactorisationStatus::singular) weights_.distrust_next_failure();
+    if (found.is_certain || !weights_.next_multiple()) return found.status;
   }
-  // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
-  const auto may_be_due_to_weights = [&] {
-    return (status == FactorisationStatus::wrong_inertia || status == FactorisationStatus::singular) &&
-           !has_certain_inertia_;
-  };
-  // To try the other weights costs less than the sparse factorisation that is asked otherwise.
-  if (status == FactorisationStatus::singular) weights_.distrust_next_failure();
-  while (may_be_due_to_weights() && weights_.next_multiple()) status = eliminate(arrays, matrix, right_hand_side);
-  if (status != FactorisationStatus::solved) return status;
   substitute(arrays, right_hand_side.constraints, step);
   return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
                                                                : FactorisationStatus::singular;
 }
 
-FactorisationStatus IntervalKkt::eliminate(NewtonArrays& arrays, const KktMatrix& matrix,
+/// The status after a backward sweep; if it is `solved`, `boundary_` holds the solution at the ends.
+IntervalKkt::Elimination IntervalKkt::join(const NewtonArrays& arrays, const KktMatrix& matrix,
                                            const KktRightHandSide& right_hand_side) {
-  arrays.terminal_weights = weights_.values().data();
-  has_certain_inertia_ = false;
-  ++eliminations_;
-  for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
-  for (const GroupMemory& memory : groups_) {
-    if (!(memory.group().smallest_ratio > smallest_ratio)) return FactorisationStatus::untrusted;
+  const auto any_group = [&](const auto& holds) {
+    return std::ranges::any_of(groups_, [&](const GroupMemory& memory) { return holds(memory.group()); });
+  };
+  if (any_group([](const SegmentGroup& group) { return !(group.smallest_ratio > smallest_ratio); })) {
+    return {FactorisationStatus::untrusted};
   }
-  for (const GroupMemory& memory : groups_) {
-    if (!memory.group().pivots_hold) return FactorisationStatus::wrong_inertia;
+  if (any_group([](const SegmentGroup& group) { return !group.pivots_hold; }) || !join_segments()) {
+    return {FactorisationStatus::wrong_inertia};
   }
-  if (!join_segments()) return FactorisationStatus::wrong_inertia;
   find_last_carry(arrays);
   const FactorisationStatus status =
       boundary_.solve(matrix, right_hand_side, {chain_.total(), last_carry_, weights_.values()});
-  has_certain_inertia_ = boundary_.is_certain();
-  return status;
+  return {status, boundary_.is_certain()};
 }
 
 /// J_{N,N-1}, of the unknowns that move by increments.
@@ -123,10 +117,21 @@ void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
 
 /// From the last segment to the first; false if a state between two is no minimum.
 bool IntervalKkt::join_segments() {
+  const Eigen::Index X = state_size(entries_.shape);
   bool is_last = true;
   for (std::size_t g = groups_.size(); g-- > 0;) {
     for (int segment = lane_count - 1; segment >= 0; --segment) {
-      read_value(groups_[g].group(), segment);
+      const auto columns = [&](const double* numbers, Eigen::Index first, Eigen::Index count) {
+        using Strides = Eigen::Stride<Eigen::Dynamic, lane_count>;
+        return Eigen::Map<const Eigen::MatrixXd, 0, Strides>(numbers + first * X * lane_count + segment, X, count,
+                                                             Strides(X * lane_count, lane_count));
+      };
+      const SegmentGroup& group = groups_[g].group();
+      segment_value_.P = columns(group.value, 0, X);
+      segment_value_.p = columns(group.value, X, 1);
+      segment_value_.Phi = columns(group.value, X + 1, X);
+      segment_value_.gamma = columns(group.reachability, 0, 1);
+      segment_value_.Gamma = columns(group.reachability, 1, X);
       weights_.observe(segment_value_.Gamma);
       if (is_last) {
         chain_.start(segment_value_, weights_.values());
@@ -139,23 +144,6 @@ bool IntervalKkt::join_segments() {
   return true;
 }
 
-void IntervalKkt::read_value(const SegmentGroup& group, int segment) {
-  const Eigen::Index X = state_size(entries_.shape);
-  const auto read = [&](const double* from, auto& to) {
-    for (Eigen::Index i = 0; i < to.size(); ++i) to.data()[i] = from[i * lane_count + segment];
-  };
-  segment_value_.P.resize(X, X);
-  segment_value_.p.resize(X);
-  segment_value_.Phi.resize(X, X);
-  segment_value_.Gamma.resize(X, X);
-  segment_value_.gamma.resize(X);
-  read(group.value, segment_value_.P);
-  read(group.value + X * X * lane_count, segment_value_.p);
-  read(group.value + X * (X + 1) * lane_count, segment_value_.Phi);
-  read(group.reachability, segment_value_.gamma);
-  read(group.reachability + X * lane_count, segment_value_.Gamma);
-}
-
 void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step) {
   chain_.back_substitute(boundary_.state(), boundary_.multiplier(), states_, multipliers_);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -166,11 +154,10 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
     Eigen::Map<Eigen::MatrixXd>(group.multiplier, lane_count, states_.rows()) =
         multipliers_.middleCols(first, lane_count).transpose();
   }
-  // The sweep writes what moves, and `BoundarySystem` all that belongs to the ends.
-  const auto count = static_cast<Eigen::Index>(entries_.intervals);
-  for (std::size_t j = 0; j < entries_.inner_unknowns.size(); ++j) {
-    if (!entries_.inner_is_fixed[j]) continue;
-    step.primal.segment(static_cast<Eigen::Index>(entries_.inner_unknowns[j]), count).setZero();
+  // The forward sweep writes the steps of free unknowns, `BoundarySystem` those of the ends.
+  for (int column = 0; column < next_size(entries_.shape); ++column) {
+    if (!entries_.is_fixed_column(column)) continue;
+    step.primal.segment(entries_.unknown_in(column), entries_.intervals).setZero();
   }
   for_each_part(groups_.size(), [&](std::size_t g) {
     kernel_.forward(plan_, arrays, groups_[g].group(), step.primal.data(), step.multipliers.data());
@@ -179,38 +166,28 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
   write_inequality_multipliers(arrays, constraints, step);
 }
 
-std::size_t IntervalKkt::first_of(int column) const {
-  const Shape& shape = entries_.shape;
-  if (column < shape.node) return entries_.node_unknowns[static_cast<std::size_t>(column)] + 1;
-  if (column < next_size(shape)) return entries_.inner_unknowns[static_cast<std::size_t>(column - shape.node)];
-  const int state = column - next_size(shape);
-  if (state < shape.node) return entries_.node_unknowns[static_cast<std::size_t>(state)];
-  return entries_.shared_unknowns[static_cast<std::size_t>(state - shape.node - shape.node_sums)];
-}
-
 /// (J δx + constraints) / e for the rows of every inequality.
 void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
                                                const KktStep& step) const {
-  const auto count = static_cast<Eigen::Index>(entries_.intervals);
-  const auto at = [](std::size_t first) { return static_cast<Eigen::Index>(first); };
-  for (const std::size_t row : entries_.inequality_rows) {
-    step.multipliers.segment(at(row), count) = constraints.segment(at(row), count);
+  const Eigen::Index count = entries_.intervals;
+  for (const Eigen::Index row : entries_.inequality_rows) {
+    step.multipliers.segment(row, count) = constraints.segment(row, count);
   }
-  const int first_global = next_size(entries_.shape) + entries_.shape.node + entries_.shape.node_sums;
   const int one = next_size(entries_.shape) + state_size(entries_.shape);
   for (const LocalEntry& entry : entries_.local) {
     if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
-    auto sum = step.multipliers.segment(at(entries_.inequality_rows[static_cast<std::size_t>(entry.row)]), count);
+    const Eigen::Index unknown = entries_.unknown_in(entry.column);
+    auto sum = step.multipliers.segment(entries_.inequality_rows[static_cast<std::size_t>(entry.row)], count);
     const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
-    if (entry.column >= first_global) {
-      sum += derivative * step.primal[at(first_of(entry.column))];
+    if (entry.column >= one - entries_.shape.global) {
+      sum += derivative * step.primal[unknown];
     } else {
-      sum += derivative.cwiseProduct(step.primal.segment(at(first_of(entry.column)), count));
+      sum += derivative.cwiseProduct(step.primal.segment(unknown, count));
     }
   }
-  for (const std::size_t row : entries_.inequality_rows) {
+  for (const Eigen::Index row : entries_.inequality_rows) {
     const Eigen::Map<const Eigen::ArrayXd> compliance(arrays.of(Source::compliance) + row, count);
-    step.multipliers.segment(at(row), count).array() /= compliance;
+    step.multipliers.segment(row, count).array() /= compliance;
   }
 }
 

@@ -37,24 +37,26 @@ class IntervalKkt : public KktSystem {
   [[nodiscard]] int eliminations() const noexcept { return eliminations_; }
 
  private:
+  struct Elimination {
+    FactorisationStatus status;
+    bool is_certain = false;  ///< of the inertia: other terminal weights would find the same
+  };
+
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
-  [[nodiscard]] FactorisationStatus eliminate(NewtonArrays& arrays, const KktMatrix& matrix,
-                                              const KktRightHandSide& right_hand_side);
+  [[nodiscard]] Elimination join(const NewtonArrays& arrays, const KktMatrix& matrix,
+                                 const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool join_segments();
-  void read_value(const SegmentGroup& group, int segment);
   void find_last_carry(const NewtonArrays& arrays);
   void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step);
   void write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
                                     const KktStep& step) const;
-  [[nodiscard]] std::size_t first_of(int column) const;
 
   IntervalEntries entries_;
   BoundarySystem boundary_;
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
-  bool has_certain_inertia_ = false;
   int eliminations_ = 0;
   EliminationPlan plan_;
   TerminalWeights weights_;

@@ -7,7 +7,7 @@
 
 namespace dmocbench::interior_point {
 
-/// A stretch of the horizon as seen from its ends: the value of what lies inside, as a function of the state X at its
+/// A stretch of the horizon as seen from its ends: the value of its inside as a function of the state X at its
 /// first node and of the multiplier ν of the condition that its last node has a given state d,
 ///
 ///   ½ XᵀPX + pᵀX + νᵀ(ΦᵀX + γ - d) - ½ νᵀΓν - ½ Σ ρ_i d_i².
@@ -37,7 +37,7 @@ class SegmentChain {
                        Eigen::MatrixXd& multipliers) const;
 
  private:
-  /// What `back_substitute` needs of a join: y = state_state X + state_multiplier ν + state_constant, and the
+  /// A join as `back_substitute` needs it: y = state_state X + state_multiplier ν + state_constant, and the
   /// multiplier of the segment in front, ν' = stiffness y + mixed ν + constant.
   struct Join {
     Eigen::MatrixXd state_state;

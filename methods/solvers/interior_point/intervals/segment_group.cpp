@@ -12,7 +12,7 @@ namespace {
 /// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating once more is no
 /// slower than fetching them (`build/bench/speed/solves` at N = 8192 and 16384).
 constexpr std::size_t most_recorded = 12288;
-/// Intervals of a group of a long horizon: what they read fits the second-level cache, and eight segments of an array
+/// Intervals of a group of a long horizon: their numbers fit the second-level cache, and eight segments of an array
 /// fit a few pages of memory.
 constexpr std::size_t intervals_per_group = 1024;
 /// Steps whose records fit there easily, a multiple of eight.

@@ -21,8 +21,8 @@ inline constexpr std::size_t source_count = 7;
 struct Gather {
   Source source;
   bool adds;
-  bool from_before;  ///< reads what interval k - 1 would, and 0 for the first
-  std::size_t first;
+  bool from_before;  ///< reads entry `first` + k - 1, and 0 for the first interval
+  std::ptrdiff_t first;
   int slot;
   int mirror;
 };
@@ -31,7 +31,7 @@ struct Gather {
 struct Scatter {
   int index;           ///< entry of `ForwardBlocks`
   bool is_multiplier;  ///< goes to the multipliers' step, else to the variables'
-  std::size_t first;
+  std::ptrdiff_t first;
 };
 
 /// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
@@ -73,11 +73,12 @@ struct SegmentGroup {
   double smallest_ratio = 0.0;   ///< smallest pivot of the equalities, relative to the usual one
 };
 
-/// What a backward sweep reads: the arrays by `Source`, and the weights at the end of a segment (terminal_weights.hpp).
+/// The input of a backward sweep: the arrays by `Source`, and the weights at the end of a segment
+/// (terminal_weights.hpp).
 struct NewtonArrays {
   std::array<const double*, source_count> arrays{};
   [[nodiscard]] const double* of(Source source) const { return arrays[static_cast<std::size_t>(source)]; }
-  [[nodiscard]] double at(Source source, std::size_t entry) const { return of(source)[entry]; }
+  [[nodiscard]] double at(Source source, std::ptrdiff_t entry) const { return of(source)[entry]; }
   const double* terminal_weights = nullptr;  ///< one per entry of the state
 };
 

@@ -2,16 +2,9 @@
 
 namespace dmocbench::interior_point {
 
-/// Sizes of what one interval of a program works with. The KKT system of interval k couples
-///
-///   - the state X = (x_k, s_k, θ): the unknowns x_k of node k, the sum s_k that the rows of node k receive from
-///     interval k - 1 (shifted by a multiple of x_k, see `moves_by_increment`), and unknowns θ of the whole horizon;
-///   - the next unknowns Z = (x_{k+1}, y_k), with y_k the unknowns of the interval itself;
-///   - its equalities: those of node k, then its own. They determine as many entries of Z, the dependent ones; the
-///     others are the free unknowns w of the interval.
-///
-/// DMOC has x = q, and s is what becomes its momentum; both kinds of collocation have x = (q, p) or (q, v) and an empty
-/// s.
+/// The sizes of one interval. Its KKT system couples the state X = (x_k, s_k, θ) with the next unknowns Z = (x_{k+1},
+/// y_k). The equalities determine as many entries of Z, the dependent ones; the others are the free unknowns w
+/// (README.md, "One interval").
 struct Shape {
   int node;          ///< entries of x
   int node_sums;     ///< entries of s, which is also the number of rows of a node
@@ -41,31 +34,16 @@ struct FixedShape {
 };
 
 /// X
-template <class S>
-constexpr int state_size(const S& shape) {
-  return shape.node + shape.node_sums + shape.global;
-}
+constexpr int state_size(const auto& shape) { return shape.node + shape.node_sums + shape.global; }
 /// Z
-template <class S>
-constexpr int next_size(const S& shape) {
-  return shape.node + shape.interval;
-}
+constexpr int next_size(const auto& shape) { return shape.node + shape.interval; }
 /// w
-template <class S>
-constexpr int free_size(const S& shape) {
-  return next_size(shape) - shape.rows;
-}
+constexpr int free_size(const auto& shape) { return next_size(shape) - shape.rows; }
 /// Columns of everything that is linear in (w, X, 1).
-template <class S>
-constexpr int column_count(const S& shape) {
-  return free_size(shape) + state_size(shape) + 1;
-}
+constexpr int column_count(const auto& shape) { return free_size(shape) + state_size(shape) + 1; }
 
 /// Columns of the equalities and of the Hessian of an interval: (Z, X, 1).
-template <class S>
-constexpr int local_column_count(const S& shape) {
-  return next_size(shape) + state_size(shape) + 1;
-}
+constexpr int local_column_count(const auto& shape) { return next_size(shape) + state_size(shape) + 1; }
 
 /// The sizes under the names they have in the formulas.
 struct Sizes {
@@ -75,8 +53,7 @@ struct Sizes {
   int w;
   int N;  ///< columns (w, X, 1)
 };
-template <class S>
-constexpr Sizes sizes_of(const S& shape) {
+constexpr Sizes sizes_of(const auto& shape) {
   return {shape.rows, next_size(shape), state_size(shape), free_size(shape), column_count(shape)};
 }
 
@@ -89,17 +66,13 @@ template <int... sizes>
 inline constexpr bool is_always_plain<FixedShape<sizes...>> = true;
 /// True if entry i of x_{k+1} is dependent and node rows exist; `node_in_next` as in `EliminationPlan`. The equalities
 /// then determine its increment x_{k+1,i} - x_{k,i}, and s_{k+1} is the sum with J_{k+1,k} x_k replaced by
-/// -J_{k+1,k} (x_{k+1} - x_k). For DMOC both then have the size of a momentum. The plain sum is about M/h x_k; its
-/// cancellation in every interval would cost a digit whenever the intervals become three times shorter.
+/// -J_{k+1,k} (x_{k+1} - x_k), which for DMOC has the size of a momentum, as the plain sum has not (README.md).
 template <class S>
 constexpr bool moves_by_increment(const S& shape, const int* node_in_next, int i) {
   return shape.node_sums > 0 && (is_always_plain<S> || node_in_next[i] < shape.rows);
 }
 /// True if an interval has equalities of its own, whose multipliers the forward sweep computes.
-template <class S>
-constexpr bool has_own_rows(const S& shape) {
-  return shape.rows > shape.node_sums;
-}
+constexpr bool has_own_rows(const auto& shape) { return shape.rows > shape.node_sums; }
 
 /// A matrix within an array of numbers: where its entry (i, j) stands, column by column.
 struct BlockPlace {
@@ -117,7 +90,7 @@ struct LocalBlocks {
   S shape;
   /// rows x (Z, X, 1): derivatives of the equalities, and their values.
   [[nodiscard]] constexpr BlockPlace equalities() const { return {0, shape.rows, local_column_count(shape)}; }
-  /// node_sums x (x, Z): what the rows of node k + 1 receive.
+  /// node_sums x (x, Z): the contributions to the rows of node k + 1.
   [[nodiscard]] constexpr BlockPlace carry() const {
     return {equalities().end(), shape.node_sums, shape.node + next_size(shape)};
   }
@@ -134,7 +107,7 @@ struct LocalBlocks {
   [[nodiscard]] constexpr int size() const { return compliance().end(); }
 };
 
-/// What one step of the forward sweep computes, in one array.
+/// The results of one step of the forward sweep, in one array.
 template <class S>
 struct ForwardBlocks {
   S shape;
@@ -145,7 +118,7 @@ struct ForwardBlocks {
   [[nodiscard]] constexpr int size() const { return multipliers().end(); }
 };
 
-/// What the backward sweep leaves for the forward sweep, per interval.
+/// The record of an interval that the backward sweep leaves for the forward sweep.
 template <class S>
 struct RecordBlocks {
   S shape;

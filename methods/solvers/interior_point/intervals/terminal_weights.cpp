@@ -23,41 +23,27 @@ constexpr double drowned_share = 1e-3;
 constexpr double smallest_curvature = 1e-12;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// The number of the interval's unknown that a diagonal entry of the Hessian belongs to; -1 for other entries.
-int unknown_of(const LocalEntry& entry, const Shape& shape) {
-  const bool is_diagonal = entry.block == LocalEntry::Block::hessian && entry.row == entry.column;
-  return is_diagonal ? entry.row - shape.node : -1;
-}
-
 }  // namespace
 
 TerminalWeights::TerminalWeights(const IntervalEntries& entries)
     : intervals_(entries.intervals),
-      diagonals_(static_cast<std::size_t>(entries.shape.interval)),
       stiffness_(Eigen::VectorXd::Ones(state_size(entries.shape))),
       observed_(Eigen::VectorXd::Constant(state_size(entries.shape), unknown)),
       values_(Eigen::VectorXd::Ones(state_size(entries.shape))) {
-  for (const LocalEntry& entry : entries.local) {
-    const int number = unknown_of(entry, entries.shape);
-    if (number < 0) continue;
-    Diagonal& diagonal = diagonals_[static_cast<std::size_t>(number)];
-    if (entry.source == Source::diagonal) {
-      diagonal.moves = true;
-      diagonal.first = entry.first;
-    } else {
-      diagonal.has_hessian = true;
-      diagonal.source = entry.source;
-      diagonal.entry = entry.first;
+  for (int column = entries.shape.node; column < next_size(entries.shape); ++column) {
+    if (entries.is_fixed_column(column)) continue;
+    Diagonal& diagonal = diagonals_.emplace_back();
+    for (const LocalEntry& entry : entries.local) {
+      if (entry.block != LocalEntry::Block::hessian || entry.row != column || entry.column != column) continue;
+      (entry.source == Source::diagonal ? diagonal.added : diagonal.hessian) = entry;
     }
   }
-  const auto is_fixed = [](const Diagonal& diagonal) { return !diagonal.moves; };
-  diagonals_.erase(std::remove_if(diagonals_.begin(), diagonals_.end(), is_fixed), diagonals_.end());
 }
 
 void TerminalWeights::use(const EliminationPlan& plan) {
   const auto is_free = [&](const Diagonal& diagonal) {
     return std::ranges::any_of(plan.scatters, [&](const Scatter& item) {
-      return !item.is_multiplier && item.index < free_size(plan.shape) && item.first == diagonal.first;
+      return !item.is_multiplier && item.index < free_size(plan.shape) && item.first == diagonal.added->first;
     });
   };
   const bool some_are_free = std::ranges::any_of(diagonals_, is_free);
@@ -66,9 +52,10 @@ void TerminalWeights::use(const EliminationPlan& plan) {
 
 /// Σ 1/|curvature| over the intervals.
 double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const {
-  const double* const hessian = diagonal.has_hessian ? arrays.of(diagonal.source) + diagonal.entry : nullptr;
-  const double* const added = arrays.of(Source::diagonal) + diagonal.first;
-  return sum_of_stretches(static_cast<Eigen::Index>(intervals_), [&](Eigen::Index begin, Eigen::Index length) {
+  const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first; };
+  const double* const added = numbers(*diagonal.added);
+  const double* const hessian = diagonal.hessian ? numbers(*diagonal.hessian) : nullptr;
+  return sum_of_stretches(intervals_, [&](Eigen::Index begin, Eigen::Index length) {
     double sum = 0.0;
     for (Eigen::Index k = begin; k < begin + length; ++k) {
       sum += 1.0 / (std::abs((hessian != nullptr ? hessian[k] : 0.0) + added[k]) + smallest_curvature);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,12 +12,11 @@
 namespace dmocbench::interior_point {
 
 /// The weights ρ_i of ½ Σ ρ_i (X_i - d_i)² at the end of every segment. The term is zero where the segment ends at the
-/// given state d. Without it a segment with a free end may have a conjugate point, so that its elimination has no
-/// minimum although the whole problem has one. For ρ large enough the two agree (Finsler).
+/// given state d, and prevents conjugate points inside (Finsler; README.md, "Terminal weights").
 ///
 /// The reachability Γ of a segment is about 1/(ρ + a), a_i being the stiffness that the free unknowns give its end. Too
-/// large a weight drowns a_i, and with it the digits of what is joined. So weights are multiples of the smallest
-/// stiffness that was last observed, rescaled from matrix to matrix by the compliance of the free unknowns.
+/// large a weight drowns a_i, and with it the digits of the join. So weights are multiples of the smallest stiffness
+/// that was last observed, rescaled from matrix to matrix by the compliance of the free unknowns.
 class TerminalWeights {
  public:
   explicit TerminalWeights(const IntervalEntries& entries);
@@ -37,20 +37,17 @@ class TerminalWeights {
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }
 
  private:
-  /// Where the diagonal entries of the Hessian of an unknown of the intervals stand.
+  /// The diagonal entries of the matrix that a moving unknown of the intervals has.
   struct Diagonal {
-    bool moves = false;     ///< is not fixed
-    std::size_t first = 0;  ///< of the diagonal d that is added to them
-    bool has_hessian = false;
-    Source source = Source::hessian;
-    std::size_t entry = 0;
+    std::optional<LocalEntry> added;  ///< of d, always there
+    std::optional<LocalEntry> hessian;
     bool is_free = true;
   };
   [[nodiscard]] double compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const;
   [[nodiscard]] double stiffness_of_free_unknowns(const NewtonArrays& arrays) const;
   void update();
 
-  std::size_t intervals_;
+  Eigen::Index intervals_;
   std::vector<Diagonal> diagonals_;
   std::size_t level_ = 0;  // which multiple
   std::size_t tried_ = 0;  // others, for this matrix
