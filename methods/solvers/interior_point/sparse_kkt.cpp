@@ -83,15 +83,11 @@ FactorisationStatus SparseKkt::solve(const KktMatrix& matrix, const KktRightHand
   const auto& [gradient, constraints] = right_hand_side;
   if (!is_finite(matrix.hessian) || !is_finite(matrix.jacobian)) return FactorisationStatus::singular;
   if (!factorisation_.factorise(lower_triangle(matrix))) return FactorisationStatus::singular;
-  if (factorisation_.negative_eigenvalues() != constraints.size()) return FactorisationStatus::wrong_inertia;
+  const bool is_minimum = factorisation_.negative_eigenvalues() == constraints.size();
+  if (!is_minimum && inertia_ == Inertia::minimum) return FactorisationStatus::wrong_inertia;
   Eigen::VectorXd negated(gradient.size() + constraints.size());
   negated << -gradient, -constraints;
   for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-  const bool is_minimum = factorisation_.negative_eigenvalues() == rows.size();
-  if (!is_minimum && inertia_ == Inertia::minimum) return FactorisationStatus::wrong_inertia;
-  Eigen::VectorXd negated(slope.size() + rows.size());
-  negated << -slope, -rows;
-  for (Eigen::Index i = 0; i < slope.size(); ++i) {
     if (!is_free_[static_cast<std::size_t>(i)]) negated[i] = 0.0;
   }
   const Eigen::VectorXd solution = factorisation_.solve(std::move(negated));
