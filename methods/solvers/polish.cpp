@@ -71,16 +71,14 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
                     is_away_from_bounds(program, solution.primal);
   if (!fits) return 0;
   SymmetricFactorisation factorisation;
-  int steps = 0;
-  bool is_better = true;
-  while (is_better && steps < most_steps) {
+  for (int steps = 0; steps < most_steps; ++steps) {
     Solution next = stepped(program, factorisation, solution);
-    is_better = residual_of(next) < residual_of(solution);
-    if (!is_better && !is_rounding(program, next)) break;
+    const bool is_better = residual_of(next) < residual_of(solution);
+    if (!is_better && !is_rounding(program, next)) return steps;
     solution = std::move(next);
-    ++steps;
+    if (!is_better) return steps + 1;
   }
-  return steps;
+  return most_steps;
 }
 
 }  // namespace dmocbench
