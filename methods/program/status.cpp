@@ -13,27 +13,27 @@ struct Entry {
   std::string_view sentence;
 };
 
-constexpr std::array entries{
-    Entry{Status::not_run, "not run", "No solver has been called."},
-    Entry{Status::solved, "solved",
-          "KKT residual and constraint violation are below the tolerance, or below rounding where that is more."},
-    Entry{Status::acceptable, "acceptable",
-          "The solver could not reach the tolerance, but came within a hundred times of it."},
-    Entry{Status::infeasible, "infeasible",
-          "The solver converged to a point where the constraints cannot be met any better."},
-    Entry{Status::diverged, "diverged", "The iterates grew without bound."},
-    Entry{Status::step_failed, "step failed", "The solver could not find a further step."},
-    Entry{Status::evaluation_failed, "evaluation failed", "A formula gave NaN or infinity."},
-    Entry{Status::iteration_limit, "iteration limit", "The largest allowed number of iterations was reached."},
-    Entry{Status::time_limit, "time limit", "The allowed time was used up."},
-    Entry{Status::interrupted, "interrupted", "The solve was stopped from outside."},
-    Entry{Status::too_large, "too large", "The solver refuses a program of this size."},
-    Entry{Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
-    Entry{Status::out_of_memory, "out of memory", "The solver could not allocate what it needs."},
-    Entry{Status::solver_error, "solver error", "The solver reported an internal error."},
-    Entry{Status::not_confirmed, "not confirmed",
-          "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
-};
+constexpr auto entries = std::to_array<Entry>({
+    {Status::not_run, "not run", "No solver has been called."},
+    {Status::solved, "solved",
+     "KKT residual and constraint violation are below the tolerance, or below rounding where that is more."},
+    {Status::acceptable, "acceptable",
+     "The solver could not reach the tolerance, but came within a hundred times of it."},
+    {Status::infeasible, "infeasible",
+     "The solver converged to a point where the constraints cannot be met any better."},
+    {Status::diverged, "diverged", "The iterates grew without bound."},
+    {Status::step_failed, "step failed", "The solver could not find a further step."},
+    {Status::evaluation_failed, "evaluation failed", "A formula gave NaN or infinity."},
+    {Status::iteration_limit, "iteration limit", "The largest allowed number of iterations was reached."},
+    {Status::time_limit, "time limit", "The allowed time was used up."},
+    {Status::interrupted, "interrupted", "The solve was stopped from outside."},
+    {Status::too_large, "too large", "The solver refuses a program of this size."},
+    {Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
+    {Status::out_of_memory, "out of memory", "The solver could not allocate what it needs."},
+    {Status::solver_error, "solver error", "The solver reported an internal error."},
+    {Status::not_confirmed, "not confirmed",
+     "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
+});
 
 const Entry& entry_of(Status status) { return *std::ranges::find(entries, status, &Entry::status); }
 

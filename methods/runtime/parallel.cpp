@@ -39,10 +39,8 @@ class Job {
     }
   }
 
-  /// Throws what the first part that threw has thrown; when all have ended.
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
+  /// What the first part that threw has thrown; to be asked for when all have ended.
+  [[nodiscard]] const std::exception_ptr& error() const noexcept { return error_; }
 
  private:
   std::size_t parts_;
@@ -166,7 +164,7 @@ void for_each_part(std::size_t parts, const PartWork& work) {
   } else {
     job.take_parts();
   }
-  job.rethrow();
+  if (job.error()) std::rethrow_exception(job.error());
 }
 
 }  // namespace dmocbench

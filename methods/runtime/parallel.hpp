@@ -10,18 +10,18 @@ namespace dmocbench {
 /// Throws `Error` unless 1 <= count <= 1024.
 void set_thread_count(std::size_t count);
 
-/// Fewer intervals than this are one part: a tape takes 25 to 65 µs for them and a sweep of the interior-point method
-/// some 200 µs (measured), which should be well above what it takes to wake another thread (not measured).
+/// A smaller number of intervals is one part: the work on it should take much longer than waking a thread
+/// (`build/bench/speed/speed` prints the times per interval).
 inline constexpr std::size_t intervals_per_part = 4096;
-/// More parts than this there never are.
+/// The largest number of parts.
 inline constexpr std::size_t most_parts = 64;
-/// Parts that a number of intervals is cut into. It does not depend on the number of threads, so that no result does.
+/// How many parts a number of intervals is cut into. Neither this nor any result depends on the number of threads.
 [[nodiscard]] std::size_t part_count(std::size_t intervals, std::size_t per_part = intervals_per_part) noexcept;
-/// Where part `part` of `parts` begins among `count` things; a multiple of `unit`, but for the end.
+/// Where part `part` of `parts` begins among `count` items: a multiple of `unit`, or `count` if `part` is `parts`.
 [[nodiscard]] std::size_t begin_of_part(std::size_t part, std::size_t parts, std::size_t count,
                                         std::size_t unit = 1) noexcept;
 
-/// Something that can be called with the number of a part; refers to it, and allocates nothing.
+/// Refers to a function of the number of a part; allocates nothing.
 class PartWork {
  public:
   template <class Function>
@@ -37,9 +37,9 @@ class PartWork {
   void (*call_)(const void*, std::size_t);
 };
 
-/// Calls `work(part)` for part = 0 .. parts - 1, by as many threads as there are, in no order, and returns when all
-/// have returned; then throws what the first that threw has thrown. Where the threads are in use already (by another
-/// thread of the caller's, or from inside `work`) the caller does all by itself.
+/// Calls `work(part)` for part = 0 .. parts - 1 on `thread_count()` threads, in any order. Returns when all calls have
+/// returned, or rethrows the first exception. If the threads are busy already (with a call from another thread, or from
+/// inside `work`), the caller does all parts itself.
 void for_each_part(std::size_t parts, const PartWork& work);
 
 }  // namespace dmocbench

@@ -9,7 +9,7 @@ namespace dmocbench {
 /// Loops over stretches of vectors, compiled for one instruction set. Sums are those of eight interleaved parts, in the
 /// same order in every set.
 struct VectorLoops {
-  /// Largest |x_i|, 0 of none; of no use where a number is not finite.
+  /// Largest |x_i|, 0 of none; any number if one of them is not finite.
   double (*largest)(const double* x, std::ptrdiff_t size);
   /// Σ |x_i|
   double (*sum_of_magnitudes)(const double* x, std::ptrdiff_t size);
@@ -23,9 +23,9 @@ struct VectorLoops {
   void (*set_to_sum)(double* result, const double* x, double factor, const double* y, std::ptrdiff_t size);
 };
 
-/// Those of the instruction set that was preferred when they were first asked for.
+/// The loops for the instruction set that was preferred at the first call.
 [[nodiscard]] const VectorLoops& vector_loops();
-/// Those of a set.
+/// The loops for a set.
 [[nodiscard]] const VectorLoops& vector_loops_of(InstructionSet set);
 
 // The same source, vector_loops.cpp, compiled once per instruction set.

@@ -52,19 +52,16 @@ constexpr std::array settings{
     Setting{"maxtime", nlopt_set_maxtime},
 };
 
-const Setting& setting_named(std::string_view name) {
-  return one_of(settings, &Setting::name, name, "NLopt's SLSQP has no option");
-}
-
-/// A number that is not negative, whole for maxeval.
-double value_of(const std::string& name, const std::string& text) {
+/// An option passed on, and its value: a number that is not negative, whole for maxeval.
+std::pair<const Setting&, double> read_option(const std::string& name, const std::string& text) {
+  const Setting& setting = one_of(settings, &Setting::name, name, "NLopt's SLSQP has no option");
   const double value = parsed<double>(text).value_or(-1.0);
   const bool is_whole = name != "maxeval" || (value == std::floor(value) && value <= std::numeric_limits<int>::max());
   if (!std::isfinite(value) || value < 0.0 || !is_whole) {
     throw Error(fmt::format("NLopt does not take the option {}={}; give a number that is not negative{}", name, text,
                             name == "maxeval" ? " and whole" : ""));
   }
-  return value;
+  return {setting, value};
 }
 
 /// What NLopt says. It judges no KKT residual, so it cannot claim more than that it stopped: "acceptable", for our
@@ -156,7 +153,10 @@ class SlsqpRun {
     nlopt_set_xtol_rel(handle_.get(), std::numeric_limits<double>::epsilon());
     nlopt_set_maxeval(handle_.get(), options_.most_iterations);
     if (options_.most_seconds > 0.0) nlopt_set_maxtime(handle_.get(), options_.most_seconds);
-    for (const auto& [name, text] : options_.passed_on) setting_named(name).set(handle_.get(), value_of(name, text));
+    for (const auto& [name, text] : options_.passed_on) {
+      const auto [setting, value] = read_option(name, text);
+      setting.set(handle_.get(), value);
+    }
   }
 
   /// Where SLSQP makes no further progress, it starts again from the nearest point, without its quasi-Newton matrix, as
@@ -221,14 +221,15 @@ class SlsqpRun {
   double visit(const double* x, double* gradient) {
     if (options_.stop_requested && options_.stop_requested()) return stop(Status::interrupted);
     const bool is_start = visits_++ == 0;
+    const auto size = static_cast<Eigen::Index>(free_.size());
     Eigen::VectorXd point = nearest_point_;  // fixed variables keep their values
-    point(free_) = Eigen::Map<const Eigen::VectorXd>(x, size());
+    point(free_) = Eigen::Map<const Eigen::VectorXd>(x, size);
     at_ = values_at(program_, point);
     if (!at_.has_finite_values()) return is_start ? stop(Status::evaluation_failed) : unbounded;
     if (gradient == nullptr) return at_.objective;
     differentiate(program_, at_);
     if (!at_.gradient.allFinite() || !at_.jacobian.coeffs().allFinite()) return stop(Status::evaluation_failed);
-    Eigen::Map<Eigen::VectorXd>(gradient, size()) = at_.gradient(free_);
+    Eigen::Map<Eigen::VectorXd>(gradient, size) = at_.gradient(free_);
     return meets_the_tolerance() ? stop(Status::solved) : at_.objective;
   }
 
@@ -244,8 +245,6 @@ class SlsqpRun {
     }
     return nearness.residual <= 1.0;
   }
-
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()); }
 
   CountedProgram& program_;
   const SolverOptions& options_;
@@ -265,10 +264,7 @@ class SlsqpRun {
 }  // namespace
 
 NloptSolver::NloptSolver(SolverOptions options) : Solver(std::move(options)) {
-  for (const auto& [name, text] : this->options().passed_on) {
-    static_cast<void>(setting_named(name));
-    static_cast<void>(value_of(name, text));
-  }
+  for (const auto& [name, text] : this->options().passed_on) static_cast<void>(read_option(name, text));
 }
 
 std::string NloptSolver::description() const {

@@ -9,23 +9,20 @@
 
 namespace dmocbench {
 
-/// Constraints of a program in the form of solvers that know c(x) = 0 or c(x) <= 0 only. A constraint with two bounds
-/// that differ stands twice, one without a bound not at all.
+/// Constraints of a program as c(x) = 0 or c(x) <= 0, for solvers that take no others. A constraint with two different
+/// bounds appears twice, one without a bound not at all.
 class OneSidedConstraints {
  public:
   enum class Kind { equalities, inequalities };
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   OneSidedConstraints(const NonlinearProgram& program, Kind kind) {
-    const auto append = [&](Eigen::Index index, double sign, double bound) {
-      if (std::isfinite(bound)) sides_.push_back({index, sign, bound});
-    };
     for (Eigen::Index i = 0; i < program.constraint_lower().size(); ++i) {
       const double lower = program.constraint_lower()[i];
       const double upper = program.constraint_upper()[i];
       if ((lower == upper) != (kind == Kind::equalities)) continue;
-      append(i, 1.0, upper);
-      if (kind == Kind::inequalities) append(i, -1.0, lower);
+      if (std::isfinite(upper)) sides_.push_back({i, 1.0, upper});
+      if (std::isfinite(lower) && kind == Kind::inequalities) sides_.push_back({i, -1.0, lower});
     }
   }
 

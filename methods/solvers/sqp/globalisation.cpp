@@ -8,21 +8,6 @@
 
 namespace dmocbench::sqp {
 
-namespace {
-
-/// The largest step length that may be tried.
-double longest_length(const Eigen::VectorXd& point, const Eigen::VectorXd& step) {
-  constexpr double limit = 2.0;
-  double step_length = 1.0;
-  for (Eigen::Index j = 0; j < step.size(); ++j) {
-    const double allowed = limit * (1.0 + std::abs(point[j]));
-    if (std::abs(step[j]) > allowed) step_length = std::min(step_length, allowed / std::abs(step[j]));
-  }
-  return step_length;
-}
-
-}  // namespace
-
 double Globalisation::merit(const Linearisation& at) const {
   return at.objective + weight_ * violations(program_, at.constraints).lpNorm<1>();
 }
@@ -46,7 +31,9 @@ LineSearchResult Globalisation::search(const Linearisation& from, const Eigen::V
            merit(at) <= merit_before + sufficient * step_length * std::min(merit_derivative, 0.0) + rounding;
   };
 
-  const double first_length = longest_length(from.point, step);
+  constexpr double limit = 2.0;
+  const auto allowed = limit * (1.0 + from.point.array().abs());
+  const double first_length = step.size() > 0 ? std::min(1.0, (allowed / step.array().abs()).minCoeff()) : 1.0;
   double step_length = first_length;
   while (step_length > smallest_length) {
     Linearisation tried = values_at(program_, from.point + step_length * step);

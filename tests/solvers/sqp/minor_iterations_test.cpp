@@ -23,7 +23,8 @@ class Replay {
   Replay(const QuadraticProgram& program, Eigen::MatrixXd hessian)
       : program_(program), hessian_(std::move(hessian)), columns_(program.row_count(), program.column_count()) {
     const Eigen::Index n = program.variable_count();
-    columns_ << Eigen::MatrixXd(program.rows), -Eigen::MatrixXd::Identity(program.row_count(), program.row_count());
+    columns_ << Eigen::MatrixXd(program.columns).leftCols(n),
+        -Eigen::MatrixXd::Identity(program.row_count(), program.row_count());
     for (Eigen::Index j = n; j < program.column_count(); ++j) moving_.insert(j);
     point_ = Eigen::VectorXd::Zero(program.column_count());
   }

@@ -27,7 +27,7 @@ inline OwnedQuadraticProgram owned(const Eigen::MatrixXd& hessian, const Eigen::
   return {.dense_hessian = hessian,
           .program = {.hessian_times = [hessian](const auto& vectors) { return hessian * vectors; },
                       .gradient = gradient,
-                      .rows = rows.sparseView(),
+                      .columns = with_slacks(rows.sparseView()),
                       .lower = lower,
                       .upper = upper}};
 }

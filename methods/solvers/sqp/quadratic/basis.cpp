@@ -10,21 +10,14 @@ namespace dmocbench::sqp {
 bool BasisFactorisation::factorise(const QuadraticProgram& program, const std::vector<Eigen::Index>& basics) {
   replacements_.clear();
   if (basics.empty()) return true;  // SparseLU divides by the size
-  const Eigen::Index variables = program.variable_count();
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t position = 0; position < basics.size(); ++position) {
-    const auto to = static_cast<int>(position);
-    if (basics[position] >= variables) {
-      entries.emplace_back(static_cast<int>(basics[position] - variables), to, -1.0);
-      continue;
-    }
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(program.rows, basics[position]); entry; ++entry) {
-      entries.emplace_back(static_cast<int>(entry.row()), to, entry.value());
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(program.columns, basics[position]); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(position), entry.value());
     }
   }
   Eigen::SparseMatrix<double> basis(program.row_count(), program.row_count());
   basis.setFromTriplets(entries.begin(), entries.end());
-  basis.makeCompressed();
   factors_.compute(basis);
   if (factors_.info() != Eigen::Success) return false;
   // A basis that is singular up to rounding may still have factors; they do not give back a solution.

@@ -34,9 +34,7 @@ double Iterate::objective() const {
 Eigen::VectorXd Iterate::null_space_times(const Eigen::VectorXd& of_superbasics) const {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(program_->column_count());
   change(sets_.superbasics()) = of_superbasics;
-  const Eigen::Index n = program_->variable_count();
-  const Eigen::VectorXd moved = program_->rows * change.head(n) - change.tail(program_->row_count());
-  change(sets_.basics()) = -basis_.solve(moved);
+  change(sets_.basics()) = -basis_.solve(program_->columns * change);
   return change;
 }
 
@@ -87,9 +85,7 @@ void Iterate::refactorise() {
   if (!basis_.factorise(*program_, sets_.basics())) throw Breakdown("the basis is singular");
   Eigen::VectorXd others = values_;
   others(sets_.basics()).setZero();
-  const Eigen::VectorXd missing =
-      others.tail(program_->row_count()) - program_->rows * others.head(program_->variable_count());
-  values_(sets_.basics()) = basis_.solve(missing);
+  values_(sets_.basics()) = -basis_.solve(program_->columns * others);
 }
 
 }  // namespace dmocbench::sqp

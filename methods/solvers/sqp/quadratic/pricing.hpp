@@ -35,9 +35,7 @@ class Pricing {
       case PricingRule::largest:
         break;
     }
-    return *std::max_element(candidates.begin(), candidates.end(), [](const PricedColumn& a, const PricedColumn& b) {
-      return std::abs(a.rate) < std::abs(b.rate);
-    });
+    return *std::ranges::max_element(candidates, {}, [](const PricedColumn& priced) { return std::abs(priced.rate); });
   }
 
  private:

@@ -22,47 +22,46 @@ using HessianProduct = std::function<Eigen::MatrixXd(const Eigen::Ref<const Eige
 /// where the slack s_i stands for the linearised constraint i; that of an equality is fixed. Bounds are those of the
 /// nonlinear program shifted to the present point, so d = 0 lies within the bounds on d.
 struct QuadraticProgram {
-  HessianProduct hessian_times;      ///< H is positive definite on the null space of the equality rows
-  Eigen::VectorXd gradient;          ///< g, n entries
-  Eigen::SparseMatrix<double> rows;  ///< A, m x n
-  Eigen::VectorXd lower;             ///< n + m entries: of d, then of s
+  HessianProduct hessian_times;         ///< H is positive definite on the null space of the equality rows
+  Eigen::VectorXd gradient;             ///< g, n entries
+  Eigen::SparseMatrix<double> columns;  ///< (A, -I), m x (n + m)
+  Eigen::VectorXd lower;                ///< n + m entries: of d, then of s
   Eigen::VectorXd upper;
 
-  [[nodiscard]] Eigen::Index variable_count() const noexcept { return rows.cols(); }
-  [[nodiscard]] Eigen::Index row_count() const noexcept { return rows.rows(); }
+  [[nodiscard]] Eigen::Index variable_count() const noexcept { return columns.cols() - columns.rows(); }
+  [[nodiscard]] Eigen::Index row_count() const noexcept { return columns.rows(); }
   /// n + m: the variables and the slacks.
-  [[nodiscard]] Eigen::Index column_count() const noexcept { return rows.rows() + rows.cols(); }
+  [[nodiscard]] Eigen::Index column_count() const noexcept { return columns.cols(); }
 
   /// The columns of all slacks, in the order of their rows.
   [[nodiscard]] std::vector<Eigen::Index> slacks() const {
-    std::vector<Eigen::Index> columns(static_cast<std::size_t>(row_count()));
-    std::iota(columns.begin(), columns.end(), variable_count());
-    return columns;
+    std::vector<Eigen::Index> result(static_cast<std::size_t>(row_count()));
+    std::iota(result.begin(), result.end(), variable_count());
+    return result;
   }
 
   /// Column j of (A, -I).
-  [[nodiscard]] Eigen::VectorXd column(Eigen::Index j) const {
-    if (j < variable_count()) return rows.col(j);
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(row_count());
-    result[j - variable_count()] = -1.0;
-    return result;
-  }
-
+  [[nodiscard]] Eigen::VectorXd column(Eigen::Index j) const { return columns.col(j); }
   /// (A, -I)ᵀ w: n + m entries.
-  [[nodiscard]] Eigen::VectorXd transposed_times(const Eigen::VectorXd& w) const {
-    Eigen::VectorXd result(column_count());
-    result.head(variable_count()) = rows.transpose() * w;
-    result.tail(row_count()) = -w;
-    return result;
-  }
+  [[nodiscard]] Eigen::VectorXd transposed_times(const Eigen::VectorXd& w) const { return columns.transpose() * w; }
 };
+
+/// (A, -I).
+[[nodiscard]] inline Eigen::SparseMatrix<double> with_slacks(const Eigen::SparseMatrix<double>& rows) {
+  Eigen::SparseMatrix<double> identity(rows.rows(), rows.rows());
+  identity.setIdentity();
+  Eigen::SparseMatrix<double> result(rows.rows(), rows.cols() + rows.rows());
+  result.leftCols(rows.cols()) = rows;
+  result.rightCols(rows.rows()) = -identity;
+  return result;
+}
 
 /// The quadratic program at a point with derivatives.
 [[nodiscard]] inline QuadraticProgram quadratic_program_at(const NonlinearProgram& program, const Linearisation& at,
                                                            HessianProduct hessian_times) {
   QuadraticProgram result{.hessian_times = std::move(hessian_times),
                           .gradient = at.gradient,
-                          .rows = at.jacobian,
+                          .columns = with_slacks(at.jacobian),
                           .lower = Eigen::VectorXd(at.point.size() + at.constraints.size()),
                           .upper = Eigen::VectorXd(at.point.size() + at.constraints.size())};
   result.lower << program.variable_lower() - at.point, program.constraint_lower() - at.constraints;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -265,10 +266,8 @@ WorkingSet warm_start(const QuadraticProgram& program, const WorkingSet& sets) {
 }
 
 bool leaves_variable_outside(const Iterate& iterate) {
-  for (Eigen::Index j = 0; j < iterate.program().variable_count(); ++j) {
-    if (iterate.violated_side(j) != 0) return true;
-  }
-  return false;
+  return std::ranges::any_of(std::views::iota(Eigen::Index{0}, iterate.program().variable_count()),
+                             [&](Eigen::Index j) { return iterate.violated_side(j) != 0; });
 }
 
 }  // namespace
