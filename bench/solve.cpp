@@ -88,6 +88,8 @@ class Solve final : public Experiment {
                                      {"intervals", the_case.intervals()},
                                      {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
       fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);
+      fmt::print("solve: {}: intervals join to {:.1e} of the range, worst is interval {}\n", the_case.label(),
+                 solved.accuracy->relative_jump, solved.accuracy->interval);
     }
   }
 

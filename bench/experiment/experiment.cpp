@@ -76,8 +76,11 @@ class Run {
       solve_part(0, cases_.size());
     }
     const Table table = write_table();
-    const auto failures = std::ranges::count_if(
-        table.rows(), [](const Row& row) { return !is_solved(status_named(row.text("status"))); });
+    const auto rows_of = [&](Status status) {
+      return std::ranges::count(table.rows(), name_of(status), [](const Row& row) { return row.text("status"); });
+    };
+    const auto too_coarse = rows_of(Status::too_coarse);
+    const auto failures = std::ssize(table.rows()) - rows_of(Status::solved) - too_coarse;
     const auto other_branch =
         std::ranges::count_if(table.rows(), [](const Row& row) { return row.text("branch") == "other"; });
     const bool complete = !interrupt_requested();
@@ -85,16 +88,32 @@ class Run {
     metadata_["complete"] = complete;
     metadata_["rows"] = table.rows().size();
     metadata_["not_solved"] = failures;
+    metadata_["too_coarse"] = too_coarse;
     metadata_["on_another_branch"] = other_branch;
     write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
-    fmt::print("{}: {} rows, {} not solved, {} on another branch: {}\n", experiment_.card().name, table.rows().size(),
-               failures, other_branch, table_file().string());
+    fmt::print("{}: {} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name, table.rows().size(),
+               failures, other_branch, coarse_by_method(table), table_file().string());
     if (!complete) return 130;
     return failures > 0 ? 1 : 0;
   }
 
  private:
   [[nodiscard]] std::filesystem::path table_file() const { return prefix_.string() + ".csv"; }
+
+  /// ", 3 too coarse (dmoc 1, tangent 2)"; nothing where no answer is.
+  static std::string coarse_by_method(const Table& table) {
+    std::map<std::string, int> counts;
+    int sum = 0;
+    for (const Row& row : table.rows()) {
+      if (row.text("status") != name_of(Status::too_coarse)) continue;
+      ++counts[row.text("method")];
+      ++sum;
+    }
+    if (sum == 0) return "";
+    std::vector<std::string> parts;
+    for (const auto& [method, count] : counts) parts.push_back(fmt::format("{} {}", method, count));
+    return fmt::format(", {} too coarse ({})", sum, fmt::join(parts, ", "));
+  }
 
   /// Writes and returns all rows so far in the order of the cases.
   Table write_table() const {

@@ -43,6 +43,19 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
   return settle(*exact, tolerance, solution);
 }
 
+/// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
+void judge_accuracy(SolvedCase& solved) {
+  solved.accuracy = dmocbench::accuracy(*solved.the_case.problem, *solved.trajectory);
+  if (solved.accuracy->relative_jump <= largest_jump_of_a_motion) return;
+  solved.solution.status = Status::too_coarse;
+  const Eigen::Index k = solved.accuracy->interval;
+  const double unit = solved.the_case.problem->card().time_unit.factor;
+  solved.solution.message =
+      fmt::format("{} Interval {} (t = {:.4g} to {:.4g}), replayed alone, misses the next node by {:.2g} of the range.",
+                  sentence_of(Status::too_coarse), k, unit * solved.trajectory->node_times[k],
+                  unit * solved.trajectory->node_times[k + 1], solved.accuracy->relative_jump);
+}
+
 /// A column's getter: a number of the program's.
 auto count(std::size_t (*of_program)(const Transcription&)) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(*solved.program)) : Cell(); };
@@ -110,6 +123,11 @@ const Columns<SolvedCase>& core_columns() {
       {"setup_seconds", "s", "transcription: tracing, differentiation, structure", from(&SolvedCase::setup_seconds)},
       {"evaluation_seconds", "s", "part of the solve spent in evaluations", seconds(&Solution::evaluation_seconds)},
       {"seconds", "s", "wall clock of the solve", seconds(&Solution::seconds)},
+      {"largest_jump", "", "largest |(q, v)| by which an interval, replayed from its first node, misses the next one",
+       from(&SolvedCase::accuracy, &Accuracy::jump)},
+      {"relative_jump", "", "the same of q or of v, whichever is larger relative to its range",
+       from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
+      {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
       {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
   };
   return columns;
@@ -150,6 +168,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
+  if (result.trajectory && is_solved(solution.status)) judge_accuracy(result);
   const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
   if (!missed.empty()) result.note(missed);
   return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/experiment/column.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/program/solution.hpp"
@@ -48,6 +49,7 @@ struct SolvedCase {
   Solution solution = {};
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
+  std::optional<Accuracy> accuracy = std::nullopt;      ///< of a solved case: whether its intervals join
   std::string branch = {};                              ///< "same" or "other" than that of the start; empty if unknown
   std::optional<double> setup_seconds = std::nullopt;
   std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves

@@ -31,6 +31,8 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
     {Status::out_of_memory, "out of memory", "The solver could not allocate what it needs."},
     {Status::solver_error, "solver error", "The solver reported an internal error."},
+    {Status::too_coarse, "too coarse",
+     "The discrete program is solved, but its answer is no motion: the grid is too coarse for it."},
     {Status::not_confirmed, "not confirmed",
      "The solver says it is solved, but the residual computed from our derivatives does not confirm it."},
 });

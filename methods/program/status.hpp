@@ -21,6 +21,7 @@ enum class Status : std::uint8_t {
   invalid_program,    ///< the solver refuses the program: too few degrees of freedom, a bad option or number
   out_of_memory,      ///< the solver could not allocate what it needs
   solver_error,       ///< the solver reported an internal error
+  too_coarse,         ///< solved, but the answer is no motion: its intervals do not join (`accuracy`)
   not_confirmed,      ///< the solver says it is solved, but our residual does not confirm it
 };
 

@@ -8,9 +8,9 @@ namespace dmocbench {
 /// The largest jump of a motion whose intervals are replayed one by one: how far the continuous system, started at node
 /// k under the controls of interval k, ends from node k + 1. Unlike the replay of the whole horizon (`ReplayError`) it
 /// judges unstable systems too, where an error of any size grows without bound until the end.
-struct IntervalReplay {
+struct Accuracy {
   double jump = 0.0;           ///< |(q, v)(t_{k+1}) - (q_{k+1}, v_{k+1})|, the largest over k
-  double relative_jump = 0.0;  ///< the largest |Δq| / range of q or |Δv| / range of v, see `interval_replay`
+  double relative_jump = 0.0;  ///< the largest |Δq| / range of q or |Δv| / range of v, see `accuracy`
   Eigen::Index interval = 0;   ///< k where `relative_jump` is
 };
 
@@ -22,9 +22,14 @@ struct IntervalReplay {
 /// each component over the nodes, that of v likewise. If one of the two is constant the range of the other is taken,
 /// and 1 if both are.
 ///
+/// The intervals are shared out to `thread_count()` threads; the result does not depend on their number.
+///
 /// With one stage the jump is O(h³) on smooth optima, one order more than the error at the nodes. With s > 1 it is
 /// between O(h^(s+2)) and O(h^(2s+1)): stage controls have order s + 1 (methods/README.md, "Where the order is").
-[[nodiscard]] IntervalReplay interval_replay(const Problem& problem, const Trajectory& trajectory,
-                                             double tolerance = 1e-12);
+[[nodiscard]] Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
+
+/// The largest `Accuracy::relative_jump` of an answer that is a motion. Beyond it the discrete program is solved, but
+/// its answer lives on errors of the grid: it is `Status::too_coarse`.
+inline constexpr double largest_jump_of_a_motion = 0.05;
 
 }  // namespace dmocbench

@@ -1,4 +1,4 @@
-#include "methods/diagnostics/interval_replay.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 
 #include <cmath>
 #include <limits>
@@ -25,16 +25,16 @@ Trajectory exact_optimum(const Problem& problem, Eigen::Index intervals) {
   return motion;
 }
 
-TEST(IntervalReplay, FindsNoJumpInAnExactMotion) {
+TEST(Accuracy, FindsNoJumpInAnExactMotion) {
   const tests::DoubleIntegrator problem;
-  EXPECT_LT(interval_replay(problem, exact_optimum(problem, 6)).jump, 1e-13);
+  EXPECT_LT(accuracy(problem, exact_optimum(problem, 6)).jump, 1e-13);
 }
 
-TEST(IntervalReplay, FindsWhereAMotionIsTornAndByHowMuch) {
+TEST(Accuracy, FindsWhereAMotionIsTornAndByHowMuch) {
   const tests::DoubleIntegrator problem;
   Trajectory torn = exact_optimum(problem, 8);
   torn.q.bottomRows(4).array() += 0.25;  // from node 5 on: q now ranges from 0 to 1.25
-  const IntervalReplay replay = interval_replay(problem, torn);
+  const Accuracy replay = accuracy(problem, torn);
   EXPECT_EQ(replay.interval, 4);
   EXPECT_NEAR(replay.jump, 0.25, 1e-13);
   EXPECT_NEAR(replay.relative_jump, 0.25 / 1.25, 1e-13);
@@ -51,7 +51,7 @@ class Unstable final : public tests::SmallProblem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
-TEST(IntervalReplay, JudgesAnUnstableMotionThatAReplayOfTheHorizonCannot) {
+TEST(Accuracy, JudgesAnUnstableMotionThatAReplayOfTheHorizonCannot) {
   const Unstable problem;
   const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(40));
   Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
@@ -59,12 +59,12 @@ TEST(IntervalReplay, JudgesAnUnstableMotionThatAReplayOfTheHorizonCannot) {
   motion.v = -20.0 * motion.q;
   motion.stage_u.setZero();
   EXPECT_GT(replay_error(problem, motion).norm(), 1.0);
-  EXPECT_LT(interval_replay(problem, motion).relative_jump, 1e-10);
+  EXPECT_LT(accuracy(problem, motion).relative_jump, 1e-10);
 }
 
 /// The order of the error at the nodes is 2s. Stage controls have order s + 1 if s > 1, and what they are wrong by acts
 /// for the length of an interval.
-TEST(IntervalReplay, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
+TEST(Accuracy, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
   for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
     for (const tests::Scheme& scheme : tests::schemes_of({"gauss"}, 2)) {
@@ -72,7 +72,7 @@ TEST(IntervalReplay, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
       for (const int intervals : {24, 48, 96}) {
         const Trajectory motion =
             tests::solve(*problem, scheme, Grid::uniform(intervals), tests::common_start(*problem)).trajectory;
-        jumps.push_back({1.0 / intervals, interval_replay(*problem, motion).jump});
+        jumps.push_back({1.0 / intervals, accuracy(*problem, motion).jump});
       }
       const double order = fit_order(jumps)->order;
       EXPECT_GT(order, scheme.stages + 2.0 - 0.35) << name << ", " << scheme.label();
@@ -92,13 +92,13 @@ class BlowUp final : public tests::SmallProblem {
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
 };
 
-TEST(IntervalReplay, IsInfiniteWhereTheMotionEndsWithinAnInterval) {
+TEST(Accuracy, IsInfiniteWhereTheMotionEndsWithinAnInterval) {
   const BlowUp problem;
   const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(2));
   Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
   motion.stage_u.setZero();
   motion.v.setConstant(4.0);
-  const IntervalReplay replay = interval_replay(problem, motion);
+  const Accuracy replay = accuracy(problem, motion);
   EXPECT_EQ(replay.jump, std::numeric_limits<double>::infinity());
   EXPECT_EQ(replay.interval, 0);
 }

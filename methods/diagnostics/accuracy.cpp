@@ -1,0 +1,91 @@
+#include "methods/diagnostics/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/error.hpp"
+#include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/numerics/adaptive_integration.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The norm of the ranges of all components over the nodes.
+double range_of(const Eigen::MatrixXd& nodes) {
+  return (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
+}
+
+/// Where (q, v) of node k is carried by the controls of interval k; nothing where that fails.
+std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& trajectory, Eigen::Index k, double tolerance) {
+  const Eigen::Index n = trajectory.q.cols();
+  std::vector<double> state(static_cast<std::size_t>(2 * n));
+  Eigen::Map<Eigen::VectorXd>(state.data(), n) = trajectory.q.row(k);
+  Eigen::Map<Eigen::VectorXd>(state.data() + n, n) = trajectory.v.row(k);
+  const auto equations = [&](const std::vector<double>& x, std::vector<double>& rate, double t) {
+    motion.write_rate(x, control_on_interval(trajectory, k, t), t, rate);
+  };
+  const double left = trajectory.node_times[k];
+  const double right = trajectory.node_times[k + 1];
+  try {
+    if (!integrate(equations, state, left, right, right - left, tolerance)) return {};
+  } catch (const Error&) {  // L_vv is singular where it leads
+    return {};
+  }
+  return state;
+}
+
+}  // namespace
+
+Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const Eigen::Index n = trajectory.q.cols();
+  const double moves = std::max(range_of(trajectory.q), range_of(trajectory.v));
+  const auto scale = [&](double range) { return range > 0.0 ? range : (moves > 0.0 ? moves : 1.0); };
+  const double range_of_q = scale(range_of(trajectory.q));
+  const double range_of_v = scale(range_of(trajectory.v));
+  const auto worst_of = [&](EquationsOfMotion& motion, Eigen::Index begin, Eigen::Index end) {
+    Accuracy worst{.interval = begin};
+    for (Eigen::Index k = begin; k < end; ++k) {
+      const std::vector<double> state = carried(motion, trajectory, k, tolerance);
+      double jump_of_q = std::numeric_limits<double>::infinity();
+      double jump_of_v = jump_of_q;
+      if (!state.empty() && std::ranges::all_of(state, [](double x) { return std::isfinite(x); })) {
+        jump_of_q = (Eigen::Map<const Eigen::VectorXd>(state.data(), n) - trajectory.q.row(k + 1).transpose()).norm();
+        jump_of_v =
+            (Eigen::Map<const Eigen::VectorXd>(state.data() + n, n) - trajectory.v.row(k + 1).transpose()).norm();
+      }
+      worst.jump = std::max(worst.jump, std::hypot(jump_of_q, jump_of_v));
+      const double relative = std::max(jump_of_q / range_of_q, jump_of_v / range_of_v);
+      if (relative > worst.relative_jump) {
+        worst.relative_jump = relative;
+        worst.interval = k;
+      }
+    }
+    return worst;
+  };
+
+  const auto intervals = static_cast<std::size_t>(trajectory.intervals());
+  constexpr std::size_t per_part = 32;  // takes some milliseconds
+  const std::size_t parts = part_count(intervals, per_part);
+  const TracedProblem traced(problem);
+  std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
+  for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
+  std::vector<Accuracy> found(parts);
+  for_each_part(parts, [&](std::size_t part) {
+    found[part] = worst_of(*motions[part], static_cast<Eigen::Index>(begin_of_part(part, parts, intervals)),
+                           static_cast<Eigen::Index>(begin_of_part(part + 1, parts, intervals)));
+  });
+  Accuracy worst = *std::ranges::max_element(found, {}, &Accuracy::relative_jump);
+  worst.jump = std::ranges::max(found, {}, &Accuracy::jump).jump;
+  return worst;
+}
+
+}  // namespace dmocbench
