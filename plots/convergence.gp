@@ -60,6 +60,9 @@ do for [name in "convergence convergence_512"] {
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
              title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
+             for [curve in curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
+             with points linetype method_style(entry(curve, "method")) pointtype 6 notitle,\
+             keyentry with points linetype 8 pointtype 6 title (has_coarse(name, where) ? "too coarse to be a motion" : ""),\
              one_stage ? y_guide * (x / x_guide)**2 : NaN with lines linetype 8 title (one_stage ? "C h²" : ""),\
              one_stage && h_ref > 0 && x > h_ref ? y_guide * (x**2 - h_ref**2) / (x_guide**2 - h_ref**2) : NaN\
              with lines linetype 9 title (one_stage && h_ref > 0 ? "C (h² − h_{ref}²)" : "")

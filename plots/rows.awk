@@ -4,6 +4,8 @@
 #       zero in `need` and an empty field in `without`
 #   awk -f rows.awk -v take=unsolved ... TABLE       (or take=all)
 #       the same of the rows that were tried and not solved, or of both
+#   awk -f rows.awk -v take=coarse ... TABLE         (or take=drawn)
+#       the same of the rows whose answer is too coarse to be a motion, or of the solved rows and these
 #   awk -f rows.awk -v branches=any ... TABLE
 #       the same whatever the branch, for tables that tell none
 #   awk -f rows.awk -v distinct=problem,method ... TABLE
@@ -33,10 +35,13 @@ NR == 1 {
 }
 
 {
+  coarse = "status" in position && $position["status"] == "too coarse"
   solved = !("status" in position) || $position["status"] == "solved"
   same = branches == "any" || !("branch" in position) || $position["branch"] == "same"
 }
 take == "" && !(solved && same) { next }
+take == "drawn" && !((solved || coarse) && same) { next }
+take == "coarse" && !(coarse && same) { next }
 take == "unsolved" && (solved || $position["status"] == "not run") { next }
 take == "all" && solved && !same { next }
 need != "" && !(need in position && $position[need] + 0 > 0) { next }

@@ -21,6 +21,10 @@ require(name, columns) = sprintf(\
 
 # Rows that may be drawn, as a data file; `where` is problem=a,method=b,..., `need` a column with a value above zero.
 rows(name, where, need) = "< ".rows_awk("-v where='".where."' -v need=".need, name)
+# The same of answers that are too coarse to be motions: drawn hollow, and used by no fit.
+coarse_rows(name, where, need) = "< ".rows_awk("-v take=coarse -v where='".where."' -v need=".need, name)
+drawn_rows(name, where, need) = "< ".rows_awk("-v take=drawn -v where='".where."' -v need=".need, name)
+has_coarse(name, where) = system(rows_awk("-v take=coarse -v distinct=method -v where='".where."'", name)) ne ""
 # Distinct values in those rows, as words that serve as `where` again.
 distinct(name, columns, where, need) =\
     system(rows_awk("-v distinct=".columns." -v where='".where."' -v need=".need, name))
@@ -33,7 +37,7 @@ entry(where, key) = up_to_comma(after(where, key))
 
 # To be evaluated: x_low, x_high, y_low, y_high of those rows; axes are linear and without range afterwards.
 measure(name, where, x, y) = sprintf("unset logscale; set autoscale;\
-    stats rows('%s', '%s', '%s') using (column('%s')):(column('%s')) name 'S' nooutput;\
+    stats drawn_rows('%s', '%s', '%s') using (column('%s')):(column('%s')) name 'S' nooutput;\
     x_low = S_min_x; x_high = S_max_x; y_low = S_min_y; y_high = S_max_y", name, where, y, x, y)
 
 # A number from its text. gnuplot 5.4 stops at the "e" of "1e-05", which "1.e-05" spares it.

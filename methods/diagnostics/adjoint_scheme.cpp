@@ -102,7 +102,7 @@ double AdjointResidual::largest() const { return std::max({step_q, step_p, stage
 
 AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& trajectory,
                                  const AdjointCoefficients& coefficients) {
-  if (!trajectory.has_stage_costates()) {
+  if (!trajectory.has_costates() || !trajectory.has_stage_costates()) {
     throw Error(
         "the adjoint scheme needs costates at the stages: give it a solution with multipliers of a problem without "
         "path constraints and bounds on velocities");

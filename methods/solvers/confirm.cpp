@@ -45,7 +45,12 @@ namespace {
 
 /// Takes "solved" back from an answer that a Newton step would move.
 void require_settled(NonlinearProgram& program, Solution& solution) {
-  const auto correction = NewtonCorrections(program).at(solution.primal, solution.multipliers);
+  using Factorisation = NewtonCorrections::Factorisation;
+  auto correction = NewtonCorrections(program).at(solution.primal, solution.multipliers);
+  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
+  if (!correction || correction->length > settled) {
+    correction = NewtonCorrections(program, Factorisation::sparse).at(solution.primal, solution.multipliers);
+  }
   if (!correction) return;
   solution.correction = correction->length;
   if (correction->length <= settled) return;

@@ -68,7 +68,7 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
 
 int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps) {
   if (!is_unsettled(solution) || !has_own_multipliers(program, solution)) return 0;
-  NewtonCorrections corrections(program);
+  NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   Solution next = solution;
   for (int steps = 0; steps <= most_steps; ++steps) {
     next.status = Status::solved;
