@@ -97,15 +97,14 @@ class Convergence final : public Experiment {
     if (!solved.trajectory) return;
     measured_.replay = replay(solved);
     // The error of an answer that is too coarse is drawn, hollow, but nothing is fitted to it or measured by it.
-    const bool is_coarse = solved.solution.status == Status::too_coarse && solved.branch == "same";
-    if (!is_usable(solved) && !is_coarse) return;
+    if (!is_discrete_optimum(solved)) return;
     const Problem& problem = *solved.the_case.problem;
     const Trajectory& trajectory = *solved.trajectory;
     try {
       if (indirect_) {
         reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
       } else if (is_first) {
-        if (!is_coarse) reference_trajectory_ = trajectory;
+        if (is_usable(solved)) reference_trajectory_ = trajectory;
         return;
       }
       if (!reference_trajectory_) return;

@@ -84,7 +84,7 @@ class Equivalence final : public Experiment {
 
   void complete(SolvedCase& solved) override {
     measured_ = {};
-    if (!solved.trajectory || !is_usable(solved)) return;
+    if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
     if (trajectory.has_stage_costates()) {
@@ -96,8 +96,9 @@ class Equivalence final : public Experiment {
       measured_.adjoint_residual = residual(adjoint_coefficients(tableau));
       measured_.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
     } else if (trajectory.has_costates()) {
-      solved.note("Its stages have no costates to put into the adjoint scheme: constraints along the path have "
-                  "multipliers of their own there.");
+      solved.note(
+          "Its stages have no costates to put into the adjoint scheme: constraints along the path have "
+          "multipliers of their own there.");
     }
     if (here.method == "dmoc") {
       answers_.push_back({here, trajectory});
@@ -106,8 +107,7 @@ class Equivalence final : public Experiment {
     Case by_dmoc = here;
     by_dmoc.method = "dmoc";
     for (const auto& [dmoc, answer] : answers_) {
-      const bool is_partner =
-          dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
+      const bool is_partner = dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
       if (is_partner) measured_.dmoc = answer;
     }
     if (!measured_.dmoc) {
@@ -115,8 +115,7 @@ class Equivalence final : public Experiment {
       return;
     }
     const auto horizon = [](const Trajectory& any) { return any.node_times[any.intervals()]; };
-    measured_.horizon_difference =
-        std::abs(horizon(trajectory) - horizon(*measured_.dmoc)) / horizon(*measured_.dmoc);
+    measured_.horizon_difference = std::abs(horizon(trajectory) - horizon(*measured_.dmoc)) / horizon(*measured_.dmoc);
     measured_.objective_difference = std::abs(trajectory.cost - measured_.dmoc->cost) / std::abs(measured_.dmoc->cost);
     measured_.in_dmoc = violation_in(here, "dmoc", trajectory);
     measured_.of_dmoc = violation_in(here, here.method, *measured_.dmoc);

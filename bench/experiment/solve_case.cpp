@@ -188,6 +188,10 @@ bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
 
 bool is_usable(const SolvedCase& solved) { return solved.solution.status == Status::solved && solved.branch == "same"; }
 
+bool is_discrete_optimum(const SolvedCase& solved) {
+  return is_usable(solved) || (solved.solution.status == Status::too_coarse && solved.branch == "same");
+}
+
 bool is_usable(const Row& row) { return row.text("status") == "solved" && row.text("branch") == "same"; }
 
 std::optional<ReplayError> replay(SolvedCase& solved) {

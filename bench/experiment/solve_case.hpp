@@ -84,6 +84,8 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 
 /// True of solves that ended on the wanted branch; curves, orders and claims use only these.
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
+/// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
+[[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
 [[nodiscard]] bool is_usable(const Row& row);
 
 /// Checks of a trajectory that rely on neither solver nor discretisation. What cannot be computed stays empty.

@@ -126,7 +126,7 @@ AdjointResidual adjoint_residual(const Problem& problem, const Trajectory& traje
   AdjointResidual residual{
       .step_q = q.step, .step_p = p.step, .stage_q = q.stage, .stage_p = p.stage, .control = std::nullopt};
   if (!tableau.shares_controls) {
-    residual.control = control / std::max(cost_by_control, std::numeric_limits<double>::min());
+    residual.control = control / (cost_by_control > 0.0 ? cost_by_control : trajectory.psi_p.lpNorm<Eigen::Infinity>());
   }
   return residual;
 }

@@ -50,7 +50,7 @@ class NewtonCorrections {
   /// length where a derivative is not finite; none where the matrix is singular.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
-  static constexpr double smallest_share = 1e-8;
+  static constexpr double smallest_share = 1e-6;
 
  private:
   [[nodiscard]] double length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
