@@ -37,6 +37,7 @@ constexpr std::array known_faults{
     KnownFault{"the folder is made before a map is found that Newton's method cannot solve", "consistency_order", "",
                "refuses, but"},
     KnownFault{"the folder is made before Ipopt refuses an option", "", "--option", "refuses, but"},
+    KnownFault{"each of several workers says that Ipopt refuses an option", "", "--option", "2 lines"},
     KnownFault{"an interrupt is not listened to", "structure", "", "signal 2"},
     KnownFault{"an interrupt is not listened to", "slips", "", "signal 2"},
     KnownFault{"an interrupt is not listened to", "consistency_order", "", "signal 2"},
