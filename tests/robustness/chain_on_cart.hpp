@@ -8,7 +8,7 @@ namespace dmocbench::tests {
 
 /// A chain of light rods (0.4 m) with point masses (0.2 kg) at their ends on a cart (1 kg) that is pushed by u; C = u².
 ///
-/// q = (x, θ_1 .. θ_n), θ from upright. Standing still it falls apart by e^(λT) with λ about 10/s for three rods: a
+/// q = (x, θ_1 .. θ_n), θ from upright. Standing still it falls apart by e^(λT) with λ above 10/s for three rods: a
 /// replay of the whole horizon cannot judge it.
 class ChainOnCart final : public SmallProblem {
  public:
