@@ -20,7 +20,9 @@ CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const st
 }
 
 int report_error(const std::string& name, std::string sentence) {
-  std::ranges::replace(sentence, '\n', ' ');
+  // One line that no terminal obeys, whatever was typed.
+  std::ranges::replace_if(
+      sentence, [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
   fmt::print(stderr, "{}: {}\n", name, sentence);
   return 2;
 }
