@@ -182,13 +182,13 @@ bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorX
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(primal.size());
   program.jacobian_structure().for_each(
       [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * excess[row]; });
-  double steepest = 0.0;
+  double reduction = 0.0;
   for (Eigen::Index i = 0; i < primal.size(); ++i) {
-    const bool is_held = (gradient[i] > 0.0 && primal[i] <= program.variable_lower()[i]) ||
-                         (gradient[i] < 0.0 && primal[i] >= program.variable_upper()[i]);
-    if (!is_held) steepest = std::max(steepest, std::abs(gradient[i]) * std::max(1.0, std::abs(primal[i])));
+    const double room =
+        gradient[i] > 0.0 ? primal[i] - program.variable_lower()[i] : program.variable_upper()[i] - primal[i];
+    reduction += std::abs(gradient[i]) * std::clamp(room, 0.0, std::max(1.0, std::abs(primal[i])));
   }
-  return excess.squaredNorm() > 0.0 && steepest <= least_violation_share * excess.squaredNorm();
+  return excess.squaredNorm() > 0.0 && reduction <= least_violation_share * excess.squaredNorm();
 }
 
 }  // namespace dmocbench

@@ -39,14 +39,13 @@ struct KktResidual {
 /// How near to its bound a variable or a constraint counts as active; see above.
 inline constexpr double activity_tolerance = 1e-8;
 
-/// True at a point that violates constraints and where, to first order, no variable that its bounds leave free can
-/// reduce the violation: with r the amounts by which constraints leave their bounds, a step of max(1, |ξᵢ|) along
-/// (∂a/∂ξ)ᵀr changes ½|r|² by less than `least_violation_share` · |r|². Solvers without a test of their own for
-/// infeasible programs are judged by it where they end. `primal` has variable_count() entries; false where a number is
-/// not finite.
+/// True at a point that violates constraints and where, to first order, no step within the bounds of the variables
+/// reduces the violation: with r the amounts by which constraints leave their bounds, all steps of at most max(1, |ξᵢ|)
+/// in each variable change ½|r|² by less than `least_violation_share` · |r|². `primal` has variable_count() entries;
+/// false where a number is not finite.
 [[nodiscard]] bool is_point_of_least_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
 
-/// See above; the gradient of the violation need not vanish exactly where a solve fails.
+/// See above; rounding leaves a gradient of the violation everywhere.
 inline constexpr double least_violation_share = 1e-3;
 
 }  // namespace dmocbench

@@ -20,7 +20,7 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::acceptable, "acceptable",
      "The solver could not reach the tolerance, but came within a hundred times of it."},
     {Status::infeasible, "infeasible",
-     "The solver converged to a point where the constraints cannot be met any better."},
+     "Infeasible from this start: near the last point the constraints cannot be met any better."},
     {Status::diverged, "diverged", "The iterates grew without bound."},
     {Status::step_failed, "step failed", "The solver could not find a further step."},
     {Status::evaluation_failed, "evaluation failed", "A formula gave NaN or infinity."},

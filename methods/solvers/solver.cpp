@@ -8,6 +8,7 @@
 #include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
+#include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench {
 
@@ -35,6 +36,7 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) 
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
+  judge_infeasibility(program, options_, counted.elapsed_seconds(), solution);
   confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   return solution;

@@ -60,7 +60,7 @@ class Solver {
   /// size, an option the solver does not know.
   ///
   /// The same for every solver: checks the size of the start, counts and times the evaluations, measures the time of
-  /// `run`, judges its answer (`confirm`) and says in a sentence what happened.
+  /// `run`, judges its answer (`judge_infeasibility`, `confirm`) and says in a sentence what happened.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const;
 
  protected:

@@ -107,6 +107,7 @@ SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions
 }
 
 bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower) {
+  if (!(lower.coeffs().abs() <= largest_entry).all()) return false;  // NaN fails it too
   if (mumps_->read(lower)) {
     mumps_->analysed = mumps_->run(job_analyse);
     if (!mumps_->analysed) return false;

@@ -15,7 +15,11 @@ class SymmetricFactorisation {
   /// from 0 on; empty to let MUMPS choose. A row whose pivot is too small is postponed.
   explicit SymmetricFactorisation(const std::vector<int>& positions = {});
 
-  /// Factorises the matrix whose lower triangle is given. False if it is singular. The order of elimination, if
+  /// Of the matrix: the products of larger ones are no numbers any more.
+  static constexpr double largest_entry = 1e100;
+
+  /// Factorises the matrix whose lower triangle is given. False if it is singular, or an entry is not finite or above
+  /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if
   /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS
   /// fails (out of memory).
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);

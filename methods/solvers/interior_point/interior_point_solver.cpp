@@ -1,7 +1,6 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -12,7 +11,6 @@
 #include <tl/expected.hpp>
 
 #include "methods/error.hpp"
-#include "methods/program/kkt_residual.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
@@ -22,6 +20,7 @@
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/interior_point/refined_kkt.hpp"
 #include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
@@ -44,12 +43,17 @@ constexpr double s_theta = 1.1;
 constexpr double s_phi = 2.3;
 constexpr double gamma_alpha = 0.05;
 constexpr double kappa_soc = 0.99;
+constexpr double kappa_resto = 0.9;
 constexpr int p_max = 4;
 constexpr double theta_min_ratio = 1e-4;
 constexpr double theta_max_ratio = 1e4;
+constexpr double largest_z = 1e3;
 // Ours.
-constexpr double mu_of_warm_start = 1e-6;
-constexpr double push_of_warm_start = 1e-6;
+constexpr double of_warm_start = 1e-6;  // μ, and the push away from bounds
+constexpr double push_of_descent = 1e-8;
+constexpr int most_jammed = 20;     // feasibility steps in a row that bounds leave no room
+constexpr double short_step = 0.1;  // see has_runaway_multipliers
+constexpr double runaway = 1e8;
 constexpr double correctable = 2.0;  // see try_second_order_correction
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
@@ -57,7 +61,7 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 class InteriorPointRun {
  public:
   InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
-      : uncounted_(program.uncounted()),
+      : counted_(program),
         options_(options),
         program_(program),
         newton_(program_, kkt),
@@ -66,8 +70,8 @@ class InteriorPointRun {
   /// A status ends the solve, here and below.
   [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start) {
     const bool is_warm = options_.start_multipliers.size() > 0;
-    if (program_.has_bounds()) mu_ = is_warm ? mu_of_warm_start : mu_0;
-    at_ = program_.interior(start, is_warm ? push_of_warm_start : kappa_1);
+    if (program_.has_bounds()) mu_ = is_warm ? of_warm_start : mu_0;
+    at_ = program_.interior(start, is_warm ? of_warm_start : kappa_1);
     if (!program_.evaluate(at_, mu_, values_)) return Status::evaluation_failed;
     program_.differentiate(at_.x);
     if (is_warm) {
@@ -81,13 +85,12 @@ class InteriorPointRun {
     theta_min_ = theta_min_ratio * theta;
     theta_max_ = theta_max_ratio * theta;
     filter_.reset(theta_max_);
-    rounding_of_theta_ = uncounted_.rounding_floor() * std::sqrt(static_cast<double>(values_.constraints.size()));
+    rounding_of_theta_ = counted_.rounding_floor() * std::sqrt(static_cast<double>(values_.constraints.size()));
     return std::nullopt;
   }
 
   /// One iteration.
   [[nodiscard]] std::optional<Status> iterate() {
-    const BarrierBounds& bounds = program_.bounds();
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
     // Stop where E_0 <= ε, (5) and (6).
     if (has_converged(errors)) return Status::solved;
@@ -102,7 +105,7 @@ class InteriorPointRun {
       // From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
       const double derivative = newton_.directional_derivative(at_, mu_, step_);
       const double alpha_min = smallest_length(derivative);
-      double alpha = bounds.fraction_to_boundary(at_, step_, tau());
+      double alpha = program_.bounds().fraction_to_boundary(at_, step_, tau());
       is_accepted = try_step(step_, alpha, derivative, alpha) || try_second_order_correction(alpha, derivative);
       while (!is_accepted && 0.5 * alpha >= alpha_min) {
         alpha *= 0.5;
@@ -112,8 +115,8 @@ class InteriorPointRun {
       // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
-        const double alpha_z = bounds.multiplier_fraction_to_boundary(at_, step_, tau());
-        bounds.update_multipliers(step_, alpha_z, mu_, at_);
+        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau());
+        program_.bounds().update_multipliers(step_, alpha_z, mu_, at_);
       }
     }
     // Restore feasibility where no step is acceptable.
@@ -210,17 +213,17 @@ class InteriorPointRun {
                             std::numeric_limits<double>::epsilon() *
                             (std::abs(values_.objective) + std::abs(values_.phi - values_.objective));
     if (!filter_.accepts(theta - rounding_of_theta_, trial_values_.phi - rounding)) return false;
-    const double change = trial_values_.phi - values_.phi;
     const bool is_nearer = theta <= (1.0 - Filter::margin) * values_.theta;  // (18a)
     const bool is_rounding = theta <= rounding_of_theta_ && values_.theta <= rounding_of_theta_;
     const bool is_descent = derivative < 0.0 && newton_length * std::pow(-derivative, s_phi) >
                                                     delta * std::pow(values_.theta, s_theta);  // (19)
     if (values_.theta <= theta_min_ && (is_descent || is_rounding)) {
       // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
-      const bool is_decrease = change <= eta_phi * newton_length * derivative + rounding;  // (20)
+      const bool is_decrease =
+          trial_values_.phi - values_.phi <= eta_phi * newton_length * derivative + rounding;  // (20)
       if (!is_decrease && !(is_rounding && is_nearer)) return false;
     } else {
-      const bool is_lower = change <= -Filter::margin * values_.theta + rounding;  // (18b)
+      const bool is_lower = trial_values_.phi - values_.phi <= -Filter::margin * values_.theta + rounding;  // (18b)
       if (!is_nearer && !is_lower) return false;
       filter_.add(values_.theta, values_.phi);  // (22)
     }
@@ -232,8 +235,7 @@ class InteriorPointRun {
   /// point join the right-hand side, A-5.5 to. Where it grows a lot the step is too long for a correction.
   [[nodiscard]] bool try_second_order_correction(double newton_length, double derivative) {
     double before = values_.theta;
-    const bool is_correctable = trial_values_.theta >= before && trial_values_.theta <= correctable * before;
-    if (!is_correctable) return false;
+    if (!(trial_values_.theta >= before && trial_values_.theta <= correctable * before)) return false;
     Eigen::VectorXd residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
     Iterate corrected;
     for (int p = 0; p < p_max; ++p) {
@@ -247,25 +249,37 @@ class InteriorPointRun {
     return false;
   }
 
-  /// Steps towards feasibility alone, until the filter accepts the point. Unlike in section 3.3 they are steps of least
-  /// length to where the linearised constraints hold.
+  /// Steps towards feasibility alone, until the filter accepts the point: steps of least length to where the linearised
+  /// constraints hold and, where these end, descent on the violation, which like section 3.3 needs no such place.
   [[nodiscard]] std::optional<Status> restoration_phase() {
     if (values_.theta <= options_.tolerance) {
       message_ = "No step along the Newton direction is an improvement, though all rows hold.";
       return Status::step_failed;
     }
-    constexpr double kappa_resto = 0.9;
     const double enough = kappa_resto * values_.theta;
     filter_.add(values_.theta, values_.phi);
-    do {
-      if (const auto reason = reason_to_stop()) return reason;
-      if (!take_feasibility_step()) break;
+    for (int jammed = 0; jammed < most_jammed && take_feasibility_step(); jammed = length_ < 1e-3 ? jammed + 1 : 0) {
       ++iterations_;
       report("rows");
-    } while (values_.theta > enough || !filter_.accepts(values_.theta, values_.phi));
-    if (values_.theta <= enough) return std::nullopt;
-    if (is_point_of_least_violation(uncounted_, at_.x)) return Status::infeasible;
-    message_ = "Neither the Newton step nor a step towards the rows is an improvement.";
+      if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
+      if (const auto reason = reason_to_stop()) return reason;
+    }
+    return values_.theta <= enough ? std::nullopt : descend_on_violation(enough);
+  }
+
+  /// Each time farther. Whether a failure is one at a point of least violation, `judge_infeasibility` says.
+  [[nodiscard]] std::optional<Status> descend_on_violation(double enough) {
+    enough *= std::pow(0.1, descents_++);
+    ViolationDescent descent(counted_, at_.x);
+    while (!descent.is_at_least_violation() && descent.step()) {
+      ++iterations_;
+      at_ = program_.interior(descent.point(), push_of_descent);
+      if (!program_.evaluate(at_, mu_, values_)) break;
+      report("least");
+      if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
+      if (const auto reason = reason_to_stop()) return reason;
+    }
+    message_ = "Neither the Newton step nor descent on the violation is an improvement.";
     return Status::step_failed;
   }
 
@@ -288,17 +302,12 @@ class InteriorPointRun {
   /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns
   /// all else. Large ones that a long step leads to may be true.
   [[nodiscard]] bool has_runaway_multipliers() const {
-    constexpr double short_step = 0.1;
-    constexpr double runaway = 1e8;
     return length_ <= short_step && largest_of(at_.multipliers) > runaway;
   }
 
   /// Where they are large, at a point that was reached without them.
   void reset_bound_multipliers() {
-    constexpr double largest = 1e3;
-    for (Eigen::VectorXd& z : at_.z) {
-      if (z.size() > 0 && z.maxCoeff() > largest) z.setOnes();
-    }
+    for (Eigen::VectorXd& z : at_.z) z = largest_of(z) > largest_z ? Eigen::VectorXd::Ones(z.size()) : z;
   }
 
   void report(const char* kind) {
@@ -311,7 +320,7 @@ class InteriorPointRun {
         program_.bounds().complementarity(at_, 0.0), mu_, newton_.shift(), length_);
   }
 
-  NonlinearProgram& uncounted_;
+  NonlinearProgram& counted_;
   const SolverOptions& options_;
   BarrierProgram program_;
   NewtonStep newton_;
@@ -329,6 +338,7 @@ class InteriorPointRun {
   double rounding_of_theta_ = 0.0;
   double length_ = 0.0;  // of the last step
   int iterations_ = 0;
+  int descents_ = 0;
   std::string message_;
   Clock::time_point begin_ = Clock::now();
 };

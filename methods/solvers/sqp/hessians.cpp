@@ -7,9 +7,10 @@
 
 namespace dmocbench::sqp {
 
-double Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
-                                  const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
-                                  const std::vector<bool>& equalities) {
+std::optional<double> Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
+                                                 const Eigen::SparseMatrix<double>& jacobian,
+                                                 const std::vector<bool>& free, const std::vector<bool>& equalities,
+                                                 const std::function<bool()>& is_stopped) {
   const auto is_enough = [&](double shift) {
     return factorisation_.factorise(kkt_matrix(hessian, shift, jacobian, free, equalities)) &&
            factorisation_.negative_eigenvalues() == jacobian.rows();
@@ -17,6 +18,7 @@ double Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
   if (is_enough(0.0)) return 0.0;
   double size = 1.0;
   for (Eigen::Index e = 0; e < hessian.nonZeros(); ++e) size = std::max(size, std::abs(hessian.valuePtr()[e]));
+  if (!hessian.coeffs().allFinite() || size > SymmetricFactorisation::largest_entry) return std::nullopt;
   constexpr double most = 1e4;  // times the size: more than the norm of any sparse matrix of this kind
   constexpr double growth = 8.0;
   double too_small = 0.0;
@@ -25,9 +27,11 @@ double Convexification::shift_for(const Eigen::SparseMatrix<double>& hessian,
     too_small = enough;
     enough *= growth;
     if (enough > most * size) return enough;
+    if (is_stopped && is_stopped()) return std::nullopt;
   }
   constexpr double close = 1.1;
   while (too_small > 0.0 && enough > close * too_small) {
+    if (is_stopped && is_stopped()) return std::nullopt;
     const double middle = std::sqrt(too_small * enough);
     (is_enough(middle) ? enough : too_small) = middle;
   }

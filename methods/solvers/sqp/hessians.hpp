@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,10 +19,13 @@ class Convexification {
 
   /// 0 if H is positive definite there already; otherwise at most a tenth more than is needed, and at least
   /// `least_shift`: where there is no curvature at all, a smaller shift would allow steps of any length. `free` says
-  /// which variables may move, `equalities` which rows count.
-  [[nodiscard]] double shift_for(const Eigen::SparseMatrix<double>& hessian,
-                                 const Eigen::SparseMatrix<double>& jacobian, const std::vector<bool>& free,
-                                 const std::vector<bool>& equalities);
+  /// which variables may move, `equalities` which rows count. Where no shift is enough, the largest one tried.
+  /// None where an entry is not finite or above `SymmetricFactorisation::largest_entry`, or when `is_stopped`, asked
+  /// after each trial, says so.
+  [[nodiscard]] std::optional<double> shift_for(const Eigen::SparseMatrix<double>& hessian,
+                                                const Eigen::SparseMatrix<double>& jacobian,
+                                                const std::vector<bool>& free, const std::vector<bool>& equalities,
+                                                const std::function<bool()>& is_stopped = {});
 
  private:
   SymmetricFactorisation factorisation_;

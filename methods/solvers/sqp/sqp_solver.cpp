@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "methods/program/kkt_residual.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/linearisation.hpp"
@@ -48,13 +47,10 @@ class SequentialRun {
     Solution solution;
     differentiate(program_, at_);
     solution.status = Status::evaluation_failed;
-    if (at_.has_finite_values() && at_.gradient.allFinite()) {
+    if (is_differentiable()) {
       std::optional<Status> end;
       while (!end) end = major_iteration();
-      const bool gave_up = end == Status::step_failed || end == Status::iteration_limit;
-      const bool is_outside = violations(program_, at_.constraints).lpNorm<Eigen::Infinity>() > tolerance_;
-      const bool is_stuck = gave_up && is_outside && is_point_of_least_violation(program_.uncounted(), at_.point);
-      solution.status = is_stuck ? Status::infeasible : end.value_or(Status::solver_error);
+      solution.status = end.value_or(Status::solver_error);
     }
     solution.message = message_;
     solution.primal = at_.point;
@@ -71,6 +67,10 @@ class SequentialRun {
     if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
     if (options_.most_seconds > 0.0 && program_.elapsed_seconds() > options_.most_seconds) return Status::time_limit;
     return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_differentiable() const {
+    return at_.has_finite_values() && at_.gradient.allFinite() && at_.jacobian.coeffs().allFinite();
   }
 
   [[nodiscard]] bool observe(MinorIteration minor) {
@@ -92,7 +92,9 @@ class SequentialRun {
     if (has_converged()) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
     if (majors_ == options_.most_iterations) return Status::iteration_limit;
-    if (!limited_memory_) compute_exact_hessian();
+    if (!limited_memory_) {
+      if (const auto reason = compute_exact_hessian()) return reason;
+    }
     ++majors_;
     const QuadraticSolution quadratic = quadratic_solver_.solve(
         quadratic_program_at(program_, at_, [this](const auto& vectors) { return hessian_times(vectors); }));
@@ -115,14 +117,23 @@ class SequentialRun {
     }
     if (options_.verbose) print(quadratic, search);
     take(search, quadratic);
-    return std::nullopt;
+    if (is_differentiable()) return std::nullopt;
+    return Status::evaluation_failed;
   }
 
-  void compute_exact_hessian() {
+  /// A status where there is none to work with, or the time is up.
+  [[nodiscard]] std::optional<Status> compute_exact_hessian() {
     exact_hessian_ = hessian_at(program_, at_.point, multipliers_);
-    const double needed =
-        convexification_.shift_for(exact_hessian_, at_.jacobian, free_variables(program_), equality_rows(program_));
-    shift_ = std::max(needed, cautious_shift_);
+    const auto needed =
+        convexification_.shift_for(exact_hessian_, at_.jacobian, free_variables(program_), equality_rows(program_),
+                                   [this] { return reason_to_stop().has_value(); });
+    if (!needed) {
+      if (const auto reason = reason_to_stop()) return reason;
+      message_ = "The Hessian of the Lagrangian is not finite, or too large to work with.";
+      return Status::step_failed;
+    }
+    shift_ = std::max(*needed, cautious_shift_);
+    return std::nullopt;
   }
 
   /// The quasi-Newton matrix, or the exact Hessian with its shift, times vectors.

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/solution.hpp"
+#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/solvers/symmetric_factorisation.hpp"
+
+namespace dmocbench {
+
+/// Descends to where the constraints of a program are violated least,
+///
+///   minimise ½|r(ξ)|² - μ Σ ln d(ξ),
+///
+/// r the amounts by which constraints leave their bounds and d the distances of the unknowns from theirs. μ falls with
+/// |r|², so the end is a stationary point of ½|r|² within the bounds, or r = 0. The steps are those of Gauss and
+/// Newton's method or, where these are slow, of Newton's, damped in relation to the size of each unknown: unlike steps
+/// to where the linearised constraints hold, they exist where rows depend on each other or contradict each other, and
+/// the barrier keeps them away from bounds.
+class ViolationDescent {
+ public:
+  /// From `start` (variable_count() entries), moved off its bounds.
+  ViolationDescent(NonlinearProgram& program, const Eigen::VectorXd& start);
+
+  /// One step; false if none lets the violation fall, as where a number is not finite. It evaluates the program in
+  /// its line search and factorises two matrices or, where they need more damping, some more.
+  [[nodiscard]] bool step();
+
+  /// Strictly within its bounds, but for unknowns whose bounds are equal.
+  [[nodiscard]] const Eigen::VectorXd& point() const noexcept { return at_.point; }
+  /// Largest |r|.
+  [[nodiscard]] double violation() const { return excess_.lpNorm<Eigen::Infinity>(); }
+  /// Whether the steps have become slow, and the point is one of least violation (`is_point_of_least_violation`).
+  [[nodiscard]] bool is_at_least_violation() const;
+
+ private:
+  void lower_barrier();
+  [[nodiscard]] double merit(const Linearisation& at) const;
+  [[nodiscard]] bool compute_step(bool with_curvature);
+  [[nodiscard]] bool search();
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix(const Eigen::VectorXd& diagonal, bool with_curvature);
+
+  NonlinearProgram& program_;
+  std::vector<bool> is_free_;
+  Eigen::ArrayXd lower_;  // infinite where the bounds are equal
+  Eigen::ArrayXd upper_;
+  SymmetricFactorisation factorisation_;
+  Linearisation at_;
+  Eigen::VectorXd excess_;  // r
+  Eigen::ArrayXd z_lower_;  // multipliers of the bounds
+  Eigen::ArrayXd z_upper_;
+  Eigen::VectorXd step_;
+  double slope_ = 0.0;  // of the merit along the step
+  double mu_ = 0.0;
+  double damping_ = 1e-3;  // what a step of the size of each unknown costs, as a share of |r|²
+  double left_ = 0.0;      // share of |r|² that the last step left
+  bool is_long_ = false;   // the last step was hardly shortened
+  bool uses_curvature_ = false;
+};
+
+/// The one judgement that a program is infeasible from where a solver started, whatever the solver says: "infeasible"
+/// where its last point is one of least violation (`is_point_of_least_violation`), or where descent from it ends at
+/// one, to which `solution.primal` then moves; "step failed" where the solver says infeasible and this is not so. For
+/// `solution`s that claim to be infeasible, whose step failed or whose iterations ran out; these last ones are judged
+/// where they are. `elapsed_seconds`: of the time limit in `options`.
+void judge_infeasibility(NonlinearProgram& program, const SolverOptions& options, double elapsed_seconds,
+                         Solution& solution);
+
+}  // namespace dmocbench
