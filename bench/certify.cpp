@@ -182,6 +182,7 @@ class Certify final : public Experiment {
     }
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_references.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
     std::vector<Certificate> certificates;
     for (const CertifiedProblem& certified : problems_) {

@@ -38,13 +38,11 @@ int compare_files(CommandLine& line) {
   line.option("--csv", csv, "write the table to this file");
   line.flag("--fail-if-slower", fails_if_slower, "exit with 1 if a benchmark became slower");
   line.parse();
+  if (!csv.empty()) require_writable(csv);
   const BenchmarkSamples before = read_samples(files_of(before_files), options.counter);
   const BenchmarkSamples after = read_samples(files_of(after_files), options.counter);
   const auto comparisons = compare(before, after, options);
-  if (!csv.empty()) {
-    if (csv.has_parent_path()) prepare_folder(csv.parent_path());
-    write_file(csv, comparison_table(comparisons).csv());
-  }
+  if (!csv.empty()) write_file(csv, comparison_table(comparisons).csv());
   fmt::print("{}\n{}", options.counter, comparison_text(comparisons));
   const std::size_t in_one_only = before.size() + after.size() - 2 * comparisons.size();
   if (in_one_only > 0) fmt::print("{} benchmarks are in one of the files only\n", in_one_only);

@@ -12,6 +12,7 @@
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 
 namespace dmocbench::programs {
@@ -118,7 +119,10 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
   const ConsistencyOrder order(problem, smooth_control(problem), initial_conditions(problem));
   std::vector<std::vector<ConsistencyErrors>> errors;  // per step, per tableau
   const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
-  for (std::size_t k = 0; k < intervals.size(); ++k) errors.push_back(order.errors(tableaus, step(k)));
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    throw_if_interrupted();
+    errors.push_back(order.errors(tableaus, step(k)));
+  }
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
     for (const auto& [quantity, error] : quantities) {
       const auto measured = [&, quantity = quantity]<class Value>(const Value& value) {
@@ -148,6 +152,7 @@ int measure_all(CommandLine& line) {
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   const auto selected = selected_problems(problems, settings);
   prepare_folder(out);
+  listen_for_interrupt();
   Results results;
   for (const auto& problem : selected) measure(*problem, steps, results);
   write_file(out / "consistency_order.csv", table_of(error_columns, results.errors).csv());

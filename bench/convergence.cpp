@@ -116,6 +116,9 @@ class Convergence final : public Experiment {
     }
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override {
+    return {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv"};
+  }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     FittedOrders orders = fit_orders(table, fit_range_, reference_);
     write_file(prefix.string() + "_slopes.csv", orders.table.csv());

@@ -121,6 +121,7 @@ class Equivalence final : public Experiment {
     measured_.of_dmoc = violation_in(here, here.method, *measured_.dmoc);
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_slopes.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
     write_file(prefix.string() + "_slopes.csv", fit_differences(table, "configuration_difference").csv());
   }

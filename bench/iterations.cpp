@@ -63,6 +63,7 @@ class Iterations final : public Experiment {
     replay_ = is_solved(solved.solution.status) && solved.trajectory ? replay(solved) : std::nullopt;
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
     write_file(prefix.string() + "_ratios.csv", currency_ratios(table).csv());
   }

@@ -51,6 +51,7 @@ class LocalMinima final : public Experiment {
     if (is_solved(solved.solution.status) && solved.trajectory) checks_ = check_independently(solved);
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_minima.csv", "_shares.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     const Table minima = distinct_minima(table, separation, confirmed_replay);
     const Table shares = best_minimum_shares(table, separation, confirmed_replay);

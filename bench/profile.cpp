@@ -61,6 +61,9 @@ class Profile final : public Experiment {
     measured_.checks = check_independently(solved);
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override {
+    return {"_profiles.csv", "_summary.csv", "_library.csv", "_library.md"};
+  }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     write_file(prefix.string() + "_profiles.csv", performance_profiles(table).csv());
     const Table summary = profile_summary(table);

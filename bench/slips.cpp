@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/expression/derivatives.hpp"
@@ -98,9 +99,12 @@ int evaluate_slips(CommandLine& line) {
   line.option("--out", out, "folder for the results");
   line.parse();
   prepare_folder(out);
+  listen_for_interrupt();
+  SolverOptions options;
+  options.stop_requested = interrupt_requested;
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
   const Trajectory motion =
-      StartProvider("common", {})
+      StartProvider("common", options)
           .solve(
               {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
   const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),

@@ -1,4 +1,7 @@
 // One or more solutions, written out as motions: nodes, stages and the quantities of a picture.
+#include <algorithm>
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -51,6 +54,10 @@ class Solve final : public Experiment {
     if (!trace_file_.empty() && (!single_ || cases.front().solver != "sqp")) {
       throw Error("--trace needs exactly one case, solved by --solver sqp");
     }
+    has_several_solvers_ =
+        std::ranges::any_of(cases, [&](const Case& the_case) { return the_case.solver != cases.front().solver; });
+    for (const Case& the_case : cases) labels_.push_back(label_of(the_case));
+    if (!trace_file_.empty()) check_trace();
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (!trace_file_.empty()) {
@@ -73,10 +80,17 @@ class Solve final : public Experiment {
     motions_.back().program.reset();  // it is large
   }
 
+  [[nodiscard]] std::vector<std::string> further_files() const override {
+    std::vector<std::string> files;
+    for (const std::string& label : labels_) {
+      for (const char* const ending : {"_stages.csv", "_picture.csv", "_nodes.csv"}) files.push_back(label + ending);
+    }
+    return files;
+  }
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     for (const SolvedCase& solved : motions_) {
       const Case& the_case = solved.the_case;
-      const std::string file = single_ ? prefix.string() : prefix.string() + "_" + the_case.file_label();
+      const std::string file = prefix.string() + label_of(the_case);
       write_file(file + "_stages.csv", stage_table(*the_case.problem, *solved.trajectory).csv());
       write_file(file + "_picture.csv", picture_table(*the_case.problem, *solved.trajectory).csv());
       write_file(file + "_nodes.csv", node_table(*the_case.problem, *solved.trajectory).csv());
@@ -85,6 +99,7 @@ class Solve final : public Experiment {
                                      {"method", the_case.method},
                                      {"tableau", the_case.tableau},
                                      {"stages", the_case.stages},
+                                     {"solver", the_case.solver},
                                      {"intervals", the_case.intervals()},
                                      {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
       fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);
@@ -92,9 +107,37 @@ class Solve final : public Experiment {
                  solved.accuracy->relative_jump, solved.accuracy->interval);
     }
   }
+  void finish_interrupted(const Table& table, const std::filesystem::path& prefix,
+                          nlohmann::ordered_json& metadata) override {
+    finish(table, prefix, metadata);
+  }
 
  private:
+  /// What tells the motion of a case from those of the others, behind the table's name.
+  [[nodiscard]] std::string label_of(const Case& the_case) const {
+    if (single_) return "";
+    return "_" + the_case.file_label() + (has_several_solvers_ ? "_" + the_case.solver : "");
+  }
+
+  /// Throws `Error` if the trace cannot be written, or would be lost under a file of the run.
+  void check_trace() const {
+    std::error_code none;  // what is not there has no links to follow
+    const auto place = [&none](const std::filesystem::path& path) {
+      return std::filesystem::weakly_canonical(std::filesystem::absolute(path), none);
+    };
+    std::vector<std::string> own = further_files();
+    own.insert(own.end(), {".csv", ".json"});
+    for (const std::string& suffix : own) {
+      if (place(trace_file_) != place(card_.options.out / (card_.options.name + suffix))) continue;
+      throw Error(fmt::format("--trace {} is a file that the run itself writes; name another", trace_file_));
+    }
+    const bool is_in_folder_to_make = place(trace_file_).parent_path() == place(card_.options.out);
+    if (!is_in_folder_to_make) require_writable(trace_file_);
+  }
+
   bool single_ = true;
+  bool has_several_solvers_ = false;
+  std::vector<std::string> labels_;  // of all cases
   std::string trace_file_;
   std::vector<MinorIteration> trace_;
   std::vector<SolvedCase> motions_;  // solved, each with its trajectory

@@ -5,6 +5,7 @@
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/structure/example_systems.hpp"
@@ -120,13 +121,16 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results)
 /// Energy change against the work of the thrust along the optimal transfer, for all methods.
 void follow_transfer(EnergyResults& results) {
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
-  StartProvider starts("common", {});
+  SolverOptions options;
+  options.stop_requested = interrupt_requested;
+  StartProvider starts("common", options);
   Case the_case{.problem = problem, .method = {}, .tableau = "gauss", .solver = "ipopt"};
   for (const std::string& method : element_names()) {
     the_case.method = method;
     const Scheme scheme{problem->name(), method, the_case.tableau, the_case.stages};
     std::vector<GridError> points;
     for (const long long intervals : {32, 64, 128, 256}) {
+      throw_if_interrupted();
       the_case.grid = Grid::uniform(intervals);
       const EnergyBalance balance = energy_balance(*problem, starts.solve(the_case));
       const double h = problem->horizon() / static_cast<double>(intervals);
@@ -144,23 +148,26 @@ int write_tables(CommandLine& line) {
   long long periods = 10000;
   line.option("--out", out, "folder for the results");
   line.number("--steps", steps, 1, 1000000, "steps of the forced maps");
-  line.number("--steps-per-period", steps_per_period, 8, 100000, "steps per period of the orbit");
+  line.number("--steps-per-period", steps_per_period, 16, 100000, "steps per period of the orbit");
   line.number("--periods", periods, 3, 10000000, "periods of the orbit");
   const std::vector<std::string> command_line = line.parse();
   prepare_folder(out);
-  const auto write = [&](const std::string& name, const Table& table) {
-    const std::filesystem::path file = out / (name + ".csv");
-    write_file(file, table.csv());
-    fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
-  };
-  write("structure_momentum", noether_table(steps));
-  write("structure_symplecticity", symplecticity_table());
+  listen_for_interrupt();
+  const Table momentum = noether_table(steps);
+  const Table symplecticity = symplecticity_table();
   EnergyResults results;
   for (const LongTimeMethod& method : long_time_methods()) {
     follow(method, steps_per_period, periods, true, results);
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
   follow_transfer(results);
+  const auto write = [&](const std::string& name, const Table& table) {
+    const std::filesystem::path file = out / (name + ".csv");
+    write_file(file, table.csv());
+    fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
+  };
+  write("structure_momentum", momentum);
+  write("structure_symplecticity", symplecticity);
   write("structure_transfer", table_of(transfer_columns, results.transfer));
   write("structure_energy", table_of(period_columns, results.periods));
   write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));

@@ -1,13 +1,20 @@
 #include "bench/experiment/command_line.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include "bench/experiment/process_pool.hpp"
+#include "methods/error.hpp"
 
 namespace dmocbench {
 
@@ -27,7 +34,34 @@ int report_error(const std::string& name, std::string sentence) {
   return 2;
 }
 
+/// What std::thread says where the system gives it no more.
+bool is_out_of_threads(const std::exception& error) noexcept {
+  const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
+  return of_system != nullptr && of_system->code() == std::errc::resource_unavailable_try_again;
+}
+
 }  // namespace
+
+// An array of Eigen, a vector, or the heap itself.
+bool is_out_of_memory(const std::exception& error) noexcept {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         dynamic_cast<const std::length_error*>(&error) != nullptr;
+}
+
+std::string sentence_of(const std::exception& error) {
+  if (is_out_of_memory(error)) return "out of memory; fewer intervals or a higher limit (ulimit -v) help";
+  if (is_out_of_threads(error)) {
+    return "the system gives no more threads; set DMOCBENCH_THREADS=1 or raise the limit (ulimit -u)";
+  }
+  if (const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    return fmt::format("{}: {}", of_file->path1().string(), of_file->code().message());
+  }
+  const bool is_ours = dynamic_cast<const Error*>(&error) != nullptr ||
+                       dynamic_cast<const Interrupted*>(&error) != nullptr ||
+                       dynamic_cast<const std::system_error*>(&error) != nullptr;  // the system's words
+  return is_ours ? error.what()
+                 : fmt::format("something went wrong that should not have, please tell: {}", error.what());
+}
 
 template <class Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
@@ -71,15 +105,22 @@ std::vector<std::string> CommandLine::parse() {
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body) {
   CLI::App app(description, name);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   try {
     CommandLine line(app, argc, argv);
-    return body(line);
+    const int code = body(line);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    return report_error(name, "cannot write to standard output");
   } catch (const CLI::Success& request) {  // --help
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     return report_error(name, std::string(error.what()) + "; --help lists the options");
+  } catch (const Interrupted& interrupt) {
+    report_error(name, interrupt.what());
+    return 130;
   } catch (const std::exception& error) {
-    return report_error(name, error.what());
+    const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
+    return interrupt_requested() ? 130 : code;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -44,8 +45,15 @@ class CommandLine {
   char** argv_;
 };
 
+/// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
+[[nodiscard]] std::string sentence_of(const std::exception& error);
+
+/// True if memory was missing, of which other work may have enough.
+[[nodiscard]] bool is_out_of_memory(const std::exception& error) noexcept;
+
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
-/// standard error, with the program's `name` in front, and exit code 2.
+/// standard error, with the program's `name` in front, and exit code 2, as does standard output that cannot be written;
+/// `Interrupted` gives 130.
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body);
 

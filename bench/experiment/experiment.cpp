@@ -67,6 +67,8 @@ class Run {
 
   int run() {
     prepare_folder(options_.out);
+    const ResultLock lock(prefix_);
+    require_writable(table_file());
     listen_for_interrupt();
     if (experiment_.card().takes_turns) {
       solve_in_turn();
@@ -75,7 +77,9 @@ class Run {
     } else {
       solve_part(0, cases_.size());
     }
+    const bool complete = !interrupt_requested();
     const Table table = write_table();
+    if (table.rows().empty()) throw_if_interrupted();
     const auto rows_of = [&](Status status) {
       return std::ranges::count(table.rows(), name_of(status), [](const Row& row) { return row.text("status"); });
     };
@@ -83,22 +87,42 @@ class Run {
     const auto failures = std::ssize(table.rows()) - rows_of(Status::solved) - too_coarse;
     const auto other_branch =
         std::ranges::count_if(table.rows(), [](const Row& row) { return row.text("branch") == "other"; });
-    const bool complete = !interrupt_requested();
-    if (complete) experiment_.finish(table, prefix_, metadata_);
+    if (complete) {
+      experiment_.finish(table, prefix_, metadata_);
+    } else {
+      experiment_.finish_interrupted(table, prefix_, metadata_);
+    }
     metadata_["complete"] = complete;
     metadata_["rows"] = table.rows().size();
     metadata_["not_solved"] = failures;
     metadata_["too_coarse"] = too_coarse;
     metadata_["on_another_branch"] = other_branch;
-    write_file(prefix_.string() + ".json", metadata_.dump(2) + "\n");
-    fmt::print("{}: {} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name, table.rows().size(),
-               failures, other_branch, coarse_by_method(table), table_file().string());
+    write_metadata(prefix_.string() + ".json", metadata_);
+    fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
+               complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),
+               table.rows().size(), failures, other_branch, coarse_by_method(table), table_file().string());
     if (!complete) return 130;
     return failures > 0 ? 1 : 0;
   }
 
  private:
-  [[nodiscard]] std::filesystem::path table_file() const { return prefix_.string() + ".csv"; }
+  [[nodiscard]] std::filesystem::path table_file() const {
+    return part_.empty() ? std::filesystem::path(prefix_.string() + ".csv") : part_;
+  }
+
+  /// The files of an earlier run make room for this one's. One that the run starts from is kept.
+  void replace_earlier_files() {
+    metadata_["complete"] = false;
+    write_metadata(prefix_.string() + ".json", metadata_);
+    const std::string start = options_.start.substr(0, options_.start.rfind("_nodes.csv"));
+    std::error_code none;  // they need not exist
+    for (const std::string& suffix : experiment_.further_files()) {
+      const std::string file = prefix_.string() + suffix;
+      const bool is_start = std::filesystem::equivalent(file, start + "_nodes.csv", none) ||
+                            std::filesystem::equivalent(file, start + "_stages.csv", none);
+      if (!is_start) std::filesystem::remove(file, none);
+    }
+  }
 
   /// ", 3 too coarse (dmoc 1, tangent 2)"; nothing where no answer is.
   static std::string coarse_by_method(const Table& table) {
@@ -146,13 +170,14 @@ class Run {
       const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
       SolvedCase solved = solve(curve[position], options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
-      experiment_.complete(solved);
-      keep(row_of(columns_, solved), first + position);
+      keep(completed(solved), first + position);
     }
   }
 
-  /// The solved case; without a start its row says so, and the run goes on.
+  /// The solved case. Without a start or memory, or where a library fails, its row says so, and the run goes
+  /// on; what is wrong with the first case is wrong with the run.
   SolvedCase solve(const Case& the_case, int repeats) {
+    SolvedCase unsolved{.the_case = the_case};
     try {
       const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
                         .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
@@ -160,10 +185,27 @@ class Run {
       return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
                         repeats, experiment_.card().polishes);
     } catch (const NoStart& reason) {
-      SolvedCase unsolved{.the_case = the_case};
       unsolved.solution.message = reason.what();
-      return unsolved;
+    } catch (const Error& error) {
+      if (done_ == 0) throw;
+      unsolved.solution.message = error.what();
+    } catch (const std::exception& error) {
+      unsolved.solution.status = is_out_of_memory(error) ? Status::out_of_memory : Status::solver_error;
+      unsolved.solution.message = sentence_of(error);
     }
+    return unsolved;
+  }
+
+  /// The row of a solved case, with what the experiment measures; without memory for that its message says so.
+  Row completed(SolvedCase& solved) {
+    try {
+      experiment_.complete(solved);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& error) {
+      solved.note(fmt::format("What is measured of the answer is missing: {}.", sentence_of(error)));
+    }
+    return row_of(columns_, solved);
   }
 
   /// Grid after grid; the cases that differ in method, solver and variant only are solved in turn.
@@ -193,8 +235,7 @@ class Run {
     }
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       set_median_times(first[i], rounds[i]);
-      experiment_.complete(first[i]);
-      keep(row_of(columns_, first[i]), numbers[i]);
+      keep(completed(first[i]), numbers[i]);
     }
   }
 
@@ -212,6 +253,7 @@ class Run {
     if (std::exchange(has_file_, true)) {
       append_to_file(table_file(), line);
     } else {
+      if (part_.empty()) replace_earlier_files();
       write_table();
     }
     ++done_;
@@ -224,17 +266,24 @@ class Run {
       if (i == 0 || cases_[i].problem != cases_[i - 1].problem) heads.push_back(i);
     }
     heads.push_back(cases_.size());
-    const auto part_of = [whole = prefix_.string()](std::size_t i) { return fmt::format("{}_part_{}", whole, i); };
+    std::vector<std::filesystem::path> parts;  // named by this process
+    for (const std::size_t i : heads)
+      parts.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), i)));
     const auto work = [&](std::size_t i) {
-      prefix_ = part_of(i);
-      has_file_ = false;
+      part_ = parts[i];
+      has_file_ = true;
       rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
+      write_file(part_, Table(names_).csv());
       solve_part(heads[i], heads[i + 1]);
       write_table();
     };
     const auto collect = [&](std::size_t i) {
-      const std::filesystem::path file = part_of(i) + ".csv";
-      if (!std::filesystem::exists(file)) return;  // it ended before it had written anything
+      const std::filesystem::path& file = parts[i];
+      if (!std::filesystem::exists(file)) {
+        if (interrupt_requested()) return;
+        throw Error(
+            fmt::format("the rows of {} are lost: {} has vanished", cases_[heads[i]].problem->name(), file.string()));
+      }
       const Table part = Table::from_csv(read_file(file));
       std::filesystem::remove(file);
       std::size_t number = heads[i];
@@ -256,6 +305,7 @@ class Run {
   std::vector<std::string> names_;
   std::vector<std::optional<Row>> rows_;
   std::filesystem::path prefix_;
+  std::filesystem::path part_;  ///< the table of a process that works for another; empty in that one
   nlohmann::ordered_json metadata_;
   /// Standard error if it is a terminal, where one line says what is being solved; it is erased at the end.
   std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_{::isatty(STDERR_FILENO) == 1 ? stderr : nullptr,

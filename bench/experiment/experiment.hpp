@@ -55,10 +55,16 @@ class Experiment {
   [[nodiscard]] virtual std::size_t solved_first(const std::vector<Case>& /*curve*/) const { return 0; }
   /// Measures the values of the own columns for a solved case. Called in the order of solving.
   virtual void complete(SolvedCase& /*solved*/) {}
+  /// What `finish` puts behind the table's name, as in "_slopes.csv"; asked for after `check`. Those of an earlier run
+  /// are removed when the first row is written, so that old and new never stand beside each other.
+  [[nodiscard]] virtual std::vector<std::string> further_files() const { return {}; }
   /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
   /// table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
                       nlohmann::ordered_json& /*metadata*/) {}
+  /// The same where a stop was asked for before all rows were there, but not before the first.
+  virtual void finish_interrupted(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
+                                  nlohmann::ordered_json& /*metadata*/) {}
 
  protected:
   ExperimentCard card_;
@@ -74,7 +80,8 @@ class Experiment {
 
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
 /// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
-/// (finished rows are kept).
+/// (finished rows are kept). Nothing of an earlier run of that name is touched before the first row is there; from then
+/// on until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
 int run_experiment(Experiment&& experiment, int argc, char** argv);
 
 }  // namespace dmocbench

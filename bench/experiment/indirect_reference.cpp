@@ -1,7 +1,9 @@
 #include "bench/experiment/indirect_reference.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
+#include <boost/crc.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -41,22 +43,32 @@ Eigen::MatrixXd matrix_of(const Json& columns) {
   return matrix;
 }
 
+/// Of a file without its own entry: a digit that is damaged shows, also where no equation asks for it.
+std::uint32_t checksum_of(Json file) {
+  file.erase("checksum");
+  const std::string text = file.dump();
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return crc.checksum();
+}
+
 std::string written(const Problem& problem, const IndirectSolution& solution) {
   const CollocatedExtremal& extremal = solution.extremal();
   const IndirectAgreement& agreement = solution.agreement();
-  const Json file{{"problem", problem.name()},
-                  {"parameters", parameters_of(problem)},
-                  {"stages", extremal.stages},
-                  {"horizon", extremal.horizon},
-                  {"scaled_cost", extremal.cost},
-                  {"agreement",
-                   {{"state", agreement.state},
-                    {"costate", agreement.costate},
-                    {"control", agreement.control},
-                    {"cost", agreement.cost}}},
-                  {"nodes", columns_of(extremal.nodes)},
-                  {"slopes", columns_of(extremal.rates)},
-                  {"algebraic", columns_of(extremal.algebraic)}};
+  Json file{{"problem", problem.name()},
+            {"parameters", parameters_of(problem)},
+            {"stages", extremal.stages},
+            {"horizon", extremal.horizon},
+            {"scaled_cost", extremal.cost},
+            {"agreement",
+             {{"state", agreement.state},
+              {"costate", agreement.costate},
+              {"control", agreement.control},
+              {"cost", agreement.cost}}},
+            {"nodes", columns_of(extremal.nodes)},
+            {"slopes", columns_of(extremal.rates)},
+            {"algebraic", columns_of(extremal.algebraic)}};
+  file["checksum"] = checksum_of(file);
   return file.dump() + "\n";
 }
 
@@ -83,6 +95,7 @@ std::optional<IndirectSolution> read_solution(const std::filesystem::path& path,
   try {
     const Json file = Json::parse(read_file(path));
     if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
+    if (file.at("checksum") != checksum_of(file)) return std::nullopt;
     CollocatedExtremal extremal;
     extremal.stages = file.at("stages");
     extremal.horizon = file.at("horizon");

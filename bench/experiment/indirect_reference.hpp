@@ -29,8 +29,8 @@ struct CheckedIndirectSolution {
 /// Indirect solutions that errors are measured against, one per problem, kept in the output folder.
 ///
 /// PROBLEM_indirect.json holds all numbers of a solution. It is used again if it was made with the same parameters, its
-/// numbers still solve the boundary value problem (so that a changed formula is noticed) and it is on the branch of the
-/// direct solution; otherwise the problem is solved anew and the file written whole.
+/// checksum holds, its numbers still solve the boundary value problem (so that a changed formula is noticed) and it is
+/// on the branch of the direct solution; otherwise the problem is solved anew and the file written whole.
 class IndirectReference {
  public:
   /// `folder` is where the files are; it exists when `near` is called.

@@ -84,10 +84,14 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
   return description;
 }
 
+void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description) {
+  write_file(file, description.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
 void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line) {
   nlohmann::ordered_json description = describe_run(command_line);
   description["complete"] = true;
-  write_file(file, description.dump(2) + "\n");
+  write_metadata(file, description);
 }
 
 }  // namespace dmocbench

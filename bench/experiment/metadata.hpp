@@ -12,6 +12,9 @@ namespace dmocbench {
 /// commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);
 
+/// Writes a description as a file; what is no text (UTF-8) in it is replaced.
+void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description);
+
 /// Writes the same of a run that has come to its end.
 void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line);
 

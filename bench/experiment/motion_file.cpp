@@ -1,5 +1,7 @@
 #include "bench/experiment/motion_file.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "bench/experiment/result_file.hpp"
@@ -26,6 +28,26 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
     ++k;
   }
   return values;
+}
+
+/// The table in a file. Throws `Error` that names the file.
+Table table_in(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  try {
+    return Table::from_csv(text);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+/// The column t. Throws `Error` unless it ascends.
+Eigen::VectorXd times_in(const Table& table, const std::filesystem::path& file) {
+  Eigen::VectorXd times = columns(table, {"t"}, "", file);
+  for (Eigen::Index k = 0; k < times.size(); ++k) {
+    if (std::isfinite(times[k]) && (k == 0 || times[k] > times[k - 1])) continue;
+    throw Error(fmt::format("{}: t must be finite and ascend, but does not in row {}", file.string(), k + 1));
+  }
+  return times;
 }
 
 /// Quantities over time: a column each, with a prefix before its name; no rows where there are none.
@@ -99,14 +121,14 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
     throw Error(fmt::format("--start {} is none of: common, guess, a file X_nodes.csv written by solve", name));
   }
   const std::filesystem::path stages_file = name.substr(0, name.size() - ending.size()) + "_stages.csv";
-  const Table nodes = Table::from_csv(read_file(nodes_file));
-  const Table stages = Table::from_csv(read_file(stages_file));
+  const Table nodes = table_in(nodes_file);
+  const Table stages = table_in(stages_file);
 
   // One control per stage time, joined linearly: the trajectory of a one-stage method.
   Trajectory trajectory;
   trajectory.tableau = gauss_tableau(1);
-  trajectory.node_times = columns(nodes, {"t"}, "", nodes_file);
-  trajectory.stage_times = columns(stages, {"t"}, "", stages_file);
+  trajectory.node_times = times_in(nodes, nodes_file);
+  trajectory.stage_times = times_in(stages, stages_file);
   if (trajectory.node_times.size() < 2 || trajectory.stage_times.size() == 0) {
     throw Error(fmt::format("{} holds no motion", nodes_file.string()));
   }

@@ -170,6 +170,10 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     throw Error(
         fmt::format("--name \"{}\" must be a file's name without a folder; --out names the folder", options.name));
   }
+  constexpr std::size_t longest_name = 100;  // what names of files begin with
+  if (options.name.size() > longest_name) {
+    throw Error(fmt::format("--name takes at most {} letters, not {}", longest_name, options.name.size()));
+  }
   if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
   const std::vector<Grid> grids = make_grids(options);
   const CostForm form = cost_form_named(options.form);
@@ -199,19 +203,20 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
 }
 
 std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
+  constexpr std::size_t most_counts = 1000;
   std::set<long long> counts;
   std::string_view rest = text;
   do {
     std::string_view entry = take_part(rest, ',');
-    if (entry.find(':') == std::string_view::npos) {
-      counts.insert(parse_count(option, entry));
-      continue;
-    }
     const std::string whole(entry);
+    const bool is_range = entry.find(':') != std::string_view::npos;
     const long long first = parse_count(option, take_part(entry, ':'));
-    const long long last = parse_count(option, entry);
+    const long long last = is_range ? parse_count(option, entry) : first;
     if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
     for (long long count = first; count <= last; count *= 2) counts.insert(count);
+    if (counts.size() > most_counts) {  // all grids are in memory at the same time
+      throw Error(fmt::format("{} takes at most {} numbers; run the rest under another --name", option, most_counts));
+    }
   } while (!rest.empty());
   return {counts.begin(), counts.end()};
 }

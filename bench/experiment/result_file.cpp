@@ -1,15 +1,20 @@
 #include "bench/experiment/result_file.hpp"
 
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
 
@@ -44,6 +49,45 @@ void close_or_undo(int descriptor, bool is_whole, const std::filesystem::path& p
   throw Error(fmt::format("cannot write {}: {}", path.string(), failure));
 }
 
+/// True if both are the same file.
+bool is_same(const std::filesystem::path& path, int descriptor) {
+  struct stat named {};
+  struct stat open {};
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(descriptor, &open) == 0 && named.st_dev == open.st_dev &&
+         named.st_ino == open.st_ino;
+}
+
+/// True if a file of that name would be written into, not replaced.
+bool is_special(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_other(path, ignored) || is_same(path, STDOUT_FILENO);
+}
+
+void write_into(const std::filesystem::path& path, std::string_view content) {
+  std::fflush(stdout);  // what was printed comes first
+  int descriptor = -1;
+  if (is_same(path, STDOUT_FILENO)) {
+    descriptor = ::dup(STDOUT_FILENO);
+  } else if ((descriptor = open_to_write(path, O_NONBLOCK)) >= 0) {  // a pipe without a reader is not waited for
+    ::fcntl(descriptor, F_SETFL, 0);                                 // NOLINT(cppcoreguidelines-pro-type-vararg)
+  }
+  close_or_undo(descriptor, write_all(descriptor, content), path, [] {});
+}
+
+/// Removes ".NAME.csv.123" and the like where process 123 has ended.
+void remove_leftovers(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    std::filesystem::path name = entry.path().filename();
+    const auto number = [&name] { return parsed<pid_t>(name.extension().string().erase(0, 1)); };
+    const pid_t process = number().value_or(0);
+    while (number()) name = name.stem();  // a process may have been writing what another left
+    const std::string kind = name.extension().string();
+    if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md")) continue;
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 void prepare_folder(const std::filesystem::path& folder) {
@@ -56,11 +100,31 @@ void prepare_folder(const std::filesystem::path& folder) {
   if (::access(folder.c_str(), W_OK) != 0) {
     throw Error(fmt::format("cannot write to the output folder {}: {}", folder.string(), reason()));
   }
+  remove_leftovers(folder);
 }
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path temporary =
-      path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
+std::filesystem::path temporary_name(const std::filesystem::path& file) {
+  return file.parent_path() / fmt::format(".{}.{}", file.filename().string(), ::getpid());
+}
+
+void require_writable(const std::filesystem::path& path) {
+  std::error_code none;  // what the system refuses to look up shows when it is written
+  if (std::filesystem::is_directory(path, none)) {
+    throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", path.string()));
+  }
+  if (is_special(path)) return;
+  const std::filesystem::path probe = temporary_name(path);
+  const int descriptor = open_to_write(probe, O_CREAT);
+  close_or_undo(descriptor, descriptor >= 0, path, [] {});
+  ::unlink(probe.c_str());
+}
+
+void write_file(const std::filesystem::path& link, std::string_view content) {
+  if (is_special(link)) return write_into(link, content);
+  std::error_code ignored;
+  const bool is_link = std::filesystem::is_symlink(link, ignored);
+  const std::filesystem::path path = is_link ? std::filesystem::weakly_canonical(link, ignored) : link;
+  const std::filesystem::path temporary = temporary_name(path);
   const int descriptor = open_to_write(temporary, O_CREAT | O_TRUNC);
   // A full disk may show itself only when the content is forced out.
   const bool is_whole =
@@ -77,11 +141,40 @@ void append_to_file(const std::filesystem::path& path, std::string_view line) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
-  std::ifstream stream(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw Error(fmt::format("cannot read {}", path.string()));
-  return content;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
+  }
+  if (std::filesystem::is_other(path, ignored)) {
+    throw Error(
+        fmt::format("cannot read {}: it is no regular file and might have no end; copy it to one", path.string()));
+  }
+  try {
+    std::ifstream stream(path, std::ios::binary);
+    std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (stream) return content;
+  } catch (const std::ios_base::failure&) {  // the system refuses to read what it has opened
+  }
+  throw Error(fmt::format("cannot read {}", path.string()));
+}
+
+ResultLock::ResultLock(const std::filesystem::path& prefix)
+    : file_(prefix.parent_path() / fmt::format(".{}.lock", prefix.filename().string())) {
+  // Another run removes its file when it ends; who was given that one by then has to ask for the new one.
+  while (descriptor_ < 0 || !is_same(file_, descriptor_)) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = open_to_write(file_, O_CREAT);
+    if (descriptor_ < 0) throw Error(fmt::format("cannot write {}: {}", file_.string(), reason()));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) continue;
+    ::close(descriptor_);
+    throw Error(
+        fmt::format("another run is writing {} now; wait for it, or choose another --name or --out", prefix.string()));
+  }
+}
+
+ResultLock::~ResultLock() {
+  ::unlink(file_.c_str());
+  ::close(descriptor_);
 }
 
 }  // namespace dmocbench

@@ -6,18 +6,42 @@
 
 namespace dmocbench {
 
-/// Makes the folder, parents included, and checks that files can be written there. Throws `Error` if not.
+/// Makes the folder, parents included, and checks that files can be written there. Removes what programs that were
+/// killed have left in it: hidden files that end with the number of a process that is no more. Throws `Error` if not.
 void prepare_folder(const std::filesystem::path& folder);
 
-/// Writes a file whole or not at all: to a temporary name in the same folder, then renamed. Throws `Error` (and removes
-/// the temporary file) if the disk is full or the folder cannot be written.
+/// The hidden name beside a file under which this process writes it: ".NAME.PROCESS".
+[[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& file);
+
+/// Throws `Error` unless `write_file` could write there: no folder, a name that is too long, no rights. Leaves nothing.
+void require_writable(const std::filesystem::path& path);
+
+/// Writes a file whole or not at all: to a temporary name in the same folder, then renamed; a link stays one. What
+/// exists and is not a regular file (a device, a pipe), or is this program's own output, is written into, never
+/// replaced. Throws `Error` (and removes the temporary file) if the disk is full or the folder cannot be written.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// Appends a line to a file, in one piece, so that a process that is killed leaves whole lines. Nothing waits for the
 /// disk. Throws `Error`, and leaves the file as it was, if the line cannot be written.
 void append_to_file(const std::filesystem::path& path, std::string_view line);
 
-/// The content of a file. Throws `Error` that names it if it cannot be read.
+/// The content of a regular file; others might have no end. Throws `Error` that names it if it cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
+/// While it lives, no other process has the results of that name in that folder: two runs never mix.
+class ResultLock {
+ public:
+  /// `prefix`: folder and name of the table. Throws `Error` if another process has them.
+  explicit ResultLock(const std::filesystem::path& prefix);
+  ResultLock(const ResultLock&) = delete;
+  ResultLock& operator=(const ResultLock&) = delete;
+  ResultLock(ResultLock&&) = delete;
+  ResultLock& operator=(ResultLock&&) = delete;
+  ~ResultLock();
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
 
 }  // namespace dmocbench

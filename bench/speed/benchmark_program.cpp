@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
@@ -72,22 +73,24 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
   return !benchmark::ReportUnrecognizedArguments(count, pointers.data());
 }
 
-void run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv) {
+/// Runs what the flags choose and writes its tables. False if they choose nothing; the library has then said so.
+bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv) {
   const nlohmann::ordered_json description = describe_run({});
   for (const char* key : {"commit", "compiler", "flags", "instruction_set", "processor"}) {
     benchmark::AddCustomContext(key, description.at(key).get<std::string>());
   }
   program.register_benchmarks();
   Reporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  const bool has_run = benchmark::RunSpecifiedBenchmarks(&reporter) > 0;
   benchmark::Shutdown();
   const Benchmarks benchmarks = reporter.benchmarks();
-  if (csv.empty() || benchmarks.empty()) return;
+  if (csv.empty() || benchmarks.empty()) return has_run;
   for (const auto& [suffix, table] : program.tables(benchmarks)) {
     std::filesystem::path file = csv;
     file.replace_filename(csv.stem().string() + suffix + csv.extension().string());
     write_file(file, table.csv());
   }
+  return has_run;
 }
 
 }  // namespace
@@ -109,20 +112,14 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
     return 2;
   }
   if (!initialize(*this, arguments.front(), flags)) return 2;
-  try {  // whether the tables can be written, before anything is timed
-    if (!file.empty()) prepare_folder(file.has_parent_path() ? file.parent_path() : ".");
-    if (std::filesystem::is_directory(file)) {
-      throw Error(fmt::format("cannot write {}: it is a folder; name a file in it", file.string()));
-    }
-  } catch (const Error& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
-    return 2;
+  if (!file.empty()) require_writable(file);  // before anything is timed
+  for (const std::string& flag : flags) {
+    if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions are at least 1");
   }
-  run_and_write(*this, file);
-  return 0;
+  return run_and_write(*this, file) ? 0 : 2;
 } catch (const std::exception& error) {
-  fmt::print(stderr, "{}: {}\n", name, error.what());
-  return 1;
+  fmt::print(stderr, "{}: {}\n", name, sentence_of(error));
+  return 2;
 }
 
 }  // namespace dmocbench::speed

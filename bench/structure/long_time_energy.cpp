@@ -7,6 +7,7 @@
 
 #include <boost/numeric/odeint.hpp>
 
+#include "bench/experiment/process_pool.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
@@ -87,6 +88,7 @@ std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int ste
   const long long every = std::max(1LL, periods / watched);
   std::vector<PeriodEnergy> result;
   for (long long k = 0; k < periods; ++k) {
+    throw_if_interrupted();
     const bool is_watched = k < first_periods || (k + 1) % every == 0;
     PeriodEnergy period{.period = k,
                         .smallest = std::numeric_limits<double>::infinity(),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
@@ -96,6 +97,7 @@ Forced simulate(const Invariant& system, const Element& element, const Tableau& 
   long double work_of_discrete_forces = 0.0L;
   Scalar defect = 0.0;
   for (int k = 0; k < steps; ++k) {
+    throw_if_interrupted();
     const Eigen::MatrixXd controls = arbitrary_controls(tableau.stages(), problem.control_size(), k, system.amplitude);
     const Scalar t = Scalar(k) * h;
     const auto step = map.advance(q, p, velocity, controls.cast<Scalar>(), h, t);

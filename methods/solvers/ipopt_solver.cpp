@@ -16,6 +16,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -213,7 +214,22 @@ void set_options(Ipopt::IpoptApplication& application, const SolverOptions& opti
   for (const auto& [name, value] : options.passed_on) pass_on(list, name, value);
 }
 
+/// Ipopt with all options set. Throws `Error` if it does not take one.
+Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& options) {
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options.verbose);
+  application->RethrowNonIpoptException(true);
+  set_options(*application, options);
+  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
+    throw Error("Ipopt refuses one of the options passed on to it");
+  }
+  return application;
+}
+
 }  // namespace
+
+IpoptSolver::IpoptSolver(SolverOptions options) : Solver(std::move(options)) {
+  if (!this->options().passed_on.empty()) static_cast<void>(application_with(this->options()));
+}
 
 std::string IpoptSolver::description() const {
   return "interior-point method with filter line search (Ipopt " IPOPT_VERSION "), exact sparse derivatives";
@@ -221,12 +237,7 @@ std::string IpoptSolver::description() const {
 
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   Solution solution;
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options().verbose);
-  application->RethrowNonIpoptException(true);
-  set_options(*application, options());
-  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw Error("Ipopt refuses one of the options passed on to it");
-  }
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = application_with(options());
   program.restart_clock();
   const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options(), solution);
   const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 
 #include "methods/solvers/solver.hpp"
 
@@ -13,7 +12,8 @@ namespace dmocbench {
 /// else is Ipopt's default or comes by `SolverOptions::passed_on`.
 class IpoptSolver final : public Solver {
  public:
-  explicit IpoptSolver(SolverOptions options) : Solver(std::move(options)) {}
+  /// Throws `Error` if Ipopt does not take one of the options passed on to it.
+  explicit IpoptSolver(SolverOptions options);
   [[nodiscard]] std::string name() const override { return "ipopt"; }
   [[nodiscard]] std::string description() const override;
 

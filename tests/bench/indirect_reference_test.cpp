@@ -101,6 +101,19 @@ TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {
   }
 }
 
+TEST_F(IndirectReferenceIn, AFileWithAnotherCostOrAgreementIsWrittenAnew) {
+  static_cast<void>(row_for(problem_, direct_));
+  const std::filesystem::path file = folder_ / "double_integrator_indirect.json";
+  const auto good = nlohmann::ordered_json::parse(read_file(file));
+  for (const char* const number : {"/scaled_cost", "/agreement/state", "/agreement/cost"}) {
+    auto damaged = good;
+    auto& value = damaged[nlohmann::ordered_json::json_pointer(number)];
+    value = 1.01 * value.get<double>() + 1e-3;
+    write_file(file, damaged.dump());
+    EXPECT_TRUE(was_solved(row_for(problem_, direct_))) << number;
+  }
+}
+
 TEST_F(IndirectReferenceIn, MetadataTellTheInitialCostate) {
   IndirectReference reference(folder_);
   static_cast<void>(reference.near(problem_, direct_));

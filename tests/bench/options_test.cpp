@@ -1,7 +1,16 @@
 #include "bench/experiment/options.hpp"
 
+#include <filesystem>
+#include <new>
+#include <ranges>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "bench/experiment/command_line.hpp"
+#include "methods/error.hpp"
 #include "methods/transcription/grid.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
@@ -68,6 +77,22 @@ TEST(Number, TakesTheWholeText) {
   for (const std::string text : {"", "1 km", "1,5", "0x10", "one"}) {
     expect_error_naming({"x", "\"" + text + "\""}, [&] { static_cast<void>(parse_number("x", text)); });
   }
+}
+
+TEST(Intervals, MoreThanFitIntoMemoryAreRefused) {
+  const auto counts = std::views::iota(1, 1002);
+  expect_error_naming({"--intervals", "1000"},
+                      [&] { static_cast<void>(intervals(fmt::format("{}", fmt::join(counts, ",")))); });
+}
+
+TEST(Sentences, OfLibrariesSayWhatTheyMean) {
+  EXPECT_EQ(sentence_of(Error("ours")), "ours");
+  EXPECT_NE(sentence_of(std::bad_alloc()).find("out of memory"), std::string::npos);
+  EXPECT_NE(sentence_of(std::length_error("vector::reserve")).find("out of memory"), std::string::npos);
+  const auto no_threads = std::make_error_code(std::errc::resource_unavailable_try_again);
+  EXPECT_NE(sentence_of(std::system_error(no_threads)).find("DMOCBENCH_THREADS"), std::string::npos);
+  const auto denied = std::make_error_code(std::errc::permission_denied);
+  EXPECT_EQ(sentence_of(std::filesystem::filesystem_error("cannot copy", "a.csv", denied)), "a.csv: Permission denied");
 }
 
 }  // namespace

@@ -1,13 +1,19 @@
 #include "bench/experiment/result_file.hpp"
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -104,6 +110,75 @@ TEST_F(ResultFile, OntoAFolderIsRefusedAndLeavesNothing) {
 TEST_F(ResultFile, ThatIsNotThereOrIsAFolderCannotBeRead) {
   expect_error_naming({"cannot read", "none.csv"}, [&] { static_cast<void>(read_file(folder() / "none.csv")); });
   expect_error_naming({"cannot read", folder().string()}, [&] { static_cast<void>(read_file(folder())); });
+}
+
+TEST_F(ResultFile, ALinkStaysOneAndItsTargetIsReplaced) {
+  write_file(folder() / "table.csv", "older\n");
+  std::filesystem::create_symlink("table.csv", folder() / "link.csv");
+  write_file(folder() / "link.csv", "newer\n");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder() / "link.csv"));
+  EXPECT_EQ(read_file(folder() / "table.csv"), "newer\n");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(ResultFile, APipeIsWrittenIntoAndStaysOne) {
+  const std::filesystem::path pipe = folder() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_error_naming({"cannot write", "pipe"}, [&] { write_file(pipe, "nobody reads\n"); });
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  write_file(pipe, "some\n");
+  std::array<char, 16> read{};
+  EXPECT_EQ(::read(reader, read.data(), read.size()), 5);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  ::close(reader);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(ResultFile, WhatMightHaveNoEndIsNotRead) {
+  const std::filesystem::path pipe = folder() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& endless : {pipe, std::filesystem::path("/dev/zero")}) {
+    expect_error_naming({"cannot read", endless.string()}, [&] { static_cast<void>(read_file(endless)); });
+  }
+  expect_error_naming({"cannot read"}, [&] { static_cast<void>(read_file("/proc/self/mem")); });
+}
+
+TEST_F(ResultFile, LeftByAProcessThatIsNoMoreIsRemovedByTheNext) {
+  const pid_t ended = ::fork();
+  if (ended == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
+  const auto named = [&](const std::string& name, pid_t process) {
+    return folder() / fmt::format("{}.{}", name, process);
+  };
+  for (const char* const name : {".table.csv", ".table_part_0.csv", ".table.json"}) write_file(named(name, ended), "");
+  write_file(named("..table_part_0.csv.1", ended), "");
+  prepare_folder(folder());
+  EXPECT_EQ(entries(), 0);
+  write_file(named(".table.csv", ::getppid()), "");  // somebody is at it
+  write_file(named("notes.csv", ended), "");         // not hidden: the user's
+  write_file(named(".notes", ended), "");
+  prepare_folder(folder());
+  EXPECT_EQ(entries(), 3);
+}
+
+TEST_F(ResultFile, OneRunAtATimeHasAName) {
+  const std::filesystem::path prefix = folder() / "table";
+  {
+    const ResultLock first(prefix);
+    const ResultLock another(folder() / "another");
+    expect_error_naming({"another run", "table"}, [&] { const ResultLock second(prefix); });
+  }
+  EXPECT_EQ(entries(), 0);
+  const ResultLock again(prefix);
+}
+
+TEST_F(ResultFile, ThatCannotBeWrittenIsNoticedBeforehand) {
+  require_writable(folder() / "table.csv");
+  EXPECT_EQ(entries(), 0);
+  const std::string long_name(300, 'x');
+  for (const std::filesystem::path& path : {folder(), folder() / "none" / "table.csv", folder() / long_name}) {
+    expect_error_naming({"cannot write", path.string()}, [&] { require_writable(path); });
+  }
 }
 
 TEST_F(ResultFile, FoldersAreMadeWithTheirParents) {

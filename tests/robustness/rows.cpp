@@ -8,7 +8,7 @@
 
 namespace dmocbench::tests {
 
-bool told_apart(const Solution& solution, const IntervalReplay& replay) {
+bool told_apart(const Solution& solution, const Accuracy& replay) {
   return is_solved(solution.status) && !(replay.relative_jump <= largest_relative_jump);
 }
 
@@ -25,7 +25,7 @@ Row run_row(const Problem& problem, const std::string& method, const Setting& se
   row.cost = row.solution.objective / program->cost_scale();
   row.replay.relative_jump = std::numeric_limits<double>::infinity();
   if (is_solved(row.solution.status)) {
-    row.replay = interval_replay(problem, read_trajectory(*program, row.solution.primal, row.solution.multipliers));
+    row.replay = accuracy(problem, read_trajectory(*program, row.solution.primal, row.solution.multipliers));
   }
   fmt::print("{:58} {:15} cost {:<12.7g} jump {:.1e} in {:2}, {:3} iterations, {:.3f} s\n", row.label,
              name_of(row.solution.status), row.cost, row.replay.relative_jump, row.replay.interval,

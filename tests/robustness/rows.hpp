@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "methods/diagnostics/interval_replay.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench::tests {
@@ -21,7 +21,7 @@ struct Row {
   std::string label;
   Solution solution;
   double cost = 0.0;
-  IntervalReplay replay;
+  Accuracy replay;
 };
 
 /// The largest jump of an interval's replay, relative to the state's range, of what counts as a motion.
@@ -30,7 +30,7 @@ constexpr double largest_relative_jump = 0.05;
 /// True if the answer says of itself that it is no motion, although its program is solved. This is the one place that
 /// decides. Until "solved, but not a motion" is a status of its own, the replay decides, which whoever reads the status
 /// alone cannot do; from then on it is the status, and `expect_rows` holds it against the replay.
-[[nodiscard]] bool told_apart(const Solution& solution, const IntervalReplay& replay);
+[[nodiscard]] bool told_apart(const Solution& solution, const Accuracy& replay);
 
 /// Solves a setting's six rows and expects of them that
 /// - none is given as a motion (solved, and not told apart) whose replay jumps beyond the limit;
