@@ -39,9 +39,13 @@ class CommandLine {
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
+  /// Throws where a list has nothing between two commas, which CLI11 drops without a word.
+  void refuse_empty_entries() const;
+
   CLI::App& app_;
   int argc_;
   char** argv_;
+  std::vector<std::string> lists_;  ///< options with commas between their values
 };
 
 /// Runs a program: `body` declares its options, parses them and returns the exit code. Every error becomes one line on
