@@ -28,6 +28,7 @@ std::pair<std::string, int> parse_route(const std::string& text) {
     throw Error(fmt::format("--routes takes tableaus with their stages like gauss3,lobatto4, not {}", text));
   }
   const std::string tableau = text.substr(0, digits);
+  if (text[digits] == '0') throw Error(fmt::format("--routes: {} has a stray 0; write gauss3", text));
   const int stages = std::stoi(text.substr(digits));
   static_cast<void>(make_tableau(tableau, stages));  // throws if it is not offered
   return {tableau, stages};
@@ -159,6 +160,10 @@ class Certify final : public Experiment {
   }
 
   void check(const std::vector<Case>& cases) override {
+    for (const std::string& route : route_names_) {
+      if (std::ranges::count(route_names_, route) == 1) continue;
+      throw Error(fmt::format("--routes: {} stands there twice; routes have to differ", route));
+    }
     for (const Case& the_case : cases) {
       if (problems_.empty() || problems_.back().problem != the_case.problem) problems_.push_back({the_case.problem});
       ++problems_.back().cases_left;

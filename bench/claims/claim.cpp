@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cmath>
-
-#include "bench/experiment/result_file.hpp"
-#include "methods/error.hpp"
+#include <concepts>
 
 namespace dmocbench {
 
@@ -36,18 +34,44 @@ std::vector<std::string> problems_of(const Claims& claims) {
   return problems;
 }
 
+/// What is found; "not yet", with what is lacking, where nothing can be found.
+template <std::invocable Judge>
+Finding finding_of(const Judge& judge) {
+  try {
+    return judge();
+  } catch (const Error& lacking) {
+    return {lacking.what(), ClaimVerdict::not_yet};
+  }
+}
+
 /// A misprint is confirmed if what is printed differs from what must hold by far more than rounding; the verdict on the
 /// printed statement is then "differs".
-JudgedClaim judge_misprint(const Row& row) {
+Finding judge_misprint(const Row& row) {
   constexpr double tolerance = 1e-6;
-  const double printed = row.number("value_as_printed", std::nan(""));
-  const double required = row.number("required_value", std::nan(""));
-  return {.id = row.text("problem") + "/" + row.text("slip"),
-          .where = row.text("where"),
-          .states = row.text("printed"),
-          .measured = fmt::format("{}: {:.6g} as printed, {:.6g} as meant ({}), {:.6g} required", row.text("quantity"),
-                                  printed, row.number("value_as_meant", std::nan("")), row.text("meant"), required),
-          .verdict = verdict_on(std::abs(printed - required) < tolerance * std::max(1.0, std::abs(required)))};
+  const double printed = row.needed("value_as_printed");
+  const double required = row.needed("required_value");
+  return found(std::abs(printed - required) < tolerance * std::max(1.0, std::abs(required)),
+               "{}: {:.6g} as printed, {:.6g} as meant ({}), {:.6g} required", row.text("quantity"), printed,
+               row.needed("value_as_meant"), row.text("meant"), required);
+}
+
+/// The misprints of a table that is there; one row says so if it cannot be read.
+std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
+  if (!tables.has("slips")) return {};
+  std::vector<JudgedClaim> judged;
+  try {
+    for (const Row& row : tables.rows("slips")) {
+      Finding finding = finding_of([&] { return judge_misprint(row); });
+      judged.push_back({.id = row.text("problem") + "/" + row.text("slip"),
+                        .where = row.text("where"),
+                        .states = row.text("printed"),
+                        .measured = std::move(finding.measured),
+                        .verdict = finding.verdict});
+    }
+  } catch (const Error& fault) {
+    judged.push_back({.id = "paper/slips", .where = "", .states = "(misprints)", .measured = fault.what()});
+  }
+  return judged;
 }
 
 }  // namespace
@@ -57,29 +81,32 @@ std::string_view name_of(ClaimVerdict verdict) noexcept {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-ResultTables ResultTables::read(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
-  ResultTables tables;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::filesystem::path& path = entry.path();
-    const bool is_temporary = path.filename().string().starts_with('.');
-    if (path.extension() != ".csv" || path.stem() == "claims" || is_temporary) continue;
-    try {
-      tables.add(path.stem().string(), Table::from_csv(read_file(path)));
-    } catch (const Error& error) {
-      throw Error(fmt::format("{}: {}", path.string(), error.what()));
-    }
-  }
-  return tables;
+double quotient(const Row& row, const Row& other, const std::string& column) {
+  const auto value = ratio(row.needed(column), other.needed(column));
+  require(value.has_value(), "{}, column {}: a ratio needs a number above zero", other.place(), column);
+  return *value;
 }
 
-Selection ResultTables::rows(std::string_view table) const {
-  const auto found = tables_.find(table);
-  return found == tables_.end() ? Selection() : Selection(found->second);
+std::string left_out(const Selection& all, const Selection& used, std::string_view why) {
+  const Selection unused = all.where(
+      [&](const Row& row) { return std::ranges::none_of(used, [&](const Row& kept) { return &kept == &row; }); });
+  if (unused.empty()) return "";
+  std::vector<std::string> favoured;
+  for (const Selection& rows : unused.group_by({"method"})) {
+    favoured.push_back(fmt::format("{} ({})", rows.front().text("method"), rows.size()));
+  }
+  return fmt::format("; {} of {} rows left out, {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
+}
+
+std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted) {
+  if (!tables.has(table)) return "";
+  Selection solves = tables.rows(table);
+  for (const auto& [column, text] : wanted) solves = solves.where(column, text);
+  return left_out(solves, solves.usable());
 }
 
 Selection midpoint(const Selection& rows, const std::string& method) {
-  return rows.where("tableau", "gauss").where("stages", "1").where("method", method);
+  return rows.where(is_midpoint).where("method", method);
 }
 
 std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
@@ -88,17 +115,19 @@ std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
     for (const std::string& problem : problems_of(chapter)) {
       for (const Claim& claim : chapter) {
         if (std::ranges::find(claim.problems, problem) == claim.problems.end()) continue;
-        const auto finding = claim.judge(tables, problem);
-        if (!finding && claim.is_optional) continue;
+        if (!claim.needs.empty() && !tables.has(claim.needs)) continue;
+        Finding finding = finding_of([&] { return claim.judge(tables, problem); });
+        if (finding.verdict != ClaimVerdict::not_yet) finding.measured += claim.reason;
         judged.push_back({.id = problem + "/" + claim.id,
                           .where = claim.where.on(problem),
                           .states = claim.states.on(problem),
-                          .measured = finding ? finding->measured + claim.reason : "",
-                          .verdict = finding ? finding->verdict : ClaimVerdict::not_yet});
+                          .measured = std::move(finding.measured),
+                          .verdict = finding.verdict});
       }
     }
   }
-  for (const Row& misprint : tables.rows("slips")) judged.push_back(judge_misprint(misprint));
+  const std::vector<JudgedClaim> misprints = judge_misprints(tables);
+  judged.insert(judged.end(), misprints.begin(), misprints.end());
   return judged;
 }
 

@@ -2,15 +2,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "bench/summary/selection.hpp"
+#include "bench/claims/result_tables.hpp"
 
 namespace dmocbench {
 
@@ -19,30 +16,11 @@ enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
   floor,       ///< only rounding was measured: nothing can be said
-  not_yet,     ///< there is no experiment for it, or its table is not there
+  not_yet,     ///< it lacks a table, a row or a number
 };
 
 /// "reproduced", "differs", "floor" or "not yet".
 [[nodiscard]] std::string_view name_of(ClaimVerdict verdict) noexcept;
-
-/// The tables of a results folder by their names without ".csv".
-class ResultTables {
- public:
-  ResultTables() = default;
-  /// Reads every .csv of the folder but claims.csv. Throws `Error` that names a file that is no table.
-  [[nodiscard]] static ResultTables read(const std::filesystem::path& folder);
-
-  void add(const std::string& name, Table table) { tables_[name] = std::move(table); }
-  /// The rows of a table; none if it is not there.
-  [[nodiscard]] Selection rows(std::string_view table) const;
-  /// Those of one problem.
-  [[nodiscard]] Selection rows(std::string_view table, std::string_view problem) const {
-    return rows(table).where("problem", problem);
-  }
-
- private:
-  std::map<std::string, Table, std::less<>> tables_;
-};
 
 /// The paper's problems, and one of ours with a constant mass matrix.
 inline constexpr const char* orbit = "orbital_transfer";
@@ -80,8 +58,8 @@ struct Finding {
   ClaimVerdict verdict = ClaimVerdict::not_yet;
 };
 
-/// Judges a claim about a problem; nothing if its table is not there.
-using Predicate = std::function<std::optional<Finding>(const ResultTables& tables, const std::string& problem)>;
+/// Judges a claim about a problem. Throws `Error` that names what it lacks; the claim is then "not yet".
+using Predicate = std::function<Finding(const ResultTables& tables, const std::string& problem)>;
 
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
 struct Claim {
@@ -91,8 +69,8 @@ struct Claim {
   Whose whose;
   Wording states;
   Predicate judge;
-  const char* reason = "";   ///< explains what was measured, and is written behind it
-  bool is_optional = false;  ///< left out where its table is not there: the experiment is not part of every run
+  const char* reason = "";  ///< explains what was measured, and is written behind it
+  std::string needs = "";   ///< left out where this table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.
@@ -100,7 +78,7 @@ struct JudgedClaim {
   std::string id;        ///< "orbital_transfer/state_slope"
   std::string where;     ///< label or section in the paper
   std::string states;    ///< what the paper states
-  std::string measured;  ///< what was found
+  std::string measured;  ///< what was found, or what is lacking
   ClaimVerdict verdict = ClaimVerdict::not_yet;
 };
 
@@ -138,12 +116,35 @@ template <class Outcome, class... Values>
   return {fmt::format(words, std::forward<Values>(values)...), verdict_on(outcome)};
 }
 
-/// Whether the order that was fitted in a row is as expected; false without one.
+/// Whether the order that was fitted in a row is as expected.
 [[nodiscard]] inline bool has_order(const Row& row, double expected) {
-  const auto order = row.number("slope");
-  return order && std::abs(*order - expected) < near_order;
+  return std::abs(row.needed("slope") - expected) < near_order;
 }
 
+/// Throws `Error` in the words of fmt::format unless `is_there`: a claim lacks something.
+template <class... Values>
+void require(bool is_there, fmt::format_string<Values...> words, Values&&... values) {
+  if (!is_there) throw Error(fmt::format(words, std::forward<Values>(values)...));
+}
+
+/// The quotient of two numbers of rows. Throws `Error` if one is missing or the second is not positive.
+[[nodiscard]] double quotient(const Row& row, const Row& other, const std::string& column);
+
+/// Texts that rows have, by their columns.
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+/// How many of the rows a claim does not use, of which methods, why and whom that favours; "" if it uses all of them:
+/// "; 2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2)".
+[[nodiscard]] std::string left_out(const Selection& all, const Selection& used,
+                                   std::string_view why = "not solved on the wanted branch, in favour of");
+
+/// The same of the rows with these texts in a table of solves of which the claim reads a summary; "" where it is not
+/// there.
+[[nodiscard]] std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted);
+
+[[nodiscard]] inline bool is_midpoint(const Row& row) {
+  return row.text("tableau") == "gauss" && row.text("stages") == "1";
+}
 /// The rows of one method by the midpoint rule.
 [[nodiscard]] Selection midpoint(const Selection& rows, const std::string& method);
 

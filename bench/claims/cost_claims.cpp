@@ -27,29 +27,34 @@ struct SqpRatios {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = 0.0;
   PublishedRange range;
-  Selection grids;       ///< DMOC's rows
+  Selection in_range;    ///< rows of the published range by every method
+  Selection grids;       ///< DMOC's among them
   bool complete = true;  ///< no row is missing, not solved or on another branch
 
   SqpRatios(const Selection& rows, const std::string& column, const PublishedRange& published)
-      : range(published), grids(midpoint(rows, "dmoc").where([&](const Row& row) {
-          return row.number("intervals", 0.0) >= range.coarsest;
-        })) {
+      : range(published),
+        in_range(
+            rows.where([&](const Row& row) { return is_midpoint(row) && row.needed("intervals") >= range.coarsest; })),
+        grids(in_range.where("method", "dmoc")) {
     for (const Row& dmoc : grids) {
       for (const char* method : {"hamiltonian", "tangent"}) {
-        const Row& other = midpoint(rows, method).usable().matching(dmoc, {"intervals"}).front();
-        const auto value = is_usable(dmoc) ? ratio(other.number(column), dmoc.number(column)) : std::nullopt;
-        complete = complete && value;
-        lowest = std::min(lowest, value.value_or(lowest));
-        highest = std::max(highest, value.value_or(highest));
+        const Selection other = in_range.where("method", method).usable().matching(dmoc, {"intervals"});
+        complete = complete && is_usable(dmoc) && !other.empty();
+        if (!is_usable(dmoc) || other.empty()) continue;
+        const double value = quotient(other.front(), dmoc, column);
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
       }
     }
+    require(highest > 0.0, "iterations.csv: no grid from N = {} on is solved by dmoc and another method",
+            range.coarsest);
   }
   [[nodiscard]] bool are_as_published() const {
     return grids.size() > 1 && complete && lowest >= range.lowest && highest <= range.highest;
   }
   [[nodiscard]] std::string in_words() const {
-    return fmt::format("{:.3f} to {:.3f} on {} grids, N = {} to {}", lowest, highest, grids.size(), range.coarsest,
-                       grids.max("intervals"));
+    return fmt::format("{:.3f} to {:.3f} on {} grids, N = {} to {}{}", lowest, highest, grids.size(), range.coarsest,
+                       grids.max("intervals"), left_out(in_range, in_range.usable()));
   }
 };
 
@@ -59,28 +64,27 @@ Selection sqp_rows(const ResultTables& tables, const std::string& problem, const
 }
 
 Predicate minor_iterations_in_range(const char* crash, const char* start) {
-  return [=](const ResultTables& tables, const std::string& problem) -> std::optional<Finding> {
+  return [=](const ResultTables& tables, const std::string& problem) -> Finding {
     const SqpRatios ratios(sqp_rows(tables, problem, crash), "minor_iterations", published_range(problem));
-    if (ratios.grids.empty()) return std::nullopt;
     return found(ratios.are_as_published(), "{} {}", start, ratios.in_words());
   };
 }
 
-std::optional<Finding> minor_iterations_equal_variables(const ResultTables& tables, const std::string& problem) {
+Finding minor_iterations_equal_variables(const ResultTables& tables, const std::string& problem) {
   const PublishedRange range = published_range(problem);
   const Selection rows = sqp_rows(tables, problem, "none");
-  const Selection solved = rows.usable().where("tableau", "gauss").where("stages", "1");
-  if (solved.empty()) return std::nullopt;
+  const Selection all = rows.where(is_midpoint);
+  const Selection solved = all.usable();
   const auto exact = std::ranges::count_if(
-      solved, [](const Row& row) { return row.number("minor_iterations") == row.number("predicted_minors"); });
+      solved, [](const Row& row) { return row.needed("minor_iterations") == row.needed("predicted_minors"); });
   const SqpRatios minors(rows, "minor_iterations", range);
   const SqpRatios variables(rows, "free_variables", range);
   constexpr double close = 0.05;
   return found(std::cmp_equal(exact, solved.size()) && minors.complete &&
                    std::abs(minors.lowest / variables.lowest - 1.0) < close &&
                    std::abs(minors.highest / variables.highest - 1.0) < close,
-               "minor iterations = free variables + major iterations - 1 in {} of {} rows; free variables {}", exact,
-               solved.size(), variables.in_words());
+               "minor iterations = free variables + major iterations - 1 in {} of {} rows{}; free variables {}", exact,
+               solved.size(), left_out(all, solved), variables.in_words());
 }
 
 /// What costs less than this times DMOC is not more expensive: the constraints of the ends are within.
@@ -90,32 +94,33 @@ constexpr double more_expensive = 1.05;
 Selection hamiltonian_ratios(const ResultTables& tables, const std::string& problem, const std::string& quantity) {
   const Selection rows = tables.rows("structure_advantage_ratios", problem);
   const std::string finest = rows.sorted_by("intervals").back().text("intervals");
-  return midpoint(rows, "hamiltonian")
-      .where("quantity", quantity)
-      .where("intervals", finest)
-      .with_number("ratio_at_equal_intervals");
+  const Selection ratios = midpoint(rows, "hamiltonian").where("quantity", quantity).where("intervals", finest);
+  require(!ratios.empty(), "structure_advantage_ratios.csv has no {} of {} by hamiltonian at N = {}", quantity, problem,
+          finest);
+  return ratios;
 }
 
 std::string ratios_in_words(const Selection& ratios) {
   return ratios.in_words(", ", [](const Row& row) {
     return fmt::format("{} {:.2f}", row.text(row.text("solver") == "ipopt" ? "solver" : "factorisation"),
-                       row.number("ratio_at_equal_intervals", 0.0));
+                       row.needed("ratio_at_equal_intervals"));
   });
 }
 
-std::optional<Finding> collocation_more_expensive(const ResultTables& tables, const std::string& problem) {
+Finding collocation_more_expensive(const ResultTables& tables, const std::string& problem) {
   const Selection systems = hamiltonian_ratios(tables, problem, "seconds_per_linear_system");
   const Selection ipopt = hamiltonian_ratios(tables, problem, "seconds_per_iteration").where("solver", "ipopt");
-  if (systems.empty() || ipopt.empty()) return std::nullopt;
+  require(!ipopt.empty(), "structure_advantage_ratios.csv has no seconds_per_iteration of {} by ipopt", problem);
   const double smallest = std::min(systems.min("ratio_at_equal_intervals"), ipopt.min("ratio_at_equal_intervals"));
   return found(smallest > more_expensive,
                "Hamiltonian to DMOC at N = {}, time per iteration: {}; time of a linear system: {}",
                systems.front().text("intervals"), ratios_in_words(ipopt), ratios_in_words(systems));
 }
 
-std::optional<Finding> factorisation_more_expensive(const ResultTables& tables, const std::string& problem) {
+Finding factorisation_more_expensive(const ResultTables& tables, const std::string& problem) {
   const Selection eliminations = hamiltonian_ratios(tables, problem, "elimination_operations");
-  if (eliminations.where("factorisation", "intervals").empty()) return std::nullopt;
+  require(!eliminations.where("factorisation", "intervals").empty(),
+          "structure_advantage_ratios.csv has no elimination of {} by intervals", problem);
   return found(eliminations.min("ratio_at_equal_intervals") > more_expensive,
                "Hamiltonian to DMOC at N = {}, operations of an elimination: {}",
                eliminations.front().text("intervals"), ratios_in_words(eliminations));
@@ -126,34 +131,40 @@ struct Record {
   std::size_t solves = 0;
   std::size_t solved = 0;
   std::optional<double> slowdown;  ///< median time of the solved ones to that of the tape on the same grid
+  std::string not_timed;           ///< the others, in words
 
   Record(const Selection& rows, const char* derivatives, const char* hessian) {
     const Selection all = rows.where("derivatives", derivatives).where("hessian", hessian);
     const Selection tape = rows.where("derivatives", "tape").where("hessian", "exact").usable();
     solves = all.size();
     solved = all.usable().size();
+    require(solves > 0, "derivatives.csv has no solve by ipopt with {} and the Hessian {}", derivatives, hessian);
+    Selection timed;
     std::vector<double> slowdowns;
     for (const Row& row : all.usable()) {
-      const Row& exact = tape.matching(row, {"method", "intervals"}).front();
-      if (const auto value = ratio(row.number("seconds"), exact.number("seconds"))) slowdowns.push_back(*value);
+      const Selection exact = tape.matching(row, {"method", "intervals"});
+      if (exact.empty()) continue;
+      slowdowns.push_back(quotient(row, exact.front(), "seconds"));
+      timed.append(row);
     }
-    if (!slowdowns.empty()) slowdown = median(slowdowns);
+    if (slowdowns.empty()) return;
+    slowdown = median(slowdowns);
+    not_timed = left_out(all, timed, fmt::format("not solved by it or the tape, in favour of {} by", derivatives));
   }
   [[nodiscard]] bool is_complete() const { return solved == solves; }
   [[nodiscard]] std::string in_words() const {
     return fmt::format("{} of {}{}", solved, solves,
-                       slowdown ? fmt::format(" ({:.1f} times the tape's time)", *slowdown) : "");
+                       slowdown ? fmt::format(" ({:.1f} times the tape's time{})", *slowdown, not_timed) : "");
   }
 };
 
-std::optional<Finding> automatic_differentiation(const ResultTables& tables, const std::string& problem) {
+Finding automatic_differentiation(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("derivatives", problem).where("solver", "ipopt");
   const Record tape(rows, "tape", "exact");
   const Record adolc(rows, "adolc", "exact");
   const Record central(rows, "finite_differences", "exact");
   const Record forward(rows, "forward_differences", "exact");
   const Record forward_quasi_newton(rows, "forward_differences", "limited_memory");
-  if (tape.solves == 0 || central.solves == 0 || forward.solves == 0) return std::nullopt;
   const bool robust = tape.is_complete() && adolc.is_complete() && !central.is_complete() && !forward.is_complete();
   // Where differences never solve, there is no time to compare.
   const bool faster = central.slowdown.value_or(2.0) > 1.0 && forward.slowdown.value_or(2.0) > 1.0;
@@ -164,15 +175,18 @@ std::optional<Finding> automatic_differentiation(const ResultTables& tables, con
                forward_quasi_newton.in_words());
 }
 
-std::optional<Finding> adolc_faster(const ResultTables& tables, const std::string& problem) {
+Finding adolc_faster(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("derivatives", problem).where("solver", "ipopt");
-  const auto adolc = Record(rows, "adolc", "exact").slowdown;
-  const auto central = Record(rows, "finite_differences", "exact").slowdown;
-  if (!adolc || !central) return std::nullopt;
-  return found(*adolc < *central,
+  const Record adolc(rows, "adolc", "exact");
+  const Record central(rows, "finite_differences", "exact");
+  require(adolc.slowdown && central.slowdown,
+          "derivatives.csv: {} is solved {} times by ADOL-C and {} times by central "
+          "differences where the tape solves it too; both are needed",
+          problem, adolc.solved, central.solved);
+  return found(*adolc.slowdown < *central.slowdown,
                "solves take {:.1f} times the tape's time by ADOL-C, interval by interval, and {:.1f} times by central "
-               "differences, where these are solved",
-               *adolc, *central);
+               "differences, where these are solved{}{}",
+               *adolc.slowdown, *central.slowdown, adolc.not_timed, central.not_timed);
 }
 
 }  // namespace

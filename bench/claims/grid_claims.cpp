@@ -19,30 +19,31 @@ constexpr double nodes_at_the_ends = 4.0;
 constexpr double equally_well = 2.0;
 constexpr double identical_costs = 1e-9;
 
-Predicate is_of_order_two(const char* table, const char* quantity) {
-  return [=](const ResultTables& tables, const std::string& problem) -> std::optional<Finding> {
+/// Judges the slopes NAME_slopes that were fitted to a table of solves.
+Predicate is_of_order_two(const std::string& solves, const char* quantity) {
+  return [=](const ResultTables& tables, const std::string& problem) -> Finding {
+    const Selection slopes = tables.rows(solves + "_slopes", problem).where("quantity", quantity);
     Selection orders;
     for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
-      orders.append(midpoint(tables.rows(table, problem), method).where("quantity", quantity));
+      const Selection order = midpoint(slopes, method);
+      require(!order.empty(), "{}_slopes.csv has no slope of {}, {}, {}", solves, problem, method, quantity);
+      orders.append(order);
     }
-    if (orders.empty()) return std::nullopt;
     const auto is_two = [](const Row& row) {
-      const double order = row.number("slope", 0.0);
-      return order > lowest_order && order < highest_order && row.number("points", 0.0) >= fewest_points;
+      const double order = row.needed("slope");
+      return order > lowest_order && order < highest_order && row.needed("points") >= fewest_points;
     };
-    const auto words = [](const Row& row) {
-      return fmt::format("{} {:.3f}", row.text("method"), row.number("slope", 0.0));
-    };
-    return found(std::ranges::all_of(orders, is_two) && orders.size() == 3, "slopes {}", orders.in_words(", ", words));
+    const auto words = [](const Row& row) { return fmt::format("{} {:.3f}", row.text("method"), row.needed("slope")); };
+    return found(std::ranges::all_of(orders, is_two) && orders.size() == 3, "slopes {}{}", orders.in_words(", ", words),
+                 unsolved_behind(tables, solves, {{"problem", problem}, {"tableau", "gauss"}, {"stages", "1"}}));
   };
 }
 
-std::optional<Finding> objective_evolution(const ResultTables& tables, const std::string& problem) {
+Finding objective_evolution(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("objective", problem);
   const Selection dmoc = midpoint(rows, "dmoc");
-  if (dmoc.size() < 2) return std::nullopt;
-  const auto objective = [](const Row& row) { return row.number("objective", 0.0); };
-  const double limit = objective(dmoc.back());
+  require(dmoc.size() > 1, "objective.csv has less than two grids of {} by dmoc", problem);
+  const auto objective = [](const Row& row) { return row.needed("objective"); };
   double difference = 0.0;
   double error_ratio = 0.0;
   for (const Row& row : dmoc) {
@@ -51,7 +52,8 @@ std::optional<Finding> objective_evolution(const ResultTables& tables, const std
     if (hamiltonian.empty() || tangent.empty() || !is_usable(row)) {
       return found(false, "not all methods are solved on the same branch at N = {}", row.text("intervals"));
     }
-    difference = std::max(difference, std::abs(objective(hamiltonian.front()) / objective(row) - 1.0));
+    difference = std::max(difference, std::abs(quotient(hamiltonian.front(), row, "objective") - 1.0));
+    const double limit = objective(dmoc.back());
     const double error = std::max(std::abs(objective(row) - limit), 1e-6 * std::abs(limit));
     error_ratio = std::max(error_ratio, std::abs(objective(tangent.front()) - limit) / error);
   }
@@ -61,21 +63,20 @@ std::optional<Finding> objective_evolution(const ResultTables& tables, const std
       difference, error_ratio);
 }
 
-std::optional<Finding> variable_ratio(const ResultTables& tables, const std::string& problem) {
+Finding variable_ratio(const ResultTables& tables, const std::string& problem) {
   const double stated = problem == orbit ? 3.0 / 5.0 : 2.0 / 3.0;
   const Selection rows = tables.rows("convergence", problem);
   const Row& dmoc = midpoint(rows, "dmoc").back();
   Selection collocation;
   for (const char* method : {"hamiltonian", "tangent"}) {
     const Selection finest = midpoint(rows, method).usable().matching(dmoc, {"intervals"});
-    if (finest.empty()) return std::nullopt;
+    require(!finest.empty(), "convergence.csv: {} by {} is not solved at N = {}, where dmoc is", problem, method,
+            dmoc.text("intervals"));
     collocation.append(finest.front());
   }
-  const auto ratio_to_dmoc = [&](const Row& row) {
-    return dmoc.number("free_variables", 0.0) / row.number("free_variables", 0.0);
-  };
+  const auto ratio_to_dmoc = [&](const Row& row) { return quotient(dmoc, row, "free_variables"); };
   const auto is_as_stated = [&](const Row& row) {
-    return std::abs(ratio_to_dmoc(row) - stated) < nodes_at_the_ends / dmoc.number("intervals", 0.0);
+    return std::abs(ratio_to_dmoc(row) - stated) < nodes_at_the_ends / dmoc.needed("intervals");
   };
   const auto in_words = [&](const Row& row) {
     return fmt::format("{:.4f} of {}", ratio_to_dmoc(row), row.text("method"));
@@ -84,13 +85,13 @@ std::optional<Finding> variable_ratio(const ResultTables& tables, const std::str
                collocation.in_words(", ", in_words));
 }
 
-std::optional<Finding> reference_step(const ResultTables& tables, const std::string& problem) {
+Finding reference_step(const ResultTables& tables, const std::string& problem) {
   constexpr double last_digit = 1e-4;
   const bool is_orbit = problem == orbit;
-  const Selection grid =
-      midpoint(tables.rows("convergence", problem), "dmoc").usable().where("intervals", is_orbit ? "1024" : "512");
-  if (grid.empty()) return std::nullopt;
-  const double step = grid.front().number("step", 0.0);
+  const char* const intervals = is_orbit ? "1024" : "512";
+  const Selection grid = midpoint(tables.rows("convergence", problem), "dmoc").usable().where("intervals", intervals);
+  require(!grid.empty(), "convergence.csv: {} by dmoc is not solved at N = {}", problem, intervals);
+  const double step = grid.front().needed("step");
   return found(std::abs(step - (is_orbit ? 2.9e-3 : 1.9e-3)) < last_digit, "h = {:.4e} {}", step,
                is_orbit ? "h" : "s (1.9 if cut, 2.0 if rounded)");
 }
@@ -104,12 +105,12 @@ Claims grid_claims() {
   const char* const second_order = "O(h^2) for all three methods";
   const char* const against_512 = "O(h^2) for all three methods, against N = 512";
   return {
-      {"state_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence_slopes", "state")},
-      {"control_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence_slopes", "control")},
+      {"state_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence", "state")},
+      {"control_slope", of_paper, figure, Whose::paper, second_order, is_of_order_two("convergence", "control")},
       {"state_slope_against_512", only_two_link, figure, Whose::paper, against_512,
-       is_of_order_two("convergence_512_slopes", "state"), too_large},
+       is_of_order_two("convergence_512", "state"), too_large},
       {"control_slope_against_512", only_two_link, figure, Whose::paper, against_512,
-       is_of_order_two("convergence_512_slopes", "control"), too_large},
+       is_of_order_two("convergence_512", "control"), too_large},
       {"objective_evolution", of_paper, Wording("(not shown in the paper)", "fig:twolink_obj a)"), Whose::paper,
        "DMOC and Hamiltonian have identical cost; tangent-space collocation performs equally well",
        objective_evolution},

@@ -18,11 +18,11 @@ constexpr double far_above_rounding = 1e-6;
 bool is_structured(const Row& row) { return row.text("method") == "dmoc" || row.text("method") == "hamiltonian"; }
 
 std::optional<double> fitted_order(const Row& row) {
-  return row.text("verdict") == "slope" ? row.number("slope") : std::nullopt;
+  return row.text("verdict") == "slope" ? std::optional(row.needed("slope")) : std::nullopt;
 }
 
 double expected_order(const Row& row) {
-  const double s = row.number("stages", 0.0);
+  const double s = row.needed("stages");
   return row.text("tableau") == "gauss" ? 2.0 * s : 2.0 * s - 2.0;
 }
 
@@ -32,6 +32,40 @@ Selection orders_of(const ResultTables& tables, const std::string& problem,
   return tables.rows("convergence_indirect_slopes", problem).where([&](const Row& row) {
     return is_structured(row) && std::ranges::find(quantities, row.text("quantity")) != quantities.end();
   });
+}
+
+/// The orders that were fitted.
+Selection fitted_of(const Selection& orders) {
+  return orders.where([](const Row& row) { return fitted_order(row).has_value(); });
+}
+
+/// What is not in the orders: those without a fit, and the solves that no fit could use.
+std::string not_in(const Selection& orders, const ResultTables& tables, const std::string& problem) {
+  return left_out(orders, fitted_of(orders), "without a fit (few grids above rounding), in favour of the claim:") +
+         unsolved_behind(tables, "convergence_indirect", {{"problem", problem}});
+}
+
+/// Throws `Error` unless there is an order of every quantity, by both methods and every tableau that is there at all.
+void require_all(const Selection& orders, const std::vector<std::string>& quantities) {
+  for (const Selection& scheme : orders.group_by({"tableau", "stages"})) {
+    for (const std::string method : {"dmoc", "hamiltonian"}) {
+      for (const std::string& quantity : quantities) {
+        require(!scheme.where("method", method).where("quantity", quantity).empty(),
+                "convergence_indirect_slopes.csv has no order of {} for {}, {}, {} {}", quantity,
+                scheme.front().text("problem"), method, scheme.front().text("tableau"), scheme.front().text("stages"));
+      }
+    }
+  }
+}
+
+/// `reproduced` needs an order for every tableau that was solved. Throws `Error` that names the first without one.
+void require_solved_schemes(const Selection& orders, const ResultTables& tables, const std::string& problem) {
+  if (!tables.has("convergence_indirect")) return;
+  for (const Selection& scheme : tables.rows("convergence_indirect", problem).group_by({"tableau", "stages"})) {
+    require(!orders.matching(scheme.front(), {"tableau", "stages"}).empty(),
+            "convergence_indirect_slopes.csv has no order for {}, {} {}, which convergence_indirect.csv has", problem,
+            scheme.front().text("tableau"), scheme.front().text("stages"));
+  }
 }
 
 /// DMOC's orders by tableau: "gauss 2 (order 4): state 4.02, costate floor; ...".
@@ -53,42 +87,56 @@ std::string in_words(const Selection& orders) {
 
 /// Whether orders are as expected, if other things hold too; `floor` if no order could be fitted.
 ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true) {
-  const Selection fitted = orders.where([](const Row& row) { return fitted_order(row).has_value(); });
+  const Selection fitted = fitted_of(orders);
   const auto is_expected = [](const Row& row) { return has_order(row, expected_order(row)); };
   if (!others_hold || !std::ranges::all_of(fitted, is_expected)) return ClaimVerdict::differs;
   return fitted.empty() ? ClaimVerdict::floor : ClaimVerdict::reproduced;
 }
 
-std::optional<Finding> order_of_convergence(const ResultTables& tables, const std::string& problem) {
-  const Selection orders = orders_of(tables, problem, {"state", "momentum", "costate", "control_from_costate"});
-  if (orders.empty()) return std::nullopt;
-  return found(verdict_on_orders(orders), "slopes of DMOC against the indirect solution: {}", in_words(orders));
+Finding order_of_convergence(const ResultTables& tables, const std::string& problem) {
+  const std::vector<std::string> quantities{"state", "momentum", "costate", "control_from_costate"};
+  const Selection orders = orders_of(tables, problem, quantities);
+  require(!orders.empty(), "convergence_indirect_slopes.csv has no order of the states of {}", problem);
+  require_all(orders, quantities);
+  const ClaimVerdict verdict = verdict_on_orders(orders);
+  if (verdict == ClaimVerdict::reproduced) require_solved_schemes(orders, tables, problem);
+  return found(verdict, "slopes of DMOC against the indirect solution: {}{}", in_words(orders),
+               not_in(orders, tables, problem));
 }
 
-std::optional<Finding> order_of_adjoint_scheme(const ResultTables& tables, const std::string& problem) {
+Finding order_of_adjoint_scheme(const ResultTables& tables, const std::string& problem) {
   const Selection orders = orders_of(tables, problem, {"costate"});
-  const Selection solves = tables.rows("equivalence", problem).where(is_structured).with_number("adjoint_residual");
-  if (solves.empty() || orders.empty()) return std::nullopt;
+  const Selection all = tables.rows("equivalence", problem).where(is_structured);
+  const Selection solves = all.usable();
+  const Selection lobatto = solves.where("tableau", "lobatto");
+  require(!orders.empty(), "convergence_indirect_slopes.csv has no order of the costate of {}", problem);
+  require_all(orders, {"costate"});
+  require(!lobatto.empty() && lobatto.size() < solves.size(),
+          "equivalence.csv has {} solves of {} by Lobatto and {} by Gauss; both are needed", lobatto.size(), problem,
+          solves.size() - lobatto.size());
   const double residual = solves.max("adjoint_residual");
-  const double plain = solves.where("tableau", "lobatto").min("adjoint_residual_by_plain_coefficients");
+  const double plain = lobatto.min("adjoint_residual_by_plain_coefficients");
   return found(verdict_on_orders(orders, residual < rounding_of_costates && plain > far_above_rounding),
                "multipliers of {} solves, carried to costates, leave at most {:.1e} of the costates in it (Lobatto, "
-               "halves not exchanged: at least {:.1e}); slopes of DMOC's costate: {}",
-               solves.size(), residual, plain, in_words(orders));
+               "halves not exchanged: at least {:.1e}){}; slopes of DMOC's costate: {}{}",
+               solves.size(), residual, plain, left_out(all, solves), in_words(orders),
+               not_in(orders, tables, problem));
 }
 
-std::optional<Finding> order_of_stage_controls(const ResultTables& tables, const std::string& problem) {
-  const Selection orders = orders_of(tables, problem, {"control"}).where([](const Row& row) {
-    return row.text("method") == "dmoc" && row.text("tableau") == "gauss" && row.number("stages", 0.0) > 1.0 &&
-           fitted_order(row);
+Finding order_of_stage_controls(const ResultTables& tables, const std::string& problem) {
+  const Selection all = orders_of(tables, problem, {"control"}).where([](const Row& row) {
+    return row.text("method") == "dmoc" && row.text("tableau") == "gauss" && row.needed("stages") > 1.0;
   });
-  if (orders.empty()) return std::nullopt;
-  const auto is_lower = [](const Row& row) { return has_order(row, row.number("stages", 0.0) + 1.0); };
+  const Selection orders = fitted_of(all);
+  require(!orders.empty(),
+          "convergence_indirect_slopes.csv has no fitted order of the control for {} by dmoc with two or more stages",
+          problem);
+  const auto is_lower = [](const Row& row) { return has_order(row, row.needed("stages") + 1.0); };
   const auto words = [](const Row& row) {
     return fmt::format("gauss {}: {:.2f}", row.text("stages"), *fitted_order(row));
   };
-  return found(std::ranges::all_of(orders, is_lower), "slopes of DMOC's stage controls, s + 1 instead of 2s: {}",
-               orders.in_words(", ", words));
+  return found(std::ranges::all_of(orders, is_lower), "slopes of DMOC's stage controls, s + 1 instead of 2s: {}{}",
+               orders.in_words(", ", words), not_in(all, tables, problem));
 }
 
 }  // namespace

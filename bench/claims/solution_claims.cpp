@@ -1,6 +1,5 @@
 // Momentum-force consistency "to numerical accuracy", and which methods have equal solutions.
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/claims/claim.hpp"
@@ -18,31 +17,30 @@ constexpr double equal_solutions_tolerance = 1e-9;
 constexpr double equal_costates_tolerance = 1e-8;
 constexpr double foreign_rows_tolerance = 1e-10;
 
-constexpr double missing = std::numeric_limits<double>::infinity();
-
-std::optional<Finding> momentum_consistency(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("consistency", problem);
-  const Selection dmoc = midpoint(rows, "dmoc");
-  const Selection hamiltonian = midpoint(rows, "hamiltonian");
-  const Selection tangent = midpoint(rows, "tangent");
-  if (dmoc.empty() || hamiltonian.empty() || tangent.empty()) return std::nullopt;
-  const auto defect = [](const Row& row) { return row.number("momentum_defect_max", missing); };
-  const auto relative_defect = [&](const Row& row) {
-    return defect(row) / std::max(1.0, row.number("largest_force", 1.0));
-  };
+Finding momentum_consistency(const ResultTables& tables, const std::string& problem) {
+  const Selection all = tables.rows("consistency", problem).where(is_midpoint);
+  const Selection rows = all.usable();
+  const Selection dmoc = rows.where("method", "dmoc");
+  const Selection hamiltonian = rows.where("method", "hamiltonian");
+  const Selection tangent = rows.where("method", "tangent");
+  require(!dmoc.empty() && !hamiltonian.empty() && !tangent.empty(),
+          "consistency.csv has {}, {} and {} solved rows of {} by dmoc, hamiltonian and tangent; all are needed",
+          dmoc.size(), hamiltonian.size(), tangent.size(), problem);
+  const auto defect = [](const Row& row) { return row.needed("momentum_defect_max"); };
+  const auto relative_defect = [&](const Row& row) { return defect(row) / std::max(1.0, row.needed("largest_force")); };
   const double structured = std::max(dmoc.max(relative_defect), hamiltonian.max(relative_defect));
   const double rounding = std::max(defect(dmoc.front()), rounding_of_balance * 1e-3);
-  return found(dmoc.are_usable() && hamiltonian.are_usable() && tangent.are_usable() &&
-                   structured < rounding_of_balance && defect(tangent.front()) > clearly_larger * rounding,
-               "largest defect of an interval over all N: dmoc {:.1e}, hamiltonian {:.1e}; tangent {:.1e} at N = {} to "
-               "{:.1e} at N = {}",
-               dmoc.max(defect), hamiltonian.max(defect), defect(tangent.front()), tangent.front().text("intervals"),
-               defect(tangent.back()), tangent.back().text("intervals"));
+  return found(
+      all.are_usable() && structured < rounding_of_balance && defect(tangent.front()) > clearly_larger * rounding,
+      "largest defect of an interval over all N: dmoc {:.1e}, hamiltonian {:.1e}; tangent {:.1e} at N = {} to "
+      "{:.1e} at N = {}{}",
+      dmoc.max(defect), hamiltonian.max(defect), defect(tangent.front()), tangent.front().text("intervals"),
+      defect(tangent.back()), tangent.back().text("intervals"), left_out(all, rows));
 }
 
 bool is_answer_of_dmoc(const Row& row) {
   const auto leaves_rounding = [&](const char* violation, const char* rounding) {
-    return row.number(violation, missing) < std::max(foreign_rows_tolerance, row.number(rounding, 0.0));
+    return row.needed(violation) < std::max(foreign_rows_tolerance, row.needed(rounding));
   };
   return leaves_rounding("violation_in_rows_of_dmoc", "rounding_in_rows_of_dmoc") &&
          leaves_rounding("violation_of_dmoc_here", "rounding_here");
@@ -68,43 +66,47 @@ struct Differences {
   }
 };
 
-std::optional<Finding> equal_solutions(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("equivalence", problem).where("method", "hamiltonian");
-  if (rows.empty()) return std::nullopt;
+Finding equal_solutions(const ResultTables& tables, const std::string& problem) {
+  const Selection all = tables.rows("equivalence", problem).where("method", "hamiltonian");
+  const Selection rows = all.usable();
+  require(!rows.empty(), "equivalence.csv has no solved row of {} by hamiltonian", problem);
   const bool rows_agree = std::ranges::all_of(rows, is_answer_of_dmoc);
   const Differences largest(rows);
-  return found(largest.are_rounding() && rows_agree && rows.are_usable(),
+  return found(largest.are_rounding() && rows_agree && all.are_usable(),
                "{} grids with {} tableaus, largest relative difference: {}, costates {:.0e}; answers in the other's "
-               "rows leave {}",
+               "rows leave {}{}",
                rows.size(), rows.group_by({"tableau", "stages"}).size(), largest.words, largest.costates,
-               rows_agree ? "rounding" : "more than rounding");
+               rows_agree ? "rounding" : "more than rounding", left_out(all, rows));
 }
 
-std::optional<Finding> tangent_differs(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = midpoint(tables.rows("equivalence", problem), "tangent");
-  if (rows.size() < 2) return std::nullopt;
-  const double coarse = rows.front().number("configuration_difference", missing);
-  const double fine = rows.back().number("configuration_difference", missing);
-  const Selection orders =
-      tables.rows("equivalence_slopes", problem).where("tableau", "gauss").where("verdict", "slope");
+Finding tangent_differs(const ResultTables& tables, const std::string& problem) {
+  const Selection all = midpoint(tables.rows("equivalence", problem), "tangent");
+  const Selection rows = all.usable();
+  require(rows.size() > 1, "equivalence.csv has less than two solved grids of {} by tangent", problem);
+  const double coarse = rows.front().needed("configuration_difference");
+  const double fine = rows.back().needed("configuration_difference");
+  const Selection slopes = tables.rows("equivalence_slopes", problem).where("tableau", "gauss");
+  const Selection orders = slopes.where("verdict", "slope");
   const auto is_twice_the_stages = [](const Row& row) { return has_order(row, 2.0 * row.number("stages", 0.0)); };
   const auto words = [](const Row& row) {
-    return fmt::format("s = {}: {:.2f}", row.text("stages"), row.number("slope", 0.0));
+    return fmt::format("s = {}: {:.2f}", row.text("stages"), row.needed("slope"));
   };
   return found(
       !orders.empty() && std::ranges::all_of(orders, is_twice_the_stages) && fine > equal_solutions_tolerance / 10.0 &&
-          coarse > clearly_larger * equal_solutions_tolerance && fine < coarse && rows.are_usable(),
-      "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}{}{}", coarse, rows.front().text("intervals"), fine,
-      rows.back().text("intervals"), orders.empty() ? "" : "; slopes ", orders.in_words(", ", words));
+          coarse > clearly_larger * equal_solutions_tolerance && fine < coarse && all.are_usable(),
+      "relative difference in q {:.1e} at N = {}, {:.1e} at N = {}{}{}{}{}", coarse, rows.front().text("intervals"),
+      fine, rows.back().text("intervals"), orders.empty() ? "" : "; slopes ", orders.in_words(", ", words),
+      left_out(slopes, orders, "without a fit (few grids above rounding):"), left_out(all, rows));
 }
 
-std::optional<Finding> tangent_coincides(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("equivalence", problem).where("method", "tangent").where("tableau", "gauss");
-  if (rows.empty()) return std::nullopt;
+Finding tangent_coincides(const ResultTables& tables, const std::string& problem) {
+  const Selection all = tables.rows("equivalence", problem).where("method", "tangent").where("tableau", "gauss");
+  const Selection rows = all.usable();
+  require(!rows.empty(), "equivalence.csv has no solved row of {} by tangent and Gauss", problem);
   const Differences largest(rows);
-  return found(largest.are_rounding() && rows.are_usable(),
-               "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}", rows.size(),
-               largest.primal, largest.costates);
+  return found(largest.are_rounding() && all.are_usable(),
+               "largest relative difference from DMOC on {} grids: {:.0e}, costates {:.0e}{}", rows.size(),
+               largest.primal, largest.costates, left_out(all, rows));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "bench/experiment/command_line.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -65,7 +67,11 @@ std::string sentence_of(const std::exception& error) {
 
 template <class Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
-  add(app_, names, value, help)->required(!names.starts_with('-'));
+  CLI::Option* const option = add(app_, names, value, help)->required(!names.starts_with('-'));
+  if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+    const auto is_empty = [](const std::string& text) { return std::string(text.empty() ? "no file is named" : ""); };
+    option->check(CLI::Validator(is_empty, ""));
+  }
 }
 template void CommandLine::option(const std::string&, int&, const std::string&);
 template void CommandLine::option(const std::string&, double&, const std::string&);
@@ -77,7 +83,12 @@ template <class Number>
 void CommandLine::number(const std::string& names, Number& value, std::type_identity_t<Number> least,
                          std::type_identity_t<Number> largest, const std::string& help) {
   using Limit = std::conditional_t<std::is_floating_point_v<Number>, double, long long>;
-  add(app_, names, value, help)->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
+  const auto nan = [](const std::string& text) {  // which no comparison finds outside of a range
+    return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("{} is not a number", text) : std::string();
+  };
+  CLI::Option* const option = add(app_, names, value, help);
+  option->check(CLI::Validator(nan, ""));
+  option->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
 }
 template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
 template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&);
@@ -87,9 +98,23 @@ template void CommandLine::number(const std::string&, double&, double, double, c
 template <class Value>
 void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
   add(app_, names, values, help)->delimiter(',');
+  lists_.push_back(names);
 }
 template void CommandLine::list(const std::string&, std::vector<int>&, const std::string&);
 template void CommandLine::list(const std::string&, std::vector<std::string>&, const std::string&);
+
+void CommandLine::refuse_empty_entries() const {
+  for (int i = 1; i < argc_; ++i) {
+    const std::string argument = argv_[i];
+    const std::size_t equals = std::min(argument.find('='), argument.size());
+    if (std::ranges::find(lists_, argument.substr(0, equals)) == lists_.end()) continue;
+    if (equals == argument.size() && i + 1 == argc_) continue;  // CLI11 misses the value
+    const std::string value = equals < argument.size() ? argument.substr(equals + 1) : argv_[i + 1];
+    if (value.starts_with(',') || value.ends_with(',') || value.find(",,") != std::string::npos) {
+      throw CLI::ValidationError(argument.substr(0, equals), fmt::format("there is an empty entry in {}", value));
+    }
+  }
+}
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
   app_.add_flag(names, value, help);
@@ -98,6 +123,7 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
 void CommandLine::footer(const std::string& text) { app_.footer(text); }
 
 std::vector<std::string> CommandLine::parse() {
+  refuse_empty_entries();
   app_.parse(argc_, argv_);
   return {argv_, argv_ + argc_};
 }

@@ -40,9 +40,13 @@ class CommandLine {
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
+  /// Throws where a list has nothing between two commas, which CLI11 drops without a word.
+  void refuse_empty_entries() const;
+
   CLI::App& app_;
   int argc_;
   char** argv_;
+  std::vector<std::string> lists_;  ///< options with commas between their values
 };
 
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.

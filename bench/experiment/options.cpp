@@ -1,6 +1,7 @@
 #include "bench/experiment/options.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <ranges>
 #include <set>
@@ -20,10 +21,20 @@ namespace dmocbench {
 
 namespace {
 
+/// What a user wrote, in quotes, fit for a line on a terminal: cut short, without control characters.
+std::string as_shown(std::string_view text) {
+  constexpr std::size_t most_shown = 40;
+  std::string shown(text.substr(0, most_shown));
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return fmt::format("\"{}\"{}", shown, text.size() > most_shown ? " ..." : "");
+}
+
 long long parse_count(std::string_view option, std::string_view text) {
   const auto count = parsed<long long>(text);
   if (!count || *count < 1 || *count > Grid::most_intervals) {
-    throw Error(fmt::format("{}: \"{}\" is not a whole number between 1 and {}", option, text, Grid::most_intervals));
+    throw Error(
+        fmt::format("{}: {} is not a whole number between 1 and {}", option, as_shown(text), Grid::most_intervals));
   }
   return *count;
 }
@@ -205,6 +216,8 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
 std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
   constexpr std::size_t most_counts = 1000;
   std::set<long long> counts;
+  if (text.ends_with(','))
+    throw Error(fmt::format("{}: there is an empty entry at the end of {}", option, as_shown(text)));
   std::string_view rest = text;
   do {
     std::string_view entry = take_part(rest, ',');
@@ -226,7 +239,11 @@ std::vector<double> parse_node_times(std::string_view text) {
   for (int line = 1; !text.empty(); ++line) {
     std::string_view entry = take_part(text, '\n');
     while (!entry.empty() && (entry.back() == '\r' || entry.back() == ' ')) entry.remove_suffix(1);
-    if (!entry.empty()) times.push_back(parse_number(fmt::format("--grid, line {}", line), entry));
+    if (entry.empty()) continue;
+    if (std::cmp_greater(times.size(), Grid::most_intervals)) {
+      throw Error(fmt::format("--grid, line {}: a grid has at most {} intervals", line, Grid::most_intervals));
+    }
+    times.push_back(parse_number(fmt::format("--grid, line {}", line), entry));
   }
   return times;
 }
@@ -241,7 +258,7 @@ std::pair<std::string_view, std::string_view> parse_assignment(std::string_view 
 
 double parse_number(std::string_view wanted_for, std::string_view text) {
   const auto value = parsed<double>(text);
-  if (!value) throw Error(fmt::format("{}: \"{}\" is not a number", wanted_for, text));
+  if (!value) throw Error(fmt::format("{}: {} is not a number", wanted_for, as_shown(text)));
   return *value;
 }
 

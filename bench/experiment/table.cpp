@@ -1,5 +1,6 @@
 #include "bench/experiment/table.hpp"
 
+#include <cmath>
 #include <ranges>
 
 #include <fmt/format.h>
@@ -53,11 +54,25 @@ std::string Row::text(std::string_view column) const {
   return found == cells_.end() ? std::string() : found->second.text();
 }
 
-std::optional<double> Row::number(std::string_view column) const { return parsed<double>(text(column)); }
+std::optional<double> Row::number(std::string_view column) const {
+  const auto value = parsed<double>(text(column));
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+double Row::needed(std::string_view column) const {
+  if (const auto value = number(column)) return *value;
+  const std::string field = text(column);
+  throw Error(fmt::format("{}, column {}: {}", place_.empty() ? "a row" : place_, column,
+                          field.empty() ? "there is no number" : "\"" + field + "\" is no finite number"));
+}
 
 std::string Row::csv(const std::vector<std::string>& columns) const {
   const auto field = [this](const std::string& column) { return quoted(text(column)); };
   return fmt::format("{}\n", fmt::join(columns | std::views::transform(field), ","));
+}
+
+void Table::name_places(const std::string& file) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].set_place(fmt::format("{}, record {}", file, i + 2));
 }
 
 std::string Table::csv() const {

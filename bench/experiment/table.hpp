@@ -38,17 +38,23 @@ class Row {
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] std::string text(std::string_view column) const;
-  /// The field as a number; `missing` if it is empty or no number.
+  /// The field as a number; `missing` if it is empty or no finite number.
   [[nodiscard]] double number(std::string_view column, double missing) const {
     return number(column).value_or(missing);
   }
-  /// The field as a number; none if it is empty or no number.
+  /// The field as a number; none if it is empty or no finite number.
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
+  /// The field as a number that has to be there. Throws `Error` that names the place, the column and what stands there.
+  [[nodiscard]] double needed(std::string_view column) const;
+  /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if nobody said.
+  [[nodiscard]] const std::string& place() const noexcept { return place_; }
+  void set_place(std::string place) { place_ = std::move(place); }
   /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).
   [[nodiscard]] std::string csv(const std::vector<std::string>& columns) const;
 
  private:
   std::map<std::string, Cell, std::less<>> cells_;
+  std::string place_;
 };
 
 /// A table with named columns. What does not exist is an empty field.
@@ -61,6 +67,8 @@ class Table {
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
   void append(Row row) { rows_.push_back(std::move(row)); }
   void clear() { rows_.clear(); }
+  /// Gives every row its place in a file of this name.
+  void name_places(const std::string& file);
 
   /// A header line, then a line per row (`Row::csv`).
   [[nodiscard]] std::string csv() const;

@@ -64,11 +64,11 @@ std::vector<std::string> Selection::distinct(const std::string& column) const {
 }
 
 double Selection::max(const std::string& column) const {
-  return max([&](const Row& row) { return row.number(column, std::numeric_limits<double>::infinity()); });
+  return max([&](const Row& row) { return row.needed(column); });
 }
 
 double Selection::min(const std::string& column) const {
-  return -max([&](const Row& row) { return -row.number(column, -std::numeric_limits<double>::infinity()); });
+  return -max([&](const Row& row) { return -row.needed(column); });
 }
 
 Row fields_of(const Row& row, const ColumnNames& columns) {

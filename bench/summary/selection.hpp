@@ -70,7 +70,7 @@ class Selection {
     for (const Row& row : rows_) largest = std::max(largest, value(row));
     return largest;
   }
-  /// The largest and the smallest number of a column, where a missing one counts as ∞ or -∞.
+  /// The largest and the smallest number of a column; -∞ and ∞ without rows. Throws `Error` if a row has none.
   [[nodiscard]] double max(const std::string& column) const;
   [[nodiscard]] double min(const std::string& column) const;
 

@@ -28,6 +28,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
       row.set("problem", "two_link_manipulator");
       row.set("objective", objective);
       row.set("dmoc", dmoc);
+      row.set("hamiltonian", 0LL);
       row.set("tangent", tangent);
       minima.append(row);
     }
@@ -46,6 +47,8 @@ TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreAp
       Row row;
       row.set("problem", "two_link_manipulator");
       row.set("method", method);
+      row.set("best", 1LL);
+      row.set("starts", 2LL);
       row.set("share_lower", low);
       row.set("share_upper", high);
       shares.append(row);

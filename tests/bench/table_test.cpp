@@ -79,6 +79,16 @@ TEST(Table, ATextThatBeginsLikeANumberIsNone) {
   }
 }
 
+TEST(Table, WhatIsNotFiniteIsNoNumberAndIsNamedWhereOneIsNeeded) {
+  for (const char* text : {"nan", "-nan", "inf", "-inf", "infinity", "1e999", "much"}) {
+    Table table = one_row({"x"}, {text});
+    table.name_places("t.csv");
+    EXPECT_FALSE(table.rows()[0].number("x")) << text;
+    expect_error_naming({"t.csv, record 2", "column x", text}, [&] { static_cast<void>(table.rows()[0].needed("x")); });
+  }
+  expect_error_naming({"column y", "no number"}, [] { static_cast<void>(Row().needed("y")); });
+}
+
 TEST(Table, ReadsLinesThatEndAsOnWindowsAndALastLineWithoutEnd) {
   const Table table = Table::from_csv("a,b\r\n1,2\r\n3,4");
   ASSERT_EQ(table.rows().size(), 2U);

@@ -1,0 +1,158 @@
+// Which tables claims are judged by, what these have to look like, and whether the run that wrote them came to its end.
+#include "bench/claims/result_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/result_file.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+ColumnNames columns(ColumnNames first, const ColumnNames& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+const ColumnNames solve{"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"};
+const ColumnNames status{"status", "branch"};
+const ColumnNames fit{"problem", "method", "tableau", "stages", "quantity"};
+const ColumnNames scheme{"problem", "method", "tableau", "stages"};
+
+/// Columns of keys that count or measure something.
+bool is_number(const std::string& column) {
+  constexpr std::array numbers{"stages", "intervals", "order", "steps", "steps_per_period", "periods", "h", "minimum"};
+  return std::ranges::find(numbers, column) != numbers.end();
+}
+
+/// Throws `Error` unless the table has its columns, each once, and every row a key of its own.
+void check(const Table& table, const DeclaredTable& declared) {
+  for (const std::string& column : columns(declared.key, declared.texts)) {
+    const auto count = std::ranges::count(table.columns(), column);
+    if (count == 1) continue;
+    throw Error(fmt::format("{}.csv has {} column {}", declared.name, count == 0 ? "no" : "more than one", column));
+  }
+  std::map<std::vector<std::string>, const Row*> seen;
+  for (const Row& row : table.rows()) {
+    std::vector<std::string> key;
+    for (const std::string& column : declared.key) {
+      if (is_number(column)) static_cast<void>(row.needed(column));
+      key.push_back(row.text(column));
+    }
+    const auto [first, is_new] = seen.try_emplace(key, &row);
+    if (!is_new)
+      throw Error(fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(key, ", ")));
+  }
+}
+
+/// The content of a file that is a file: nobody waits for a pipe.
+std::string content_of(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))
+    throw Error(fmt::format("{} is no regular file", path.filename().string()));
+  return read_file(path);
+}
+
+/// Throws `Error` unless a run came to its end and its own table is the one that it tells of.
+void check_run(const std::filesystem::path& folder, const std::string& run, const ResultTables& tables) {
+  const std::string file = run + ".json";
+  if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
+    throw Error(fmt::format("there is no {}, which tells whether the run came to its end", file));
+  }
+  const auto description = nlohmann::json::parse(content_of(folder / file), nullptr, false);
+  const auto complete = description.is_object() ? description.find("complete") : description.end();
+  if (!description.is_object() || complete == description.end() || !complete->is_boolean()) {
+    throw Error(fmt::format("{} does not tell whether the run came to its end", file));
+  }
+  if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted, as {} says; run it again", file));
+  const auto count = description.find("rows");
+  if (count == description.end() || !tables.has(run)) return;
+  const std::size_t rows = tables.rows(run).size();
+  if (*count != rows) {
+    throw Error(fmt::format("{} tells of {} rows and {}.csv has {}: they are of different runs, or rows are lost", file,
+                            count->dump(), run, rows));
+  }
+}
+
+}  // namespace
+
+const std::vector<DeclaredTable>& declared_tables() {
+  static const std::vector<DeclaredTable> tables{
+      {"consistency", "consistency", solve, status},
+      {"objective", "objective", solve, status},
+      {"convergence", "convergence", solve, status},
+      {"convergence_512", "convergence_512", solve, status},
+      {"convergence_indirect", "convergence_indirect", solve, status},
+      {"convergence_slopes", "convergence", fit},
+      {"convergence_512_slopes", "convergence_512", fit},
+      {"convergence_indirect_slopes", "convergence_indirect", fit, {"verdict"}},
+      {"equivalence", "equivalence", solve, status},
+      {"equivalence_slopes", "equivalence", fit, {"verdict"}},
+      {"iterations", "iterations", columns(solve, {"crash"}), status},
+      {"derivatives", "derivatives", columns(solve, {"hessian"}), status},
+      {"consistency_order_slopes", "consistency_order", {"problem", "tableau", "stages", "order", "quantity"}},
+      {"structure_momentum", "structure", columns(scheme, {"force", "steps", "h"})},
+      {"structure_symplecticity", "structure", columns(scheme, {"h"})},
+      {"structure_energy_behaviour", "structure", columns(scheme, {"order", "steps_per_period", "periods"})},
+      {"structure_advantage_ratios", "structure_advantage",
+       columns(scheme, {"solver", "factorisation", "intervals", "quantity"})},
+      {"local_minima_minima",
+       "local_minima",
+       {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"}},
+      {"local_minima_shares", "local_minima", solve},
+      {"profile", "profile", solve, {"status", "success"}},
+      {"slips", "", {"problem", "slip"}},
+  };
+  return tables;
+}
+
+ResultTables ResultTables::read(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
+  ResultTables tables;
+  for (const DeclaredTable& declared : declared_tables()) {
+    const std::string file = declared.name + ".csv";
+    try {
+      if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) continue;
+      tables.add(declared.name, Table::from_csv(content_of(folder / file)));
+      check(tables.tables_.at(declared.name), declared);
+    } catch (const Error& error) {
+      const std::string sentence = error.what();
+      tables.faults_[declared.name] = sentence.find(file) == std::string::npos ? file + ": " + sentence : sentence;
+    }
+  }
+  std::map<std::string, std::string, std::less<>> faults;
+  for (const DeclaredTable& declared : declared_tables()) {
+    if (declared.run.empty() || !tables.has(declared.name)) continue;
+    try {
+      check_run(folder, declared.run, tables);
+    } catch (const Error& error) {
+      faults[declared.name] = fmt::format("{}.csv: {}", declared.name, error.what());
+    }
+  }
+  tables.faults_.merge(faults);
+  return tables;
+}
+
+void ResultTables::add(const std::string& name, Table table) {
+  table.name_places(name + ".csv");
+  tables_[name] = std::move(table);
+}
+
+Selection ResultTables::rows(std::string_view table) const {
+  if (const auto fault = faults_.find(table); fault != faults_.end()) throw Error(fault->second);
+  const auto found = tables_.find(table);
+  if (found == tables_.end()) throw MissingTable(fmt::format("there is no {}.csv", table));
+  return found->second;
+}
+
+Selection ResultTables::rows(std::string_view table, std::string_view problem) const {
+  const Selection of_problem = rows(table).where("problem", problem);
+  if (of_problem.empty()) throw Error(fmt::format("{}.csv has no row of {}", table, problem));
+  return of_problem;
+}
+
+}  // namespace dmocbench

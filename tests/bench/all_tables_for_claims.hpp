@@ -1,0 +1,148 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/bench/tables_for_claims.hpp"
+
+// The tables that claims read, as a run that reproduces all of them would write them.
+namespace dmocbench::tests {
+
+/// A row from texts in the order of columns.
+inline Row row_of_texts(const ColumnNames& columns, const std::vector<std::string>& texts) {
+  Row row;
+  for (std::size_t i = 0; i < columns.size(); ++i) row.set(columns[i], texts.at(i));
+  return row;
+}
+
+inline Rows momentum_rows() {
+  Rows rows;
+  for (const char* force : {"along", "orthogonal"}) {
+    for (const char* stages : {"1", "2"}) {
+      rows.push_back(row_of_texts(
+          {"problem", "method", "tableau", "stages", "force", "steps", "h", "defect", "defect_in_long_double"},
+          {"radial_thrust", "dmoc", "gauss", stages, force, "400", "0.05", "1e-13", "1e-16"}));
+    }
+  }
+  return rows;
+}
+
+inline Rows symplecticity_rows() {
+  Rows rows;
+  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+    rows.push_back(
+        row_of_texts({"problem", "method", "tableau", "stages", "h", "defect", "rounding"},
+                     {"kepler", method, "gauss", "1", "0.05", method == "tangent" ? "1e-3" : "2e-15", "1e-15"}));
+  }
+  return rows;
+}
+
+inline Rows energy_rows() {
+  Rows rows;
+  for (const std::string method : {"dmoc", "explicit_midpoint", "runge_kutta_4"}) {
+    rows.push_back(row_of_texts(
+        {"problem", "method", "tableau", "stages", "order", "steps_per_period", "periods", "oscillation", "range",
+         "change"},
+        {"kepler", method, "gauss", "1", "2", "64", "10000", "1e-3", "1e-3", method == "dmoc" ? "1e-6" : "0.5"}));
+  }
+  return rows;
+}
+
+inline Rows consistency_order_rows() {
+  Rows rows;
+  for (const char* quantity : {"lagrangian", "map", "left_force", "right_force", "left_legendre", "right_legendre"}) {
+    rows.push_back(row_of_texts({"problem", "tableau", "stages", "order", "quantity", "slope"},
+                                {orbit, "gauss", "1", "2", quantity, "3.01"}));
+  }
+  return rows;
+}
+
+inline Rows advantage_rows() {
+  Rows rows;
+  const auto append = [&](const char* solver, const char* factorisation, const char* quantity) {
+    rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals",
+                                 "quantity", "ratio_at_equal_intervals"},
+                                {orbit, "hamiltonian", "gauss", "1", solver, factorisation, "256", quantity, "1.5"}));
+  };
+  append("ipopt", "", "seconds_per_iteration");
+  for (const char* factorisation : {"intervals", "sparse"}) {
+    append("interior_point", factorisation, "seconds_per_linear_system");
+    append("interior_point", factorisation, "elimination_operations");
+  }
+  return rows;
+}
+
+inline const ColumnNames of_minima{"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"};
+
+inline Rows minima_rows() {
+  ColumnNames columns = of_minima;
+  columns.insert(columns.end(), {"objective", "dmoc", "hamiltonian", "tangent"});
+  return {row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "1", "80.5", "3", "2", "0"}),
+          row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "2", "90.5", "3", "2", "0"})};
+}
+
+inline Rows share_rows() {
+  const ColumnNames columns{"problem",   "method", "tableau", "stages",      "solver",     "derivatives",
+                            "intervals", "starts", "best",    "share_lower", "share_upper"};
+  return {row_of_texts(columns, {orbit, "dmoc", "gauss", "1", "ipopt", "tape", "48", "40", "36", "0.8", "0.95"}),
+          row_of_texts(columns, {orbit, "tangent", "gauss", "1", "ipopt", "tape", "48", "40", "4", "0.05", "0.2"})};
+}
+
+inline Rows profile_rows() {
+  Rows rows;
+  for (const std::string method : {"dmoc", "hamiltonian"}) {
+    const char* const effort = method == "dmoc" ? "10" : "20";
+    rows.push_back(row_of_texts(
+        {"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "status", "success",
+         "objective", "seconds", "evaluations", "major_iterations"},
+        {"cart_pole", method, "gauss", "1", "ipopt", "tape", "32", "solved", "yes", "1.5", effort, effort, effort}));
+  }
+  return rows;
+}
+
+/// The rows that a claim about another problem reads, made of those of the orbit.
+inline void add_rows_of(Rows& rows, const char* problem, const std::function<bool(const Row&)>& wanted) {
+  Rows more;
+  std::ranges::copy_if(rows, std::back_inserter(more), wanted);
+  for (Row& row : more) {
+    row.set("problem", problem);
+    rows.push_back(row);
+  }
+}
+
+inline std::map<std::string, Rows> all_rows() {
+  std::map<std::string, Rows> rows = rows_of_tables();
+  rows["convergence_512_slopes"] = rows["convergence_slopes"];
+  for (Row& row : rows["convergence_512_slopes"]) row.set("problem", two_link);
+  add_rows_of(rows["convergence_indirect_slopes"], two_link,
+              [](const Row& row) { return row.text("method") == "dmoc" && row.text("quantity") == "control"; });
+  for (Row& row : rows["equivalence"]) {
+    if (row.text("method") == "tangent") row.set("adjoint_residual", 1e-12);
+  }
+  add_rows_of(rows["equivalence"], oscillator, [](const Row& row) { return row.text("method") == "hamiltonian"; });
+  for (Row& row : rows["equivalence"]) {
+    if (row.text("problem") == oscillator) row.set("method", "tangent");
+  }
+  for (Row& row : rows["iterations"]) {  // saved from any start, so that all three claims are reproduced
+    row.set("minor_iterations", *row.number("free_variables") + 3.0);
+    row.set("predicted_minors", *row.number("minor_iterations"));
+  }
+  for (Row& row : rows["derivatives"]) {
+    if (row.text("derivatives") == "forward_differences") row.set("status", "step failed");
+  }
+  rows["structure_momentum"] = momentum_rows();
+  rows["structure_symplecticity"] = symplecticity_rows();
+  rows["structure_energy_behaviour"] = energy_rows();
+  rows["consistency_order_slopes"] = consistency_order_rows();
+  rows["structure_advantage_ratios"] = advantage_rows();
+  rows["local_minima_minima"] = minima_rows();
+  rows["local_minima_shares"] = share_rows();
+  rows["profile"] = profile_rows();
+  return rows;
+}
+
+}  // namespace dmocbench::tests

@@ -1,0 +1,301 @@
+// What no table may hold, put into every column that decides on a claim: no claim is reproduced by it.
+#include <algorithm>
+#include <filesystem>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "bench/claims/claim.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "tests/bench/all_tables_for_claims.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Rows;
+
+/// Every column that a declared table, or a claim on it, may have.
+const ColumnNames& known_columns() {
+  static const ColumnNames columns = [] {
+    ColumnNames names = names_of(core_columns());
+    names.insert(names.end(), {"crash",
+                               "hessian",
+                               "predicted_minors",
+                               "quantity",
+                               "slope",
+                               "points",
+                               "verdict",
+                               "largest_force",
+                               "momentum_defect_max",
+                               "rounding_in_rows_of_dmoc",
+                               "rounding_here",
+                               "adjoint_residual",
+                               "adjoint_residual_by_plain_coefficients",
+                               "force",
+                               "steps",
+                               "h",
+                               "defect",
+                               "defect_in_long_double",
+                               "rounding",
+                               "order",
+                               "steps_per_period",
+                               "periods",
+                               "oscillation",
+                               "range",
+                               "change",
+                               "factorisation",
+                               "ratio_at_equal_intervals",
+                               "minimum",
+                               "dmoc",
+                               "hamiltonian",
+                               "tangent",
+                               "starts",
+                               "best",
+                               "share_lower",
+                               "share_upper",
+                               "success",
+                               "evaluations"});
+    names.insert(names.end(), tests::differences.begin(), tests::differences.end());
+    return names;
+  }();
+  return columns;
+}
+
+/// The columns of a table: those with a text in a row, and those that are declared.
+ColumnNames columns_of_rows(const DeclaredTable& declared, const Rows& rows) {
+  ColumnNames columns;
+  for (const std::string& column : known_columns()) {
+    const bool is_declared =
+        std::ranges::count(declared.key, column) > 0 || std::ranges::count(declared.texts, column) > 0;
+    if (is_declared || std::ranges::any_of(rows, [&](const Row& row) { return !row.text(column).empty(); })) {
+      columns.push_back(column);
+    }
+  }
+  return columns;
+}
+
+using Judgements = std::map<std::string, JudgedClaim>;
+
+class DoctoredClaims : public tests::InTemporaryFolder {
+ protected:
+  void SetUp() override {
+    InTemporaryFolder::SetUp();
+    for (const DeclaredTable& declared : declared_tables()) {
+      if (!rows_.contains(declared.name)) continue;
+      // Solvers and back ends are no matter to most claims, but are part of the keys.
+      for (Row& row : rows_[declared.name]) {
+        if (row.text("solver").empty()) row.set("solver", "ipopt");
+        if (row.text("derivatives").empty()) row.set("derivatives", "tape");
+      }
+      columns_[declared.name] = columns_of_rows(declared, rows_[declared.name]);
+      write(declared.name, columns_[declared.name], rows_[declared.name]);
+      if (!declared.run.empty()) write_file(folder() / (declared.run + ".json"), R"({"complete": true})");
+    }
+    whole_ = judge();
+  }
+  void write(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
+    Table table(columns);
+    for (const Row& row : rows) table.append(row);
+    write_file(folder() / (name + ".csv"), table.csv());
+  }
+  /// The table with a text in a column of some rows.
+  [[nodiscard]] Judgements with(
+      const std::string& name, const std::string& column, const std::string& text,
+      const std::function<bool(const Row&)>& where = [](const Row&) { return true; }) const {
+    Rows doctored = rows_.at(name);
+    for (Row& row : doctored) {
+      if (where(row) && !row.text(column).empty()) row.set(column, text);
+    }
+    write(name, columns_.at(name), doctored);
+    const Judgements judged = judge();
+    write(name, columns_.at(name), rows_.at(name));
+    return judged;
+  }
+  [[nodiscard]] Judgements without(const std::string& name, const std::string& column) const {
+    ColumnNames columns = columns_.at(name);
+    std::erase(columns, column);
+    write(name, columns, rows_.at(name));
+    const Judgements judged = judge();
+    write(name, columns_.at(name), rows_.at(name));
+    return judged;
+  }
+  [[nodiscard]] Judgements judge() const {
+    Judgements judged;
+    for (const JudgedClaim& claim : judge_claims(ResultTables::read(folder()))) judged[claim.id] = claim;
+    return judged;
+  }
+
+  std::map<std::string, Rows> rows_ = tests::all_rows();
+  std::map<std::string, ColumnNames> columns_;
+  Judgements whole_;  ///< of the tables as they are
+};
+
+const std::vector<std::string> no_numbers{"nan", "-nan", "inf", "-inf", "much", ""};
+
+TEST_F(DoctoredClaims, AreAllReproducedByWholeTables) {
+  const std::set<std::string> told_otherwise{"orbital_transfer/adolc_faster_than_differences"};
+  std::size_t reproduced = 0;
+  for (const auto& [id, claim] : whole_) {
+    if (claim.verdict == ClaimVerdict::reproduced) ++reproduced;
+    if (id.starts_with("orbital_transfer") && !told_otherwise.contains(id)) {
+      EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced) << id << ": " << claim.measured;
+    }
+  }
+  EXPECT_GE(reproduced, 29U);
+}
+
+/// A number that decides is one whose change is told or changes the verdict.
+TEST_F(DoctoredClaims, AreNeverReproducedWhereANumberThatDecidesIsNone) {
+  std::mt19937 random(19);  // NOLINT(cert-msc51-cpp): the same rows each time
+  std::size_t deciding = 0;
+  for (const auto& [name, columns] : columns_) {
+    for (const std::string& column : columns) {
+      const Rows& rows = rows_.at(name);
+      const auto is_number = [&](const Row& row) { return row.number(column).has_value(); };
+      const auto numbers = std::ranges::count_if(rows, is_number);
+      if (numbers == 0) continue;
+      const auto one = std::uniform_int_distribution<std::ptrdiff_t>(0, numbers - 1)(random);
+      for (const bool in_all_rows : {true, false}) {
+        std::ptrdiff_t i = 0;
+        const auto chosen = [&](const Row& row) { return is_number(row) && (i++ == one || in_all_rows); };
+        const auto doctored = [&](const std::string& text) {
+          i = 0;
+          return with(name, column, text, chosen);
+        };
+        std::set<std::string> decided;
+        for (const char* number : {"1e30", "-1e30", "0.37"}) {
+          for (const auto& [id, claim] : doctored(number)) {
+            const JudgedClaim& before = whole_.at(id);
+            if (before.measured != claim.measured || before.verdict != claim.verdict) decided.insert(id);
+          }
+        }
+        if (decided.empty()) continue;
+        ++deciding;
+        for (const std::string& text : no_numbers) {
+          Judgements judged = doctored(text);
+          for (const std::string& id : decided) {
+            EXPECT_NE(judged[id].verdict, ClaimVerdict::reproduced)
+                << name << ": " << column << " = \"" << text << "\": " << id << ": " << judged[id].measured;
+          }
+        }
+        if (!in_all_rows) continue;
+        Judgements judged = without(name, column);
+        for (const std::string& id : decided) {
+          EXPECT_NE(judged[id].verdict, ClaimVerdict::reproduced) << name << " without " << column << ": " << id;
+        }
+      }
+    }
+  }
+  EXPECT_GT(deciding, 100U);
+}
+
+struct Deciding {
+  std::string table;
+  std::string column;
+  std::vector<std::string> claims;
+};
+
+TEST_F(DoctoredClaims, SayNotYetAndNameTheColumn) {
+  const std::vector<Deciding> all{
+      {"objective", "objective", {"objective_evolution"}},
+      {"structure_momentum", "defect", {"forced_noether_theorem", "momentum_preserved"}},
+      {"structure_momentum", "defect_in_long_double", {"forced_noether_theorem", "momentum_preserved"}},
+      {"equivalence", "configuration_difference", {"equal_solutions"}},
+      {"equivalence", "momentum_difference", {"equal_solutions"}},
+      {"equivalence", "control_difference", {"equal_solutions"}},
+      {"equivalence", "costate_difference", {"equal_solutions"}},
+      {"equivalence", "objective_difference", {"equal_solutions"}},
+      {"equivalence", "adjoint_residual", {"order_of_adjoint_scheme"}},
+      {"equivalence", "adjoint_residual_by_plain_coefficients", {"order_of_adjoint_scheme"}},
+      {"consistency", "momentum_defect_max", {"momentum_consistency"}},
+      {"iterations", "minor_iterations", {"minor_iteration_ratio", "minor_iteration_ratio_from_a_crash_basis"}},
+      {"structure_advantage_ratios",
+       "ratio_at_equal_intervals",
+       {"collocation_more_expensive", "factorisation_more_expensive_by_any_solver"}},
+      {"structure_energy_behaviour", "change", {"modified_energy"}},
+      {"local_minima_minima", "objective", {"local_minima"}},
+      {"local_minima_minima", "hamiltonian", {"local_minima"}},
+      {"local_minima_shares", "share_lower", {"best_minimum_share"}},
+      {"local_minima_shares", "share_upper", {"best_minimum_share"}},
+      {"derivatives", "seconds", {"automatic_differentiation", "adolc_faster_than_differences"}},
+  };
+  const auto expect = [](Judgements judged, const Deciding& deciding, const std::string& what) {
+    for (const std::string& claim : deciding.claims) {
+      const JudgedClaim& found = judged[std::string(orbit) + "/" + claim];
+      EXPECT_EQ(found.verdict, ClaimVerdict::not_yet) << claim << " with " << deciding.column << " " << what;
+      EXPECT_NE(found.measured.find(deciding.table + ".csv"), std::string::npos) << found.measured;
+      EXPECT_NE(found.measured.find(deciding.column), std::string::npos) << found.measured;
+    }
+  };
+  for (const Deciding& deciding : all) {
+    for (const std::string& text : no_numbers) expect(with(deciding.table, deciding.column, text), deciding, text);
+    expect(without(deciding.table, deciding.column), deciding, "missing");
+  }
+  expect(with("iterations", "minor_iterations", "0"), all[11], "zero");
+}
+
+TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
+  const std::string name = "local_minima_minima";
+  const std::filesystem::path file = folder() / (name + ".csv");
+  const auto expect = [&](const std::string& sentence) {
+    Judgements judged = judge();
+    const JudgedClaim& claim = judged["orbital_transfer/local_minima"];
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << sentence;
+    EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
+    EXPECT_EQ(judged["orbital_transfer/symplectic"].verdict, ClaimVerdict::reproduced);
+    std::filesystem::remove(file);
+    write(name, columns_.at(name), rows_.at(name));
+    write_file(folder() / "local_minima.json", R"({"complete": true})");
+  };
+  Rows doubled = rows_.at(name);
+  doubled.push_back(doubled.front());
+  write(name, columns_.at(name), doubled);
+  expect("has the key of");
+  write_file(file, "problem,minimum\none,1\ntwo\n");
+  expect("record 3");
+  std::filesystem::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  expect("no regular file");
+  std::filesystem::remove(file);
+  expect("there is no local_minima_minima.csv");
+  write_file(folder() / "local_minima.json", R"({"complete": false})");
+  expect("interrupted");
+  write_file(folder() / "local_minima.json", "[");
+  expect("local_minima.json does not tell");
+  std::filesystem::remove(folder() / "local_minima.json");
+  expect("there is no local_minima.json");
+  write_file(folder() / "own_notes.csv", "a,b\n1\n");
+  EXPECT_EQ(judge()["orbital_transfer/local_minima"].verdict, ClaimVerdict::reproduced);
+}
+
+TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
+  write_file(folder() / "objective.json", R"({"complete": true, "rows": 7})");
+  const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
+  EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet);
+  EXPECT_NE(claim.measured.find("7 rows and objective.csv has 6"), std::string::npos) << claim.measured;
+}
+
+TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {
+  const std::string name = "convergence_indirect_slopes";
+  write(name, columns_.at(name), {rows_.at(name).front()});
+  const JudgedClaim claim = judge()["orbital_transfer/order_of_convergence"];
+  EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet);
+  EXPECT_NE(claim.measured.find("no order of momentum for orbital_transfer, dmoc, gauss 2"), std::string::npos)
+      << claim.measured;
+}
+
+TEST_F(DoctoredClaims, CountTheRowsThatTheyLeaveOutAndSayWhomThatFavours) {
+  const auto is_stray = [](const Row& row) {
+    return row.text("derivatives") == "finite_differences" && row.text("method") == "dmoc";
+  };
+  const std::string measured =
+      with("derivatives", "status", "step failed", is_stray)["orbital_transfer/adolc_faster_than_differences"].measured;
+  EXPECT_NE(measured.find("4 of 6 rows left out"), std::string::npos) << measured;
+  EXPECT_NE(measured.find("in favour of finite_differences by dmoc (2)"), std::string::npos) << measured;
+}
+
+}  // namespace
+}  // namespace dmocbench
