@@ -99,10 +99,8 @@ int evaluate_slips(CommandLine& line) {
   line.parse();
   prepare_folder(out);
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
-  const Trajectory motion =
-      StartProvider("common", {})
-          .solve(
-              {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
+  const Trajectory motion = StartProvider({}, {}).solve(
+      {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
   const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),
                                 mayer_gradient(*orbit, motion)};
   write_file(out / "slips.csv", table_of(columns, slips).csv());

@@ -120,7 +120,7 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results)
 /// Energy change against the work of the thrust along the optimal transfer, for all methods.
 void follow_transfer(EnergyResults& results) {
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
-  StartProvider starts("common", {});
+  StartProvider starts({}, {});
   Case the_case{.problem = problem, .method = {}, .tableau = "gauss", .solver = "ipopt"};
   for (const std::string& method : element_names()) {
     the_case.method = method;
