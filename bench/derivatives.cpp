@@ -5,6 +5,7 @@
 
 #include "bench/derivatives/measured_derivatives.hpp"
 #include "bench/experiment/experiment.hpp"
+#include "methods/error.hpp"
 
 namespace dmocbench::programs {
 
@@ -77,8 +78,9 @@ class Derivatives final : public Experiment {
     if (!is_exact || !the_case.variant.empty()) {
       const SolvedCase* exact = partner_of(the_case);
       options.most_iterations = std::min(options.most_iterations, most_iterations);
-      options.most_seconds =
+      const double limit =
           exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->solution.seconds) : limit_without_tape;
+      options.most_seconds = options.most_seconds > 0.0 ? std::min(options.most_seconds, limit) : limit;
     }
     return Experiment::solver_for(the_case, options);
   }
@@ -94,7 +96,12 @@ class Derivatives final : public Experiment {
       const Eigen::MatrixXd& q = exact->trajectory->q;
       measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
     }
-    if (solved.program) evaluate(solved);
+    if (!solved.program) return;
+    try {
+      evaluate(solved);
+    } catch (const Error& failure) {
+      solved.note(failure.what());
+    }
   }
 
  private:

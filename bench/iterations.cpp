@@ -20,7 +20,8 @@ class Iterations final : public Experiment {
                         "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free "
                         "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
                         "collocation against DMOC. Default start: the problem's guess.",
-                    .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8}}) {}
+                    .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
+                    .tells_branches_from_guess = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     constexpr auto solution = &SolvedCase::solution;
     return {

@@ -104,7 +104,7 @@ int evaluate_slips(CommandLine& line) {
   options.stop_requested = interrupt_requested;
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
   const Trajectory motion =
-      StartProvider("common", options)
+      StartProvider({}, options)
           .solve(
               {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
   const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),

@@ -123,7 +123,7 @@ void follow_transfer(EnergyResults& results) {
   const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
   SolverOptions options;
   options.stop_requested = interrupt_requested;
-  StartProvider starts("common", options);
+  StartProvider starts({}, options);
   Case the_case{.problem = problem, .method = {}, .tableau = "gauss", .solver = "ipopt"};
   for (const std::string& method : element_names()) {
     the_case.method = method;

@@ -37,7 +37,7 @@ NR == 1 {
 {
   coarse = "status" in position && $position["status"] == "too coarse"
   solved = !("status" in position) || $position["status"] == "solved"
-  same = branches == "any" || !("branch" in position) || $position["branch"] == "same"
+  same = branches == "any" || !("branch" in position) || $position["branch"] == "same" || $position["branch"] == ""
 }
 take == "" && !(solved && same) { next }
 take == "drawn" && !((solved || coarse) && same) { next }

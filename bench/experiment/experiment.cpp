@@ -53,7 +53,11 @@ class Run {
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
         cases_(with_variants(experiment, expand_cases(options_))),
-        starts_(options_.start, solver_options_),
+        starts_({.kind = options_.start,
+                 .most_seconds = options_.start_seconds,
+                 .tells_branch = experiment.card().tells_branches,
+                 .tells_branch_from_guess = experiment.card().tells_branches_from_guess},
+                solver_options_),
         columns_(core_columns() + experiment.columns()),
         names_(names_of(columns_)),
         rows_(cases_.size()),
@@ -62,6 +66,13 @@ class Run {
     experiment_.check(cases_);
     starts_.check(cases_);
     starts_.on_progress = [this](const std::string& activity) { show(activity); };
+    starts_.on_long_search = [this](const std::string& sentence) {
+      if (!terminal_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
+    };
+    for (const Case& the_case : cases_) {
+      nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
+      if (scale.is_null()) scale = the_case.problem->cost_scale();
+    }
     for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_));
   }
 
@@ -179,8 +190,8 @@ class Run {
   SolvedCase solve(const Case& the_case, int repeats) {
     SolvedCase unsolved{.the_case = the_case};
     try {
-      const Start start{.motion = experiment_.start_for(the_case, starts_.motion_for(the_case)),
-                        .branch = experiment_.card().tells_branches ? starts_.branch_for(the_case) : std::nullopt};
+      Start start = starts_.start_for(the_case);
+      start.motion = experiment_.start_for(the_case, std::move(start.motion));
       show(the_case.label());
       return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
                         repeats, experiment_.card().polishes);

@@ -13,11 +13,13 @@ namespace dmocbench {
 
 /// The properties of an experiment that do not depend on its cases.
 struct ExperimentCard {
-  std::string name;                       ///< of the binary, and of the table unless the user gives another
-  std::string description;                ///< in `--help`
-  ExperimentOptions options;              ///< the defaults; then the choice of the user
-  bool tells_branches = true;             ///< rows tell their branch, which takes the solves of a common start
-  bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
+  std::string name;                        ///< of the binary, and of the table unless the user gives another
+  std::string description;                 ///< in `--help`
+  ExperimentOptions options;               ///< the defaults; then the choice of the user
+  bool tells_branches = true;              ///< rows tell whether they are on the branch of their start
+  bool tells_branches_from_guess = false;  ///< also where solves start at the guess: methods are compared there, by
+                                           ///< rows on one branch alone, so that a common start is looked for
+  bool problems_are_independent = false;   ///< rows of one problem need nothing of another's: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
   bool polishes = false;     ///< solved cases are tightened by Newton steps (polish.hpp)

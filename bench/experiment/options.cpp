@@ -13,6 +13,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/tableau.hpp"
@@ -130,8 +131,13 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.option("--start", options.start,
               "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
               "X_nodes.csv written by solve");
+  line.number(
+      "--start-seconds", options.start_seconds, 0.0, 1e6,
+      "time to look for the common start of a problem (and tableau), after which its solves start at the guess, "
+      "which their rows say");
   line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
   line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
+  line.number("--seconds", options.most_seconds, 0.0, 1e6, "time after which a solve has failed; 0: no limit");
   line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
   line.option("--repeats", options.repeats, "solves per row; times are medians");
   line.option("--out", options.out, "folder for the results");
@@ -143,6 +149,7 @@ SolverOptions solver_options(const ExperimentOptions& options) {
   SolverOptions result;
   result.tolerance = options.tolerance;
   result.most_iterations = options.most_iterations;
+  result.most_seconds = options.most_seconds;
   result.verbose = options.verbose;
   result.stop_requested = interrupt_requested;
   for (const std::string& text : options.passed_on) {
@@ -196,7 +203,13 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     for (const auto& [tableau, stages] : schemes) {
       if (!checked.insert(tableau).second) continue;
       const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), "", form};
-      static_cast<void>(coarsest.transcribe());
+      try {
+        const StopScope scope(interrupt_requested, options.most_seconds);
+        static_cast<void>(coarsest.transcribe());
+      } catch (const Stopped&) {
+        throw Error(fmt::format("{} takes longer than --seconds {:g} to set up; allow more, or ask for less of it",
+                                problem->name(), options.most_seconds));
+      }
     }
     for (const std::string& method : methods) {
       for (const auto& [tableau, stages] : schemes) {

@@ -28,8 +28,10 @@ struct ExperimentOptions {
   std::string start = "common";             ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
   int most_iterations = SolverOptions{}.most_iterations;
-  int jobs = 1;     ///< problems worked on at the same time, where an experiment allows it
-  int repeats = 1;  ///< solves per row; times are their medians
+  double most_seconds = 0.0;    ///< of a solve, and of its set-up; 0 for no limit
+  double start_seconds = 30.0;  ///< of the search of a problem's common start
+  int jobs = 1;                 ///< problems worked on at the same time, where an experiment allows it
+  int repeats = 1;              ///< solves per row; times are their medians
   bool verbose = false;
   std::filesystem::path out = "results";
   std::string name = {};

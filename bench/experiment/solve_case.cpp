@@ -1,15 +1,18 @@
 #include "bench/experiment/solve_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/undefined_point.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/describe_violation.hpp"
@@ -56,6 +59,17 @@ void judge_accuracy(SolvedCase& solved) {
                   unit * solved.trajectory->node_times[k + 1], solved.accuracy->relative_jump);
 }
 
+/// Says so where the cost that the solver saw differs from 1 by three orders of magnitude.
+void note_cost_scale(SolvedCase& solved) {
+  constexpr double far = 1e3;
+  const double cost = std::abs(solved.trajectory->cost);
+  const double scale = solved.program->cost_scale();
+  const double seen = cost * scale;
+  if (!is_solved(solved.solution.status) || !std::isnormal(seen) || (seen < far && seen > 1.0 / far)) return;
+  solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", solved.trajectory->cost,
+                          std::pow(10.0, -std::round(std::log10(cost))), scale));
+}
+
 /// A column's getter: a number of the program's.
 auto count(std::size_t (*of_program)(const Transcription&)) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(*solved.program)) : Cell(); };
@@ -65,6 +79,8 @@ auto count(std::size_t (*of_program)(const Transcription&)) {
 auto seconds(double Solution::*member) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(solved.solution.*member) : Cell(); };
 }
+
+bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
 
 Cell largest_step(const SolvedCase& solved) {
   if (!solved.program) return {};
@@ -112,7 +128,8 @@ const Columns<SolvedCase>& core_columns() {
        count([](P p) { return p.hessian_structure().size(); })},
       {"status", "", "how the solve ended, as our own residuals confirm it",
        [](const SolvedCase& s) { return name_of(s.solution.status); }},
-      {"branch", "", "same or other than that of the start", from(&SolvedCase::branch)},
+      {"branch", "", "same or other than that of the start; unknown: no common start found; empty: none looked for",
+       from(&SolvedCase::branch)},
       {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
       {"kkt_residual", "", "scaled KKT residual", from(&SolvedCase::solution, &Solution::kkt_residual)},
       {"constraint_violation", "", "largest violation of a constraint",
@@ -151,7 +168,14 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
                       bool polishes) {
   SolvedCase result{.the_case = the_case};
   const auto setup_start = Clock::now();
-  result.program = the_case.transcribe();
+  try {
+    const StopScope scope(solver.options().stop_requested, solver.options().most_seconds);
+    result.program = the_case.transcribe();
+  } catch (const Stopped& stopped) {
+    result.solution.status = Status::time_limit;
+    result.solution.message = std::string(stopped.what()) + ".";
+    return result;
+  }
   result.setup_seconds = seconds_since(setup_start);
   Transcription& program = *result.program;
   result.start = sample(program, start.motion);
@@ -168,7 +192,14 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
-  if (result.trajectory && is_solved(solution.status)) judge_accuracy(result);
+  if (result.trajectory && is_solved(solution.status)) {
+    judge_accuracy(result);
+    note_cost_scale(result);
+  }
+  if (!start.note.empty()) {
+    result.branch = "unknown";
+    result.note(start.note);
+  }
   const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
   if (!missed.empty()) result.note(missed);
   return result;
@@ -186,13 +217,15 @@ bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
   return distance < share * range.maxCoeff();
 }
 
-bool is_usable(const SolvedCase& solved) { return solved.solution.status == Status::solved && solved.branch == "same"; }
-
-bool is_discrete_optimum(const SolvedCase& solved) {
-  return is_usable(solved) || (solved.solution.status == Status::too_coarse && solved.branch == "same");
+bool is_usable(const SolvedCase& solved) {
+  return is_solved(solved.solution.status) && is_wanted_branch(solved.branch);
 }
 
-bool is_usable(const Row& row) { return row.text("status") == "solved" && row.text("branch") == "same"; }
+bool is_discrete_optimum(const SolvedCase& solved) {
+  return is_usable(solved) || (solved.solution.status == Status::too_coarse && is_wanted_branch(solved.branch));
+}
+
+bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
 
 std::optional<ReplayError> replay(SolvedCase& solved) {
   try {
@@ -206,6 +239,10 @@ std::optional<ReplayError> replay(SolvedCase& solved) {
 IndependentChecks check_independently(SolvedCase& solved) {
   const Problem& problem = *solved.the_case.problem;
   const Trajectory& trajectory = *solved.trajectory;
+  if (const auto undefined = undefined_point(problem, trajectory); undefined && is_solved(solved.solution.status)) {
+    solved.solution.status = Status::evaluation_failed;
+    solved.solution.message = undefined->words();
+  }
   IndependentChecks checks{.replay = replay(solved),
                            .violation_between_nodes = violation_between_nodes(problem, trajectory),
                            .free_horizon_residual = {}};

@@ -50,7 +50,8 @@ struct SolvedCase {
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
   std::optional<Accuracy> accuracy = std::nullopt;      ///< of a solved case: whether its intervals join
-  std::string branch = {};                              ///< "same" or "other" than that of the start; empty if unknown
+  /// "same" or "other" than that of the start; "unknown" if no common start was found, empty if none was looked for.
+  std::string branch = {};
   std::optional<double> setup_seconds = std::nullopt;
   std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
   std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
@@ -66,7 +67,8 @@ struct SolvedCase {
 /// one the branch is left open.
 struct Start {
   Motion motion;
-  std::optional<Motion> branch;
+  std::optional<Motion> branch = std::nullopt;
+  std::string note = {};  ///< why it is not the motion that was asked for; the row's message ends with it
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
@@ -82,7 +84,8 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
 
-/// True of solves that ended on the wanted branch; curves, orders and claims use only these.
+/// True of solves that ended on the wanted branch, or on any where none is wanted (`--start guess`); curves, orders and
+/// claims use only these.
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
 /// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
 [[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
@@ -98,6 +101,7 @@ struct IndependentChecks {
 /// The controls of the case's trajectory replayed; none, with the reason in the row's message, if that fails.
 [[nodiscard]] std::optional<ReplayError> replay(SolvedCase& solved);
 
+/// A solved motion on which a formula is not a number becomes a failed evaluation, which the row's message says.
 [[nodiscard]] IndependentChecks check_independently(SolvedCase& solved);
 
 /// The columns that tell `checks`.

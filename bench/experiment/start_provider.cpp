@@ -14,6 +14,8 @@
 #include "bench/experiment/result_file.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -84,49 +86,162 @@ Eigen::VectorXd ranges(const Motion& motion) {
 
 }  // namespace
 
-StartProvider::StartProvider(std::string kind, SolverOptions options)
-    : kind_(std::move(kind)), options_(std::move(options)) {
+/// The search of one common start, within its time.
+class StartProvider::Search {
+ public:
+  Search(const StartProvider& provider, const Case& the_case)
+      : provider_(provider), case_(the_case), options_(provider.options_) {
+    options_.stop_requested = [this] { return must_stop(); };
+  }
+  // The options refer to this object.
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+  Search(Search&&) = delete;
+  Search& operator=(Search&&) = delete;
+  ~Search() = default;
+
+  [[nodiscard]] FoundStart run() {
+    std::vector<Candidate> candidates = solved_from_guess();
+    std::ranges::sort(candidates, {}, [](const Candidate& candidate) { return candidate.trajectory.cost; });
+    for (const Candidate& candidate : candidates) {
+      if (must_stop()) break;
+      Motion motion = smooth_motion(candidate.trajectory);
+      const auto finer = solve_on(candidate.method, 2 * final_intervals, motion);
+      if (finer && falls_as_predicted(replayed(*case_.problem, candidate.trajectory), replayed(*case_.problem, *finer),
+                                      candidate.trajectory.tableau.order)) {
+        return CommonStart{candidate.method, std::move(motion), smooth_motion(*finer)};
+      }
+    }
+    return tl::unexpected(reason());
+  }
+
+ private:
+  struct Candidate {
+    std::string method;
+    Trajectory trajectory;
+  };
+
+  [[nodiscard]] bool is_interrupted() const {
+    return provider_.options_.stop_requested && provider_.options_.stop_requested();
+  }
+
+  /// Asked between the iterations of all solves.
+  [[nodiscard]] bool must_stop() {
+    constexpr double seconds_of_silence = 5.0;
+    const double seconds = seconds_since(begin_);
+    if (!is_told_ && seconds > seconds_of_silence && provider_.on_long_search) {
+      is_told_ = true;
+      provider_.on_long_search(fmt::format("looking for the common start of {}, for at most {:g} s (--start-seconds)",
+                                           case_.problem->name(), provider_.rules_.most_seconds));
+    }
+    return is_interrupted() || seconds >= provider_.rules_.most_seconds;
+  }
+
+  [[nodiscard]] std::string reason() const {
+    const std::string& name = case_.problem->name();
+    if (is_interrupted()) return "interrupted";
+    if (seconds_since(begin_) >= provider_.rules_.most_seconds) {
+      return fmt::format("It began at the guess: {} has no common start after {:g} s; allow more by --start-seconds.",
+                         name, provider_.rules_.most_seconds);
+    }
+    return fmt::format(
+        "It began at the guess: {} has no common start, since from its guess no method finds a motion on {} intervals "
+        "that a replay confirms.",
+        name, final_intervals);
+  }
+
+  [[nodiscard]] std::vector<Candidate> solved_from_guess() {
+    std::vector<Candidate> candidates;
+    const Motion guess = guessed_motion(*case_.problem);
+    for (const std::string& method : element_names()) {
+      for (const long long intervals : guess_intervals) {
+        if (must_stop()) return candidates;
+        auto trajectory = solve_on(method, intervals, guess);
+        if (trajectory && intervals != final_intervals) {
+          trajectory = solve_on(method, final_intervals, smooth_motion(*trajectory));
+        }
+        if (trajectory) candidates.push_back({method, std::move(*trajectory)});
+      }
+    }
+    return candidates;
+  }
+
+  [[nodiscard]] std::optional<Trajectory> solve_on(const std::string& method, long long intervals,
+                                                   const Motion& start) {
+    Case candidate{.problem = case_.problem, .method = method, .tableau = case_.tableau};
+    candidate.stages = case_.stages;
+    candidate.grid = Grid::uniform(intervals);
+    std::unique_ptr<Transcription> program;
+    try {
+      const StopScope scope([this] { return must_stop(); }, 0.0);
+      program = candidate.transcribe();
+    } catch (const Stopped&) {
+      return std::nullopt;
+    }
+    for (const char* solver : {"interior_point", "ipopt"}) {
+      if (must_stop()) break;
+      if (provider_.on_progress) {
+        provider_.on_progress(fmt::format("{} {} {}: common start, {} on {} intervals by {}", case_.problem->name(),
+                                          case_.tableau, case_.stages, method, intervals, solver));
+      }
+      const Solution solution = make_solver(solver, options_)->solve(*program, sample(*program, start));
+      if (is_solved(solution.status)) return read_trajectory(*program, solution.primal, solution.multipliers);
+    }
+    return std::nullopt;
+  }
+
+  const StartProvider& provider_;
+  const Case& case_;
+  SolverOptions options_;
+  Clock::time_point begin_ = Clock::now();
+  bool is_told_ = false;
+};
+
+StartProvider::StartProvider(Rules rules, SolverOptions options)
+    : rules_(std::move(rules)), options_(std::move(options)) {
   options_.verbose = false;
   options_.passed_on.clear();  // the start must not depend on how a row is solved
   options_.tolerance = std::min(options_.tolerance, SolverOptions{}.tolerance);
-  options_.most_iterations = SolverOptions{}.most_iterations;
+  options_.most_iterations = std::min(options_.most_iterations, SolverOptions{}.most_iterations);
 }
 
 void StartProvider::check(const std::vector<Case>& cases) {
-  if (kind_ == "common" || kind_ == "guess") return;
+  if (rules_.kind == "common" || rules_.kind == "guess") return;
   for (const Case& the_case : cases) static_cast<void>(motion_in_file(*the_case.problem));
 }
 
 const Motion& StartProvider::motion_in_file(const Problem& problem) {
   if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
-  if (files_.empty()) origin_ = origin_of(kind_);
-  return files_.emplace(problem.name(), read_motion(problem, kind_)).first->second;
+  if (files_.empty()) origin_ = origin_of(rules_.kind);
+  return files_.emplace(problem.name(), read_motion(problem, rules_.kind)).first->second;
 }
 
-Motion StartProvider::motion_for(const Case& the_case) {
-  if (kind_ == "guess") return guessed_motion(*the_case.problem);
-  if (kind_ != "common") {
+Start StartProvider::start_for(const Case& the_case) {
+  const bool from_guess = rules_.kind == "guess";
+  if (!from_guess && rules_.kind != "common") {
     const Motion& motion = motion_in_file(*the_case.problem);
     if (origin_ != scheme_and_grid(the_case.method, the_case.tableau, the_case.stages, the_case.intervals())) {
-      return motion;
+      return {motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
     }
     throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
-                              kind_, the_case.label()));
+                              rules_.kind, the_case.label()));
   }
-  const FoundStart& start = common_start(the_case);
-  if (!start) throw NoStart(start.error());
-  const bool own = start->method == the_case.method && the_case.intervals() == final_intervals;
-  return own ? start->finer : start->motion;
-}
-
-std::optional<Motion> StartProvider::branch_for(const Case& the_case) {
-  if (kind_ != "guess") return motion_for(the_case);
-  const FoundStart& start = common_start(the_case);
-  return start ? std::optional(start->motion) : std::nullopt;
+  Start start{guessed_motion(*the_case.problem)};
+  if (from_guess && !rules_.tells_branch_from_guess) return start;
+  const FoundStart& found = common_start(the_case);
+  if (!found) {
+    if (options_.stop_requested && options_.stop_requested()) throw NoStart(found.error());
+    start.note = found.error();
+    return start;
+  }
+  const bool own = found->method == the_case.method && the_case.intervals() == final_intervals;
+  if (!from_guess) start.motion = own ? found->finer : found->motion;
+  if (rules_.tells_branch) start.branch = from_guess ? found->motion : start.motion;
+  return start;
 }
 
 Trajectory StartProvider::solve(const Case& the_case) {
-  const Start start{motion_for(the_case), branch_for(the_case)};
+  const Start start = start_for(the_case);
   const SolvedCase solved = solve_case(the_case, start, *make_solver(the_case.solver, options_), options_.tolerance, 1);
   if (!solved.trajectory || !is_usable(solved)) throw Error(the_case.label() + " could not be solved");
   return *solved.trajectory;
@@ -135,56 +250,7 @@ Trajectory StartProvider::solve(const Case& the_case) {
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {
   const Key key{the_case.problem->name(), the_case.tableau, the_case.stages};
   if (const auto known = common_.find(key); known != common_.end()) return known->second;
-  return common_.emplace(key, find_common_start(the_case)).first->second;
-}
-
-StartProvider::FoundStart StartProvider::find_common_start(const Case& the_case) const {
-  struct Candidate {
-    std::string method;
-    Trajectory trajectory;
-  };
-  const Problem& problem = *the_case.problem;
-  const Motion guess = guessed_motion(problem);
-  const auto is_interrupted = [&] { return options_.stop_requested && options_.stop_requested(); };
-  const auto solve_on = [&](const std::string& method, long long intervals, const Motion& start) {
-    Case candidate{.problem = the_case.problem, .method = method, .tableau = the_case.tableau};
-    candidate.stages = the_case.stages;
-    candidate.grid = Grid::uniform(intervals);
-    const auto program = candidate.transcribe();
-    const Solution solution = make_solver("ipopt", options_)->solve(*program, sample(*program, start));
-    return is_solved(solution.status) ? std::optional(read_trajectory(*program, solution.primal, solution.multipliers))
-                                      : std::nullopt;
-  };
-  std::vector<Candidate> candidates;
-  for (const std::string& method : element_names()) {
-    for (const long long intervals : guess_intervals) {
-      if (is_interrupted()) return tl::unexpected<std::string>("interrupted");
-      if (on_progress) {
-        on_progress(fmt::format("{} {} {}: common start, {} on {} intervals", problem.name(), the_case.tableau,
-                                the_case.stages, method, intervals));
-      }
-      auto trajectory = solve_on(method, intervals, guess);
-      if (trajectory && intervals != final_intervals) {
-        trajectory = solve_on(method, final_intervals, smooth_motion(*trajectory));
-      }
-      if (trajectory) candidates.push_back({method, std::move(*trajectory)});
-    }
-  }
-  std::ranges::sort(candidates, {}, [](const Candidate& candidate) { return candidate.trajectory.cost; });
-  for (const Candidate& candidate : candidates) {
-    if (is_interrupted()) return tl::unexpected<std::string>("interrupted");
-    Motion motion = smooth_motion(candidate.trajectory);
-    const auto finer = solve_on(candidate.method, 2 * final_intervals, motion);
-    if (!finer) continue;
-    if (falls_as_predicted(replayed(problem, candidate.trajectory), replayed(problem, *finer),
-                           candidate.trajectory.tableau.order)) {
-      return CommonStart{candidate.method, std::move(motion), smooth_motion(*finer)};
-    }
-  }
-  return tl::unexpected(
-      fmt::format("{} has no common start: from its guess no method finds a motion on {} intervals that a replay "
-                  "confirms; try --start guess, or a file written by solve",
-                  problem.name(), final_intervals));
+  return common_.emplace(key, Search(*this, the_case).run()).first->second;
 }
 
 Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number) {

@@ -28,29 +28,34 @@ class NoStart : public Error {
 /// From the same guess the methods fall into different local minima, and coarse grids have spurious ones. The common
 /// start of a problem and tableau is one motion for all methods and grids: each method solves from the guess at N = 48,
 /// 96 and 144, each answer is solved again at 144 and at 288, and of those that converge and whose replay error falls
-/// from 144 to 288 as the order predicts the one with the lowest objective is taken.
+/// from 144 to 288 as the order predicts the one with the lowest objective is taken. Each solve is one by
+/// `interior_point`, and where that fails one by Ipopt; neither takes more iterations or seconds than a row's may.
 class StartProvider {
  public:
-  /// `kind` is "common", "guess" or the name of a node file.
-  StartProvider(std::string kind, SolverOptions options);
+  struct Rules {
+    std::string kind = "common";           ///< common, guess or the name of a node file
+    double most_seconds = 30.0;            ///< of the search of one common start
+    bool tells_branch = true;              ///< starts come with the motion whose branch a case should be on
+    bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
+  };
+  StartProvider(Rules rules, SolverOptions options);
 
   /// Reads the file, if a file is the start. Throws `Error` if it does not fit one of the problems.
   void check(const std::vector<Case>& cases);
 
-  /// The motion to start this case from. No case starts at its own answer: where the common start is the case's own
-  /// method on the same grid, the same branch on the finer grid serves; a file that is the case's own answer is
-  /// refused. Throws `NoStart` then, and if no common start can be found.
-  [[nodiscard]] Motion motion_for(const Case& the_case);
-
-  /// The motion whose branch a case should be on: the one it starts from, but the common start where cases start from
-  /// the problem's guess, which is on no branch. None if there is no common start.
-  [[nodiscard]] std::optional<Motion> branch_for(const Case& the_case);
+  /// The motion to start this case from, and the motion whose branch it should be on. No case starts at its own answer:
+  /// where the common start is the case's own method on the same grid, the same branch on the finer grid serves; a file
+  /// that is the case's own answer is refused: throws `NoStart`. Where no common start is found, in time or at all, it
+  /// is the guess, and the note says why; throws `NoStart` if the search was interrupted.
+  [[nodiscard]] Start start_for(const Case& the_case);
 
   /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch.
   [[nodiscard]] Trajectory solve(const Case& the_case);
 
   /// Called before each solve on the way to a common start, with a description of it.
   std::function<void(const std::string&)> on_progress;
+  /// Called once in a search that takes longer than five seconds, with a sentence.
+  std::function<void(const std::string&)> on_long_search;
 
  private:
   struct CommonStart {
@@ -60,11 +65,11 @@ class StartProvider {
   };
   using FoundStart = tl::expected<CommonStart, std::string>;  // or the reason why there is none
   using Key = std::tuple<std::string, std::string, int>;
+  class Search;
   [[nodiscard]] const FoundStart& common_start(const Case& the_case);
-  [[nodiscard]] FoundStart find_common_start(const Case& the_case) const;
   [[nodiscard]] const Motion& motion_in_file(const Problem& problem);
 
-  std::string kind_;
+  Rules rules_;
   SolverOptions options_;
   std::map<Key, FoundStart> common_;
   std::map<std::string, Motion> files_;  // the file's motion, by the problem it was read for

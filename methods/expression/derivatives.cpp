@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -96,6 +97,7 @@ class ReverseMode {
 
   /// ∂f/∂x_j of one of the formulas, j < `count`.
   ExpressionVector gradient(const Expression& f, Eigen::Index count) {
+    stop_if_requested();
     const std::uint32_t last = f.node()->number();
     if (first_dependence_[last] < count) adjoints_[last] = Expression(1.0);
     for (std::size_t i = last + 1; i-- > 0;) {

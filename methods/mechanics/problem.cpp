@@ -8,6 +8,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
 
@@ -20,6 +21,44 @@ void Parameter::check(double candidate) const {
   if (in_range && (!whole || candidate == std::trunc(candidate))) return;
   const std::string in_unit = unit.empty() ? "" : " (" + unit + ")";
   throw Error(fmt::format("parameter {} must be {}{}, got {:g}", name, range(), in_unit, candidate));
+}
+
+namespace {
+
+/// ∫ |C| dt + |Φ| along the guess; none where its parts have the wrong size, which is told elsewhere.
+std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
+  constexpr int points = 64;
+  const double horizon = problem.horizon();
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
+  const auto fits = [n](const BoundaryState& end) { return end.q.size() == n && end.v.size() == n; };
+  const bool has_ends = fits(problem.initial_state()) && fits(problem.final_state());  // the default guess reads them
+  if (n == 0 || !has_ends || !(horizon > 0.0)) return std::nullopt;
+  PointFunction cost(n, m, [&](const ControlledState& x) {
+    ExpressionVector both(2);
+    both << problem.running_cost(x), problem.final_cost(x.state());
+    return both;
+  });
+  Eigen::Vector2d values;
+  double sum = 0.0;
+  for (int i = 0; i <= points; ++i) {  // the last point is the end
+    const double t = i < points ? horizon * (i + 0.5) / points : horizon;
+    const MotionPoint point = problem.guess(t);
+    if (point.q.size() != n || point.v.size() != n || point.u.size() != m) return std::nullopt;
+    cost.evaluate(point, t, values);
+    sum += i < points ? std::abs(values[0]) * horizon / points : std::abs(values[1]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double Problem::cost_scale() const {
+  constexpr int left_alone = 5;  // powers of two
+  const std::optional<double> cost = magnitude_of_guessed_cost(*this);
+  if (!cost || !std::isnormal(*cost)) return 1.0;
+  const int exponent = static_cast<int>(std::lround(-std::log2(*cost)));
+  return std::abs(exponent) <= left_alone ? 1.0 : std::ldexp(1.0, exponent);
 }
 
 Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {

@@ -89,8 +89,12 @@ class Problem {
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;
 
-  /// The factor by which solvers see the cost, so that its optimum is of order 1. Tables show the true cost.
-  [[nodiscard]] virtual double cost_scale() const { return 1.0; }
+  /// The factor by which solvers see the cost, so that its optimum is of order 1: the same for every method, grid and
+  /// solver. Tolerances of solvers are those of the scaled cost; tables show the true cost, and metadata the factor.
+  ///
+  /// Default: the power of two (which changes no digit) nearest to 1/c, where c = ∫ |C| dt + |Φ| along the guess, by
+  /// the midpoint rule with 64 points; 1 where that is between 1/32 and 32, or c vanishes or is not a number.
+  [[nodiscard]] virtual double cost_scale() const;
 
   /// The infinitesimal generator ξ(q) of a group action under which the momentum p·ξ(q) is worth watching: L or its
   /// kinetic part is invariant under it. n entries; none if the problem has no symmetry to show.

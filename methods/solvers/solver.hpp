@@ -63,10 +63,11 @@ class Solver {
   /// `run`, judges its answer (`judge_infeasibility`, `confirm`) and says in a sentence what happened.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const;
 
+  [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
+
  protected:
   /// Throws `Error` if an option is out of range.
   explicit Solver(SolverOptions options);
-  [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
 
   /// The method itself. Returns its own word for the status, the last point (none if it refuses the program), the
   /// multipliers if it has them, and its counts of iterations; a message only where it can say more than the status.

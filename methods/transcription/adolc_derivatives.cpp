@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -203,7 +204,9 @@ class Dense {
 /// Each is recorded once per back end, with constants passive; an evaluation then calls ADOL-C's dense driver interval
 /// after interval (`gradient`, `jacobian`, and `hess_mat` in the directions of the local unknowns) and keeps the
 /// entries that are not zero for every motion. Step, time, factor and multipliers are further independent variables.
-/// ADOL-C allocates in its drivers, and its recordings are global: two threads must not use such back ends at once.
+/// Its drivers end the program where there is nothing to differentiate (the ends of the horizon without conditions, an
+/// interval without a cost), so they are not called there. ADOL-C allocates in its drivers, and its recordings are
+/// global: two threads must not use such back ends at once.
 class AdolcDerivatives final : public DerivativeBackEnd {
  public:
   AdolcDerivatives(const LocalFunctions& functions, const DerivativePlaces& places)
@@ -220,8 +223,8 @@ class AdolcDerivatives final : public DerivativeBackEnd {
         cost_gradient_(functions.inputs.count()),
         rows_jacobian_(rows_.output_count(), rows_.input_count()),
         directions_(static_cast<int>(functions.inputs.unknowns)),
-        seeds_(lagrangian_.input_count(), directions_),
-        seeded_hessian_(lagrangian_.input_count(), directions_) {
+        seeds_(std::max(lagrangian_.input_count(), directions_), directions_),
+        seeded_hessian_(std::max(lagrangian_.input_count(), directions_), directions_) {
     std::vector<std::size_t> output_of_row(functions.inputs.rows);
     for (std::size_t o = 0; o < functions.rows.places.size(); ++o) output_of_row[functions.rows.places[o]] = o;
     for (const std::size_t row : functions.jacobian.rows) jacobian_outputs_.push_back(output_of_row[row]);
@@ -230,7 +233,7 @@ class AdolcDerivatives final : public DerivativeBackEnd {
 
   void gradient(Inputs inputs, VectorOut result) override {
     const auto columns = gradient_.open(result);
-    for (std::size_t k = 0; k < gradient_.intervals(); ++k) {
+    for (std::size_t k = 0; k < gradient_.intervals() && !columns.empty(); ++k) {
       require_success(::gradient(cost_.tag(), cost_.input_count(), cost_.point(inputs, k), cost_gradient_.data()),
                       "gradient");
       for (std::size_t e = 0; e < columns.size(); ++e) columns[e][k] = cost_gradient_[gradient_unknowns_[e]];
@@ -240,7 +243,7 @@ class AdolcDerivatives final : public DerivativeBackEnd {
 
   void jacobian(Inputs inputs, VectorOut values) override {
     const auto columns = jacobian_.open(values);
-    for (std::size_t k = 0; k < jacobian_.intervals(); ++k) {
+    for (std::size_t k = 0; k < jacobian_.intervals() && !columns.empty(); ++k) {
       require_success(::jacobian(rows_.tag(), rows_.output_count(), rows_.input_count(), rows_.point(inputs, k),
                                  rows_jacobian_.rows()),
                       "jacobian");
@@ -253,7 +256,7 @@ class AdolcDerivatives final : public DerivativeBackEnd {
 
   void hessian(Inputs inputs, VectorOut values) override {
     const auto columns = hessian_.open(values);
-    for (std::size_t k = 0; k < hessian_.intervals(); ++k) {
+    for (std::size_t k = 0; k < hessian_.intervals() && !columns.empty(); ++k) {
       require_success(hess_mat(lagrangian_.tag(), lagrangian_.input_count(), directions_, lagrangian_.point(inputs, k),
                                seeds_.rows(), seeded_hessian_.rows()),
                       "hess_mat");

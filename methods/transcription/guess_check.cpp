@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/formula_check.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -78,6 +79,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
 
   const Eigen::MatrixXd table = traced.table(points, times);
   GuessMagnitudes magnitudes;
+  FormulaCheck check(problem);
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const Eigen::VectorXd values = table.row(i);
     const Eigen::MatrixXd mass = values.segment(3 * n + 1 + traced.path_constraint_count(), n * n).reshaped(n, n);
@@ -87,6 +89,8 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
     if (i >= count) continue;  // the ends are only measured
     const std::string name = nan_in(values, traced);
     if (!name.empty()) throw Error(place_of(times[i], problem, grid) + name + " is not a number");
+    const std::string undefined = check.undefined_at(points[static_cast<std::size_t>(i)], times[i]);
+    if (!undefined.empty()) throw Error(place_of(times[i], problem, grid) + undefined + " is not a number");
     if (!is_invertible(mass)) {
       throw Error(place_of(times[i], problem, grid) + "L_vv is singular, so the Lagrangian is not regular");
     }

@@ -7,18 +7,56 @@
 namespace dmocbench {
 namespace {
 
-TEST(StartProvider, LooksOnceForACommonStartThatThereIsNot) {
-  const tests::DoubleIntegrator base;
-  const auto out_of_reach = std::make_shared<tests::Restated>(
-      base, [](tests::Restated::Statement& s) { s.u = tests::all_between(1, -0.1, 0.1); });
-  StartProvider source("common", SolverOptions{});
-  int solves = 0;
-  source.on_progress = [&](const std::string&) { ++solves; };
-  for (const char* method : {"dmoc", "tangent"}) {
-    const Case the_case{.problem = out_of_reach, .method = method, .tableau = "gauss", .stages = 1, .solver = "ipopt"};
-    EXPECT_THROW(static_cast<void>(source.motion_for(the_case)), NoStart);
-    EXPECT_EQ(solves, 9) << "three methods on three grids";
+class StartProviders : public testing::Test {
+ protected:
+  StartProviders() {
+    out_of_reach_ = std::make_shared<tests::Restated>(
+        base_, [](tests::Restated::Statement& s) { s.u = tests::all_between(1, -0.1, 0.1); });
   }
+  [[nodiscard]] Case with(const char* method) const {
+    return {.problem = out_of_reach_, .method = method, .tableau = "gauss", .stages = 1, .solver = "ipopt"};
+  }
+  [[nodiscard]] StartProvider provider(StartProvider::Rules rules, SolverOptions options = {}) {
+    StartProvider source(std::move(rules), std::move(options));
+    source.on_progress = [this](const std::string&) { ++solves_; };
+    return source;
+  }
+  tests::DoubleIntegrator base_;
+  std::shared_ptr<const Problem> out_of_reach_;
+  int solves_ = 0;
+};
+
+TEST_F(StartProviders, LookOnceForACommonStartThatThereIsNotAndFallBackToTheGuess) {
+  StartProvider source = provider({});
+  for (const char* method : {"dmoc", "tangent"}) {
+    const Start start = source.start_for(with(method));
+    EXPECT_EQ(start.motion.at(0.25).q, out_of_reach_->guess(0.25).q);
+    EXPECT_FALSE(start.branch);
+    EXPECT_NE(start.note.find("has no common start"), std::string::npos) << start.note;
+    EXPECT_EQ(solves_, 18) << "three methods on three grids by two solvers";
+  }
+}
+
+TEST_F(StartProviders, LookForNoCommonStartWhereSolvesBeginAtTheGuess) {
+  StartProvider source = provider({.kind = "guess"});
+  const Start start = source.start_for(with("dmoc"));
+  EXPECT_FALSE(start.branch);
+  EXPECT_TRUE(start.note.empty()) << start.note;
+  EXPECT_EQ(solves_, 0);
+}
+
+TEST_F(StartProviders, GiveUpWhenTheirTimeHasPassed) {
+  StartProvider source = provider({.most_seconds = 0.0});
+  EXPECT_NE(source.start_for(with("dmoc")).note.find("--start-seconds"), std::string::npos);
+  EXPECT_EQ(solves_, 0);
+}
+
+TEST_F(StartProviders, HeedAStopRequest) {
+  SolverOptions options;
+  options.stop_requested = [this] { return solves_ >= 2; };
+  StartProvider source = provider({}, options);
+  EXPECT_THROW(static_cast<void>(source.start_for(with("dmoc"))), NoStart);
+  EXPECT_LE(solves_, 3);
 }
 
 }  // namespace

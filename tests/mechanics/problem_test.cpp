@@ -42,6 +42,36 @@ class Tunable final : public Problem {
   [[nodiscard]] double horizon() const override { return 2.0; }
 };
 
+/// C = a (1 + u²) and Φ = b, at rest for one unit of time.
+class Costly final : public tests::SmallProblem {
+ public:
+  Costly(double a, double b) : SmallProblem("costly", at(0.0, 0.0), at(0.0, 0.0), 1.0, 1), a_(a), b_(b) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
+    return a_ * (1.0 + x.u[0] * x.u[0]);
+  }
+  [[nodiscard]] Expression final_cost(const State& /*last*/) const override { return b_; }
+
+ private:
+  double a_;
+  double b_;
+};
+
+TEST(Problem, CostIsScaledByAPowerOfTwoToBeOfOrderOneAlongTheGuess) {
+  EXPECT_EQ(Costly(1e-3, 0.0).cost_scale(), 1024.0);
+  EXPECT_EQ(Costly(-1e-3, 0.0).cost_scale(), 1024.0) << "magnitudes count";
+  EXPECT_EQ(Costly(0.0, 500.0).cost_scale(), 1.0 / 512.0);
+  EXPECT_EQ(Costly(1e-3, -1e-3).cost_scale(), 512.0);
+}
+
+TEST(Problem, CostIsLeftAloneWhereTheGuessSaysNothingOrItIsOfOrderOne) {
+  for (const double cost :
+       {1.0, 0.05, 20.0, 0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(Costly(cost, 0.0).cost_scale(), 1.0) << cost;
+  }
+}
+
 TEST(Problem, SetParameterIsReadBackAndReachesTheFormulas) {
   Tunable problem;
   const State x{input_vector(0, 2), input_vector(2, 2), Expression::input(5)};

@@ -48,11 +48,11 @@ bool offers(const std::string& name) {
 /// The derivatives of one back end at a point near the guess, where both problems are regular; the arrays start as NaN,
 /// so that an entry that is not written shows.
 FilledDerivatives derivatives_by(const std::string& back_end, const Problem& problem, const Scheme& scheme,
-                                 const Grid& grid) {
+                                 const Grid& grid, double distance = 0.2) {
   Transcription program(problem, *make_element(scheme.method), gauss_tableau(scheme.stages), grid, back_end);
   RandomPoints random;
   Eigen::VectorXd x = sample(program, guessed_motion(problem));
-  x += random.vector(x.size(), -0.2, 0.2);
+  x += random.vector(x.size(), -distance, distance);
   const Eigen::VectorXd multipliers = random.vector(static_cast<Eigen::Index>(program.constraint_count()));
   const auto array = [](std::size_t size) {
     return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")).eval();
@@ -60,7 +60,7 @@ FilledDerivatives derivatives_by(const std::string& back_end, const Problem& pro
   FilledDerivatives result{array(program.variable_count()), array(program.jacobian_structure().size()),
                            array(program.hessian_structure().size())};
   // Twice: nothing may be left behind by an evaluation elsewhere.
-  for (const Eigen::VectorXd& point : {(x.array() + 0.1).matrix().eval(), x}) {
+  for (const Eigen::VectorXd& point : {(x.array() + 0.5 * distance).matrix().eval(), x}) {
     program.gradient(point, result.gradient);
     program.jacobian(point, result.jacobian);
     program.hessian(point, 0.7, multipliers, result.hessian);
@@ -148,6 +148,24 @@ TEST(BackEndRegistry, RefusesAnUnknownNameAndListsThoseThereAre) {
   tests::expect_error_naming({"magic", "tape", "finite_differences", "forward_differences"}, [&] { with("magic"); });
   if (!offers("adolc")) tests::expect_error_naming({"adolc", "install", "tape"}, [&] { with("adolc"); });
 }
+
+/// All problems, one method: free horizons without a running cost, ends without conditions, path constraints.
+class BackEndsOfTheLibrary : public testing::TestWithParam<std::string> {};
+
+TEST_P(BackEndsOfTheLibrary, AdolcAgreesToRounding) {
+  if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
+  const auto problem = make_problem(GetParam());
+  const Scheme scheme{"dmoc", 1};
+  const Grid grid = Grid::uniform(16);
+  const auto by = [&](const std::string& name) { return derivatives_by(name, *problem, scheme, grid, 0.01); };
+  const Differences found = by("adolc") - by("tape");
+  EXPECT_LT(found.gradient, 1e-12);
+  EXPECT_LT(found.jacobian, 1e-12);
+  EXPECT_LT(found.hessian, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BackEndsOfTheLibrary, testing::ValuesIn(problem_names()),
+                         [](const auto& instance) { return instance.param; });
 
 TEST(BackEndRegistry, ManyAdolcProgramsLiveSideBySide) {
   if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/transcription/trajectory.hpp"
+
+namespace dmocbench {
+
+/// A point of a motion where a formula of its problem is not a finite number.
+struct UndefinedPoint {
+  std::string quantity;       ///< as `FormulaCheck` names it
+  Eigen::Index interval = 0;  ///< k
+  double time = 0.0;
+
+  /// "The motion leaves the set where its formulas are defined: lagrangian is not a number in interval 3 (t = 0.41)."
+  [[nodiscard]] std::string words() const;
+};
+
+/// The first of eight points in every interval, evenly spaced between its nodes, where L, f, C, h or a first derivative
+/// of theirs is not a number on the element's polynomial of q and the stage polynomial of u. A program evaluates
+/// derivatives at stages alone, and may step over a singularity: such an answer is none.
+[[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory);
+
+}  // namespace dmocbench

@@ -1,0 +1,54 @@
+#include "bench/experiment/solve_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/transcription/start.hpp"
+#include "tests/support/problems_for_tests.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// L = ½v² + log(q - 1)/100, f = u, C = ½au²; from q = 2 down to 2 - ¼ speed and back in T = 1.
+class ThrownDown final : public tests::SmallProblem {
+ public:
+  ThrownDown(double speed, double a) : SmallProblem("thrown_down", at(2.0, -speed), at(2.0, speed), 1.0, 1), a_(a) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] + 0.01 * log(x.q[0] - 1.0);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * a_ * x.u[0] * x.u[0]; }
+
+ private:
+  double a_;
+};
+
+SolvedCase solved(double speed, double a) {
+  const auto problem = std::make_shared<ThrownDown>(speed, a);
+  const Case the_case{
+      .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(16)};
+  return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), SolverOptions{}.tolerance, 1);
+}
+
+TEST(SolveCase, AnAnswerAcrossASingularityIsAFailedEvaluation) {
+  SolvedCase across = solved(8.0, 1.0);
+  ASSERT_EQ(across.solution.status, Status::solved) << across.solution.message;
+  static_cast<void>(check_independently(across));
+  EXPECT_EQ(across.solution.status, Status::evaluation_failed);
+  EXPECT_NE(across.solution.message.find("lagrangian is not a number in interval 2"), std::string::npos)
+      << across.solution.message;
+  SolvedCase above = solved(1.0, 1.0);
+  static_cast<void>(check_independently(above));
+  EXPECT_EQ(above.solution.status, Status::solved) << above.solution.message;
+}
+
+TEST(SolveCase, SaysWhichScaleWouldSuitACostFarFromOne) {
+  // u is about 2 speed, so the cost is about 2 a speed².
+  const SolvedCase small = solved(1.0, 0.5e-5);
+  ASSERT_EQ(small.solution.status, Status::solved) << small.solution.message;
+  EXPECT_NE(small.solution.message.find("cost_scale = 100000 would suit, not 1"), std::string::npos)
+      << small.solution.message;
+  EXPECT_EQ(solved(1.0, 0.5).solution.message.find("cost_scale"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dmocbench
