@@ -21,7 +21,7 @@ struct ExperimentOptions {
   std::vector<std::string> solvers{"ipopt"};
   std::vector<std::string> derivatives{"tape"};
   std::string intervals = {};
-  std::string grid_file = {};               ///< relative node times; replaces `intervals`
+  std::filesystem::path grid_file = {};     ///< relative node times; replaces `intervals`
   std::vector<std::string> settings = {};   ///< "parameter=value"
   std::vector<std::string> passed_on = {};  ///< "option=value" for the solver
   std::string form = "bolza";               ///< bolza or mayer

@@ -16,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/polish.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -184,7 +185,8 @@ class StartProvider::Search {
         provider_.on_progress(fmt::format("{} {} {}: common start, {} on {} intervals by {}", case_.problem->name(),
                                           case_.tableau, case_.stages, method, intervals, solver));
       }
-      const Solution solution = make_solver(solver, options_)->solve(*program, sample(*program, start));
+      Solution solution = make_solver(solver, options_)->solve(*program, sample(*program, start));
+      settle(*program, options_.tolerance, solution);
       if (is_solved(solution.status)) return read_trajectory(*program, solution.primal, solution.multipliers);
     }
     return std::nullopt;

@@ -1,5 +1,8 @@
 #include "methods/solvers/sqp/hessians.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -43,6 +46,26 @@ TEST(Convexification, LeavesAHessianAloneThatIsNegativeOnlyAcrossTheRows) {
   EXPECT_EQ(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {true}), 0.0);
   EXPECT_GT(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {false}).value(), 5.0);
   EXPECT_EQ(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {false, true}, {false}), 0.0);
+}
+
+/// Once the search for a shift had no end from 1.8e304 on, and MUMPS aborted at infinity.
+TEST(Convexification, GivesUpWhereTheHessianIsNotFiniteOrTooLarge) {
+  for (const double entry : {1e150, 1e305, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    const Eigen::Matrix2d hessian = Eigen::Vector2d(-entry, 1.0).asDiagonal();
+    const Eigen::MatrixXd rows = Eigen::RowVector2d(0.0, 1.0);
+    Convexification convexification;
+    EXPECT_FALSE(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {true})) << entry;
+  }
+}
+
+TEST(Convexification, StopsWhenAsked) {
+  const Eigen::Matrix2d hessian = Eigen::Vector2d(-1e90, 1.0).asDiagonal();
+  const Eigen::MatrixXd rows = Eigen::RowVector2d(0.0, 1.0);
+  Convexification convexification;
+  int asked = 0;
+  const auto is_stopped = [&] { return ++asked == 3; };
+  EXPECT_FALSE(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {true}, is_stopped));
+  EXPECT_EQ(asked, 3);
 }
 
 Eigen::MatrixXd dense(const LimitedMemoryHessian& hessian, Eigen::Index size) {
