@@ -236,10 +236,17 @@ std::optional<ReplayError> replay(SolvedCase& solved) {
   }
 }
 
+namespace {
+
+/// True of answers that a solver found, motions or not.
+bool is_judged(Status status) { return is_solved(status) || status == Status::too_coarse; }
+
+}  // namespace
+
 IndependentChecks check_independently(SolvedCase& solved) {
   const Problem& problem = *solved.the_case.problem;
   const Trajectory& trajectory = *solved.trajectory;
-  if (const auto undefined = undefined_point(problem, trajectory); undefined && is_solved(solved.solution.status)) {
+  if (const auto undefined = undefined_point(problem, trajectory); undefined && is_judged(solved.solution.status)) {
     solved.solution.status = Status::evaluation_failed;
     solved.solution.message = undefined->words();
   }

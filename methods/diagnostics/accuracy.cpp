@@ -73,7 +73,7 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
   };
 
   const auto intervals = static_cast<std::size_t>(trajectory.intervals());
-  constexpr std::size_t per_part = 32;  // takes some milliseconds
+  constexpr std::size_t per_part = 256;  // takes some ten milliseconds
   const std::size_t parts = part_count(intervals, per_part);
   const TracedProblem traced(problem);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
