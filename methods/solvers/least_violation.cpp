@@ -224,17 +224,13 @@ void judge_infeasibility(NonlinearProgram& program, const SolverOptions& options
   const bool claims = solution.status == Status::infeasible;
   const bool has_failed = solution.status == Status::step_failed;
   if (!claims && !has_failed && solution.status != Status::iteration_limit) return;
-  const Solution own = solution;
   const bool is_outside = static_cast<std::size_t>(solution.primal.size()) == program.variable_count() &&
                           solution.primal.allFinite() &&
                           constraint_violation(program, solution.primal) > options.tolerance;
   const bool is_least =
       is_outside && (is_point_of_least_violation(program, solution.primal) ||
                      ((claims || has_failed) && moves_to_least_violation(program, options, elapsed_seconds, solution)));
-  if (is_least == claims) {
-    if (claims) solution = own;  // the solver's own point shows better which bounds hold
-    return;
-  }
+  if (is_least == claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
   solution.message = is_least ? "" : "The solver calls it infeasible, but its point is none of least violation.";
 }

@@ -63,7 +63,7 @@ class ViolationDescent {
 
 /// The one judgement that a program is infeasible from where a solver started, whatever the solver says: "infeasible"
 /// where its last point is one of least violation (`is_point_of_least_violation`), or where descent from it ends at
-/// one, to which `solution.primal` then moves unless the solver said so itself; "step failed" where the solver says
+/// one, to which `solution.primal` then moves; "step failed" where the solver says
 /// infeasible and this is not so. For `solution`s that claim to be infeasible, whose step failed or whose iterations
 /// ran out; these last ones are judged where they are. `elapsed_seconds`: of the time limit in `options`.
 void judge_infeasibility(NonlinearProgram& program, const SolverOptions& options, double elapsed_seconds,

@@ -1,7 +1,6 @@
-#include "bench/summary/ratios.hpp"
-
 #include <gtest/gtest.h>
 
+#include "bench/summary/ratios.hpp"
 #include "tests/bench/curves_for_tests.hpp"
 
 namespace dmocbench {

@@ -1,8 +1,8 @@
-#include "bench/speed/speed_tables.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "bench/speed/speed_tables.hpp"
 
 namespace dmocbench::speed {
 namespace {

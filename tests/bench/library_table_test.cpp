@@ -1,6 +1,6 @@
-#include "bench/summary/profile_tables.hpp"
-
 #include <gtest/gtest.h>
+
+#include "bench/summary/profile_tables.hpp"
 
 namespace dmocbench {
 namespace {

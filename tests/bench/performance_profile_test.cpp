@@ -1,9 +1,9 @@
-#include "bench/summary/profile_tables.hpp"
-
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
+
+#include "bench/summary/profile_tables.hpp"
 
 namespace dmocbench {
 namespace {

@@ -1,11 +1,11 @@
-#include "bench/speed/speed_tables.hpp"
-
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "bench/speed/speed_tables.hpp"
 
 namespace dmocbench::speed {
 namespace {
