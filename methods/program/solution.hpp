@@ -11,7 +11,7 @@ namespace dmocbench {
 
 /// How often a solver called each evaluation of the program (`NonlinearProgram`).
 ///
-/// What `evaluations` means, here and as a column of every table: the number of calls by which the solver's method
+/// What `evaluations` means, here and in tables that have the column: the number of calls by which the solver's method
 /// asked the program for its objective, gradient, constraints, Jacobian or Hessian, each call counted as one.
 /// `Solver::solve` counts them in one place for all solvers, so the numbers are comparable. A point of which a solver
 /// wants the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
