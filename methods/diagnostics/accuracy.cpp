@@ -68,6 +68,7 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
         worst.relative_jump = relative;
         worst.interval = k;
       }
+      if (std::isinf(worst.relative_jump)) break;  // nothing is worse
     }
     return worst;
   };

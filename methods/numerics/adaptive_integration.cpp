@@ -11,8 +11,14 @@ bool integrate(const Rate<std::type_identity_t<Scalar>>& rate, std::vector<Scala
   namespace odeint = boost::numeric::odeint;
   using State = std::vector<Scalar>;
   using Stepper = odeint::runge_kutta_fehlberg78<State, Scalar, State, Scalar>;
+  long evaluations = 0;
+  const auto counted = [&](const State& at, State& rate_there, Scalar t) {
+    if (++evaluations > most_evaluations) throw odeint::step_adjustment_error("too many evaluations");
+    rate(at, rate_there, t);
+  };
   try {
-    odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), rate, x, from, to, first_step);
+    odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), counted, x, from, to,
+                               first_step);
   } catch (const odeint::odeint_error&) {
     return false;
   }

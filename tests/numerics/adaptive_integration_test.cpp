@@ -27,5 +27,17 @@ TEST(AdaptiveIntegration, FollowsATurnOfGrowingSpeed) {
   expect_that_a_turn_of_growing_speed_is_followed<long double>(1e-17L);
 }
 
+TEST(AdaptiveIntegration, GivesUpAfterTheMostEvaluations) {
+  long evaluations = 0;
+  const auto turn = [&](const std::vector<double>& x, std::vector<double>& rate, double) {
+    ++evaluations;
+    rate[0] = x[1];
+    rate[1] = -x[0];
+  };
+  std::vector<double> x{1.0, 0.0};
+  EXPECT_FALSE(integrate(turn, x, 0.0, 1e5, 1.0, 1e-12));
+  EXPECT_EQ(evaluations, most_evaluations);
+}
+
 }  // namespace
 }  // namespace dmocbench
