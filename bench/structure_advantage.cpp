@@ -66,9 +66,7 @@ class StructureAdvantage final : public Experiment {
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (the_case.variant == "banded") {
       InteriorPointOptions choices;
-      choices.make_kkt_system = [](NonlinearProgram& program) {
-        return std::make_unique<interior_point::BandedKkt>(program);
-      };
+      choices.make_kkt_system = [](NonlinearProgram& program) { return std::make_unique<kkt::BandedKkt>(program); };
       return std::make_unique<InteriorPointSolver>(options, std::move(choices));
     }
     if (!the_case.variant.empty()) options.passed_on["factorisation"] = the_case.variant;

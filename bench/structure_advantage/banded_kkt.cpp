@@ -9,9 +9,9 @@
 
 #include "methods/error.hpp"
 #include "methods/runtime/long_vectors.hpp"
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 
-namespace dmocbench::interior_point {
+namespace dmocbench::kkt {
 
 namespace {
 
@@ -311,4 +311,4 @@ FactorisationStatus BandedKkt::solve(const KktMatrix& matrix, const KktRightHand
   return FactorisationStatus::solved;
 }
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench::kkt

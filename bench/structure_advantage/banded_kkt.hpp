@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/kkt/kkt_system.hpp"
 
-namespace dmocbench::interior_point {
+namespace dmocbench::kkt {
 
 /// A symmetric order of the KKT matrix of a program with an interval structure in which all but a few dense lines lie
 /// in a narrow band: rows and unknowns of node 0, unknowns and rows of interval 0, rows and unknowns of node 1, ...
@@ -114,4 +114,4 @@ class BandedKkt final : public KktSystem {
   std::vector<double*> diagonal_;  // of all lines
 };
 
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench::kkt

@@ -7,7 +7,7 @@
 #define DMOCBENCH_ANY_SIZE 0
 #define DMOCBENCH_COUNT_OPERATION ++operations  // of all eight lanes
 
-namespace dmocbench::interior_point::counting {
+namespace dmocbench::kkt::counting {
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): operators and kernels are plain functions
 long long operations = 0;
@@ -17,7 +17,7 @@ SegmentKernel uncounted;
 
 #include "methods/runtime/lanes.inc"
 //
-#include "methods/solvers/interior_point/intervals/segment_kernel.inc"
+#include "methods/solvers/kkt/intervals/segment_kernel.inc"
 
 void counted_backward(const EliminationPlan& plan, const NewtonArrays& arrays, SegmentGroup& group) {
   operations = 0;
@@ -25,16 +25,16 @@ void counted_backward(const EliminationPlan& plan, const NewtonArrays& arrays, S
   operations_per_interval = static_cast<double>(operations) / group.steps;
 }
 
-}  // namespace dmocbench::interior_point::counting
+}  // namespace dmocbench::kkt::counting
 
 namespace dmocbench {
 
-interior_point::SegmentKernel counting_segment_kernel(const interior_point::Shape& shape) {
-  using namespace interior_point::counting;  // NOLINT(google-build-using-namespace): two names of one function
+kkt::SegmentKernel counting_segment_kernel(const kkt::Shape& shape) {
+  using namespace kkt::counting;  // NOLINT(google-build-using-namespace): two names of one function
   uncounted = choose_kernel(shape);
   return {uncounted.workspace_size, counted_backward, uncounted.forward};
 }
 
-double counted_operations_per_interval() { return interior_point::counting::operations_per_interval; }
+double counted_operations_per_interval() { return kkt::counting::operations_per_interval; }
 
 }  // namespace dmocbench

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "bench/structure_advantage/banded_kkt.hpp"
-#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 
 namespace dmocbench {
 
@@ -13,7 +13,7 @@ namespace {
 
 /// Solves the KKT system at a solution, with a unit shift where the Hessian needs one: counts of an elimination by
 /// intervals do not depend on numbers.
-bool is_solved(NonlinearProgram& program, const Solution& solution, interior_point::KktSystem& kkt) {
+bool is_solved(NonlinearProgram& program, const Solution& solution, kkt::KktSystem& kkt) {
   Eigen::VectorXd hessian(static_cast<Eigen::Index>(program.hessian_structure().size()));
   Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   program.hessian(solution.primal, 1.0, solution.multipliers, hessian);
@@ -28,7 +28,7 @@ bool is_solved(NonlinearProgram& program, const Solution& solution, interior_poi
   return std::ranges::any_of(std::array{0.0, 1.0}, [&](double shift) {
     const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(variables, shift);
     return kkt.solve({hessian, jacobian, diagonal, compliance}, {gradient, constraints},
-                     {primal_step, multiplier_step}) == interior_point::FactorisationStatus::solved;
+                     {primal_step, multiplier_step}) == kkt::FactorisationStatus::solved;
   });
 }
 
@@ -37,17 +37,17 @@ bool is_solved(NonlinearProgram& program, const Solution& solution, interior_poi
 OperationCount count_operations(NonlinearProgram& program, const Solution& solution, const std::string& factorisation) {
   OperationCount count;
   if (factorisation == "intervals") {
-    const auto kkt = interior_point::IntervalKkt::make(program, counting_segment_kernel);
+    const auto kkt = kkt::IntervalKkt::make(program, counting_segment_kernel);
     if (!kkt || !is_solved(program, solution, **kkt)) return count;
     count.elimination =
         counted_operations_per_interval() * static_cast<double>(program.interval_structure()->intervals);
   } else if (factorisation == "banded") {
-    interior_point::BandedKkt kkt(program);
+    kkt::BandedKkt kkt(program);
     if (!is_solved(program, solution, kkt)) return count;
     count.elimination = kkt.factorisation_operations();
     count.half_bandwidth = static_cast<long long>(kkt.order().half_bandwidth);
   } else if (factorisation == "sparse") {
-    interior_point::SparseKkt kkt(program);
+    kkt::SparseKkt kkt(program);
     if (is_solved(program, solution, kkt)) count.elimination = kkt.factorisation_operations();
   }
   return count;

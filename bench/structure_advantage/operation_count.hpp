@@ -5,7 +5,7 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/solvers/interior_point/intervals/segment_kernel.hpp"
+#include "methods/solvers/kkt/intervals/segment_kernel.hpp"
 
 namespace dmocbench {
 
@@ -25,7 +25,7 @@ struct OperationCount {
 
 /// The kernels of the elimination by intervals for a number type that counts: the same source, slow. Not for two
 /// threads.
-[[nodiscard]] interior_point::SegmentKernel counting_segment_kernel(const interior_point::Shape& shape);
+[[nodiscard]] kkt::SegmentKernel counting_segment_kernel(const kkt::Shape& shape);
 /// Multiplications and divisions per interval of the last backward sweep by such a kernel.
 [[nodiscard]] double counted_operations_per_interval();
 

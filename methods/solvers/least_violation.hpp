@@ -5,9 +5,9 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
+#include "methods/solvers/kkt/symmetric_factorisation.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/solvers/symmetric_factorisation.hpp"
 
 namespace dmocbench {
 

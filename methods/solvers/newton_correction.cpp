@@ -5,17 +5,17 @@
 #include <limits>
 #include <utility>
 
-#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
-#include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-using interior_point::FactorisationStatus;
-using interior_point::IntervalKkt;
-using interior_point::KktSystem;
-using interior_point::SparseKkt;
+using kkt::FactorisationStatus;
+using kkt::IntervalKkt;
+using kkt::KktSystem;
+using kkt::SparseKkt;
 
 /// The least distance to a bound by which a multiplier is divided.
 constexpr double at_bound = 1e-10;

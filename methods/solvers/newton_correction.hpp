@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench {
 
@@ -57,7 +57,7 @@ class NewtonCorrections {
                                  const Eigen::VectorXd& gradient);
 
   NonlinearProgram& program_;
-  std::unique_ptr<interior_point::KktSystem> system_;
+  std::unique_ptr<kkt::KktSystem> system_;
 };
 
 }  // namespace dmocbench

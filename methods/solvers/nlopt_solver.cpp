@@ -20,7 +20,7 @@
 #include "methods/runtime/parsed.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 #include "methods/solvers/one_sided_constraints.hpp"
 
 namespace dmocbench {

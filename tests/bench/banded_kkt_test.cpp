@@ -19,7 +19,7 @@
 #include "tests/support/solving.hpp"
 #include "tests/support/system_choice.hpp"
 
-namespace dmocbench::interior_point {
+namespace dmocbench::kkt {
 namespace {
 
 using tests::DenseKkt;
@@ -187,4 +187,4 @@ TEST(BandedKkt, RefusesAProgramWithoutIntervalsInASentence) {
 }
 
 }  // namespace
-}  // namespace dmocbench::interior_point
+}  // namespace dmocbench::kkt

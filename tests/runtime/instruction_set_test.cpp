@@ -7,7 +7,7 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/runtime/vector_loops.hpp"
-#include "methods/solvers/interior_point/intervals/segment_group.hpp"
+#include "methods/solvers/kkt/intervals/segment_group.hpp"
 
 namespace dmocbench {
 namespace {
@@ -18,9 +18,8 @@ TEST(InstructionSet, OneOverrideGovernsTapesVectorLoopsAndSegmentKernels) {
     setenv("DMOCBENCH_INSTRUCTION_SET", std::string(name_of(set)).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     EXPECT_EQ(preferred_instruction_set(), set);
     EXPECT_EQ(Tape(Schedule()).instruction_set(), set);
-    const interior_point::Shape shape{};
-    EXPECT_EQ(interior_point::segment_kernel_for(shape).backward,
-              interior_point::segment_kernels_of(set)(shape).backward);
+    const kkt::Shape shape{};
+    EXPECT_EQ(kkt::segment_kernel_for(shape).backward, kkt::segment_kernels_of(set)(shape).backward);
     EXPECT_EQ(&vector_loops(), &vector_loops_of(available_instruction_sets().front()));
   }
 }

@@ -9,7 +9,7 @@
 
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
-#include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 
@@ -68,7 +68,7 @@ TEST(Solvers, TakeTypedOptionsAndLinearSystemsOfAnExperiment) {
   int made = 0;
   const Solution by_ours = solve({.factorisation = {}, .make_kkt_system = [&](NonlinearProgram& of) {
                                     ++made;
-                                    return std::make_unique<interior_point::SparseKkt>(of);
+                                    return std::make_unique<kkt::SparseKkt>(of);
                                   }});
   EXPECT_EQ(made, 1);
   EXPECT_EQ(by_ours.primal, by_sparse.primal);

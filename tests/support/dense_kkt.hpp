@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::tests {
 
@@ -18,7 +18,7 @@ struct KktNumbers {
   Eigen::VectorXd slope;
   Eigen::VectorXd rows;
 
-  [[nodiscard]] interior_point::KktMatrix matrix() const { return {hessian, jacobian, diagonal, compliance}; }
+  [[nodiscard]] kkt::KktMatrix matrix() const { return {hessian, jacobian, diagonal, compliance}; }
 };
 
 /// The KKT system of a program by dense linear algebra: the solution from an LU factorisation whose error is corrected

@@ -34,14 +34,6 @@ double total(const std::array<double, 4>& of_sets) { return std::accumulate(of_s
 
 }  // namespace
 
-std::vector<Eigen::Index> fixed_entries(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  std::vector<Eigen::Index> fixed;
-  for_each_bounded(lower, upper, [&](Eigen::Index i) {
-    if (lower[i] == upper[i]) fixed.push_back(i);
-  });
-  return fixed;
-}
-
 BarrierBounds::BarrierBounds(const Primal& lower, const Primal& upper) {
   for (std::size_t set = 0; set < counts_.size(); ++set) {
     const auto part = set < 2 ? &Primal::x : &Primal::s;

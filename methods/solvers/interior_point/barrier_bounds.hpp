@@ -99,7 +99,4 @@ void for_each_bounded(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper
   }
 }
 
-/// Entries whose bounds are equal.
-[[nodiscard]] std::vector<Eigen::Index> fixed_entries(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
-
 }  // namespace dmocbench::interior_point

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "methods/runtime/long_vectors.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -36,10 +37,10 @@ std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
 BarrierProgram::BarrierProgram(NonlinearProgram& program)
     : program_(program),
       inequalities_(inequalities_of(program)),
-      fixed_(fixed_entries(program.variable_lower(), program.variable_upper())),
+      fixed_(fixed_variables(program)),
       bounds_({program.variable_lower(), program.constraint_lower()(inequalities_)},
               {program.variable_upper(), program.constraint_upper()(inequalities_)}),
-      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())) {
+      transposed_jacobian_(kkt::MatrixProduct::transposed(program.jacobian_structure())) {
   resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
   resize_unwritten(jacobian_, static_cast<Eigen::Index>(program.jacobian_structure().size()));
   resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));

@@ -6,7 +6,7 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/barrier_bounds.hpp"
-#include "methods/solvers/interior_point/matrix_product.hpp"
+#include "methods/solvers/kkt/matrix_product.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -72,7 +72,7 @@ class BarrierProgram {
   std::vector<Eigen::Index> fixed_;
   BarrierBounds bounds_;
   Eigen::VectorXd equality_values_;  // 0 of inequalities; empty if all are zero
-  MatrixProduct transposed_jacobian_;
+  kkt::MatrixProduct transposed_jacobian_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd jacobian_;
   Eigen::VectorXd hessian_;

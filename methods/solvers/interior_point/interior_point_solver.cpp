@@ -16,10 +16,10 @@
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
-#include "methods/solvers/interior_point/intervals/interval_kkt.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
-#include "methods/solvers/interior_point/refined_kkt.hpp"
-#include "methods/solvers/interior_point/sparse_kkt.hpp"
+#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
+#include "methods/solvers/kkt/refined_kkt.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -60,7 +60,7 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 /// A-9 the steps of its Algorithm A.
 class InteriorPointRun {
  public:
-  InteriorPointRun(CountedProgram& program, KktSystem& kkt, const SolverOptions& options)
+  InteriorPointRun(CountedProgram& program, kkt::KktSystem& kkt, const SolverOptions& options)
       : counted_(program),
         options_(options),
         program_(program),
@@ -352,13 +352,12 @@ namespace {
 using Factorisation = InteriorPointOptions::Factorisation;
 
 /// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
-tl::expected<std::unique_ptr<interior_point::KktSystem>, std::string> make_system(NonlinearProgram& program,
-                                                                                  const InteriorPointOptions& choices) {
+tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_system(NonlinearProgram& program,
+                                                                       const InteriorPointOptions& choices) {
   if (choices.make_kkt_system) return choices.make_kkt_system(program);
-  if (choices.factorisation == Factorisation::sparse) return std::make_unique<interior_point::SparseKkt>(program);
-  return interior_point::IntervalKkt::make(program).map([&](auto by_intervals) {
-    return std::make_unique<interior_point::RefinedKkt>(program, std::move(by_intervals));
-  });
+  if (choices.factorisation == Factorisation::sparse) return std::make_unique<kkt::SparseKkt>(program);
+  return kkt::IntervalKkt::make(program).map(
+      [&](auto by_intervals) { return std::make_unique<kkt::RefinedKkt>(program, std::move(by_intervals)); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace dmocbench {
 
-namespace interior_point {
+namespace kkt {
 class KktSystem;
 }
 
@@ -22,7 +22,7 @@ struct InteriorPointOptions {
   Factorisation factorisation = Factorisation::intervals;
   /// Supplies the linear systems of an experiment in place of `factorisation`, one `KktSystem` (kkt_system.hpp) per
   /// solve; it throws `Error` where it has none for the program, which outlives it. Empty for ours.
-  std::function<std::unique_ptr<interior_point::KktSystem>(NonlinearProgram& program)> make_kkt_system;
+  std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system;
 };
 
 /// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md.

@@ -27,7 +27,7 @@ bool InertiaShift::raise() noexcept {
   return shift_ <= largest;
 }
 
-NewtonStep::NewtonStep(const BarrierProgram& program, KktSystem& kkt) : program_(program), kkt_(kkt) {
+NewtonStep::NewtonStep(const BarrierProgram& program, kkt::KktSystem& kkt) : program_(program), kkt_(kkt) {
   set_zero(diagonal_, static_cast<Eigen::Index>(program.program().variable_count()));
   if (program.has_bounds()) {
     set_zero(sigma_.x, diagonal_.size());
@@ -50,13 +50,13 @@ bool NewtonStep::compute(const Iterate& at, double mu, const Primal& gradient, c
     program_.bounds().add_barrier(at, mu, sigma_, gradient_);
   }
   for (shift_.begin();;) {
-    const KktRightHandSide reduced =
+    const kkt::KktRightHandSide reduced =
         reduce(shift_.value(), program_.has_bounds() ? gradient_.x : gradient.x, constraints, step);
     const Clock::time_point begin = Clock::now();
-    const FactorisationStatus status =
+    const kkt::FactorisationStatus status =
         kkt_.solve(matrix_with(program_.hessian()), reduced, {.primal = step.x, .multipliers = step.multipliers});
     linear_seconds_ += seconds_since(begin);
-    if (status == FactorisationStatus::solved) break;
+    if (status == kkt::FactorisationStatus::solved) break;
     // The factorisation does not solve where a number is not finite. To look for one before would cost as much as half
     // a sweep.
     if (!is_finite(program_.hessian()) || !shift_.raise()) return false;
@@ -109,8 +109,8 @@ double NewtonStep::directional_derivative(const Iterate& at, double mu, const It
 
 /// Prepares the matrix and returns the right-hand side, with the slacks eliminated: ds = E (dλ - ∇_s), E the
 /// compliance.
-KktRightHandSide NewtonStep::reduce(double shift, const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints,
-                                    Iterate& step) {
+kkt::KktRightHandSide NewtonStep::reduce(double shift, const Eigen::VectorXd& gradient,
+                                         const Eigen::VectorXd& constraints, Iterate& step) {
   resize_unwritten(step.x, diagonal_.size());
   resize_unwritten(step.multipliers, constraints.size());
   ++factorisations_;
@@ -137,12 +137,12 @@ KktRightHandSide NewtonStep::reduce(double shift, const Eigen::VectorXd& gradien
 
 bool NewtonStep::solve(const Eigen::VectorXd& hessian, double shift, const Eigen::VectorXd& gradient,
                        const Eigen::VectorXd& constraints, Iterate& step) {
-  const KktRightHandSide reduced = reduce(shift, gradient, constraints, step);
+  const kkt::KktRightHandSide reduced = reduce(shift, gradient, constraints, step);
   const Clock::time_point begin = Clock::now();
-  const FactorisationStatus status =
+  const kkt::FactorisationStatus status =
       kkt_.solve(matrix_with(hessian), reduced, {.primal = step.x, .multipliers = step.multipliers});
   linear_seconds_ += seconds_since(begin);
-  return status == FactorisationStatus::solved;
+  return status == kkt::FactorisationStatus::solved;
 }
 
 /// With the unit matrix in place of the Hessian.

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "methods/solvers/interior_point/barrier_program.hpp"
-#include "methods/solvers/interior_point/kkt_system.hpp"
+#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -37,7 +37,7 @@ class InertiaShift {
 /// (the second term for inequalities only), where the steps of slacks and of multipliers of bounds are eliminated.
 class NewtonStep {
  public:
-  NewtonStep(const BarrierProgram& program, KktSystem& kkt);
+  NewtonStep(const BarrierProgram& program, kkt::KktSystem& kkt);
 
   /// Newton's step for the barrier problem, from the program's derivatives at the iterate, `gradient` of the Lagrangian
   /// without bounds (`BarrierProgram::gradient_of_lagrangian`) and the residuals of the constraints. False if no shift
@@ -63,11 +63,11 @@ class NewtonStep {
   [[nodiscard]] double linear_seconds() const noexcept { return linear_seconds_; }
 
  private:
-  [[nodiscard]] KktMatrix matrix_with(const Eigen::VectorXd& hessian) const {
+  [[nodiscard]] kkt::KktMatrix matrix_with(const Eigen::VectorXd& hessian) const {
     return {hessian, program_.jacobian(), diagonal_, compliance_};
   }
-  [[nodiscard]] KktRightHandSide reduce(double shift, const Eigen::VectorXd& gradient,
-                                        const Eigen::VectorXd& constraints, Iterate& step);
+  [[nodiscard]] kkt::KktRightHandSide reduce(double shift, const Eigen::VectorXd& gradient,
+                                             const Eigen::VectorXd& constraints, Iterate& step);
   [[nodiscard]] bool solve(const Eigen::VectorXd& hessian, double shift, const Eigen::VectorXd& gradient,
                            const Eigen::VectorXd& constraints, Iterate& step);
   [[nodiscard]] bool solve_least_squares(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints,
@@ -75,7 +75,7 @@ class NewtonStep {
   void set_eliminated_steps(const Iterate& at, double mu, Iterate& step) const;
 
   const BarrierProgram& program_;
-  KktSystem& kkt_;
+  kkt::KktSystem& kkt_;
   InertiaShift shift_;
   // Parts that bounds or slacks have no use for stay empty: a pass over a long vector costs a fetch from memory.
   Primal sigma_;                 // Σ

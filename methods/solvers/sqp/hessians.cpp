@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/symmetric_factorisation.hpp"
+#include "methods/solvers/kkt/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -10,7 +10,7 @@
 
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/linearisation.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -1,0 +1,208 @@
+#include "methods/solvers/kkt/intervals/boundary_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <lapacke.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench::kkt {
+
+namespace {
+
+/// Factors that bring the largest entries of rows and columns near 1.
+Eigen::VectorXd equilibration(const Eigen::MatrixXd& lower) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(lower.rows());
+  for (Eigen::Index j = 0; j < lower.cols(); ++j) {
+    for (Eigen::Index i = j; i < lower.rows(); ++i) {
+      largest[i] = std::max(largest[i], std::abs(lower(i, j)));
+      largest[j] = std::max(largest[j], std::abs(lower(i, j)));
+    }
+  }
+  return largest.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 1.0; });
+}
+
+/// Smallest magnitude of the eigenvalues of a symmetric block (a, b; b, c).
+double smallest_eigenvalue(double a, double b, double c) {
+  const double largest = 0.5 * (std::abs(a + c) + std::hypot(a - c, 2.0 * b));
+  return largest > 0.0 ? std::abs(a * c - b * b) / largest : 0.0;
+}
+
+/// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
+DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
+  const Eigen::Index n = factors.rows();
+  constexpr double far_from_zero = 1e-11;  // hundreds of times the rounding of dependent rows
+  // Elimination turns a dependent row into a few units of rounding per row.
+  const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  DenseInertia inertia;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (pivots[static_cast<std::size_t>(i)] < 0) {
+      smallest = std::min(smallest, smallest_eigenvalue(factors(i, i), factors(i + 1, i), factors(i + 1, i + 1)));
+      ++inertia.negative;
+      ++i;
+    } else {
+      smallest = std::min(smallest, std::abs(factors(i, i)));
+      if (factors(i, i) < 0.0) ++inertia.negative;
+    }
+  }
+  inertia.is_singular = !(smallest > rounding);
+  inertia.is_certain = smallest > far_from_zero;
+  return inertia;
+}
+
+}  // namespace
+
+DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side) {
+  const Eigen::Index n = matrix.rows();
+  if (n == 0) return {.is_certain = true};
+  if (!matrix.allFinite() || !right_hand_side.allFinite()) return {.is_singular = true};
+  const Eigen::VectorXd scale = equilibration(matrix);
+  matrix = (scale.asDiagonal() * matrix * scale.asDiagonal()).eval();
+  right_hand_side.array() *= scale.array();
+  std::vector<lapack_int> pivots(static_cast<std::size_t>(n));
+  const auto order = static_cast<lapack_int>(n);
+  const lapack_int info = LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', order, matrix.data(), order, pivots.data());
+  if (info != 0) return {.is_singular = true};
+  LAPACKE_dsytrs(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, pivots.data(), right_hand_side.data(), order);
+  right_hand_side.array() *= scale.array();
+  return inertia_of(matrix, pivots);
+}
+
+BoundarySystem::BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries)
+    : state_size_(state_size(entries.shape)), node_(entries.shape.node), node_sums_(entries.shape.node_sums) {
+  number_lines(entries);
+  place(entries);
+  drop_what_is_fixed(program);
+  matrix_.resize(size_, size_);
+  right_hand_side_.resize(size_);
+}
+
+void BoundarySystem::number_lines(const IntervalEntries& entries) {
+  const auto append = [&](const std::vector<Eigen::Index>& numbers, std::vector<Binding>& list) {
+    for (const Eigen::Index number : numbers) list.push_back({number, size_++});
+  };
+  append(entries.node_unknowns, unknowns_);
+  size_ += node_sums_;
+  append(entries.global_unknowns, unknowns_);
+  append(entries.end_unknowns[0], unknowns_);
+  last_state_ = size_;
+  append(entries.node_unknowns, last_unknowns_);
+  for (Binding& of_last_node : last_unknowns_) of_last_node.number += entries.intervals;
+  size_ = last_state_ + state_size_;
+  append(entries.end_unknowns[1], unknowns_);
+
+  multiplier_at_ = size_;
+  carry_at_ = multiplier_at_ + state_size_;
+  last_rows_ = carry_at_ + node_sums_;
+  size_ = last_rows_ + node_sums_;
+  for (Eigen::Index i = 0; i < node_sums_; ++i) {
+    const Eigen::Index first = entries.equality_rows[static_cast<std::size_t>(i)];
+    first_rows_.push_back({first, carry_at_ + i});
+    rows_.push_back({first + entries.intervals, last_rows_ + i});
+  }
+  append(entries.end_rows, rows_);
+}
+
+void BoundarySystem::place(const IntervalEntries& entries) {
+  using Lines = std::map<Eigen::Index, Eigen::Index>;
+  const auto lines_of = [](const auto&... lists) {
+    Lines lines;
+    for (const auto* list : {&lists...}) {
+      for (const Binding& binding : *list) lines[binding.number] = binding.at;
+    }
+    return lines;
+  };
+  const Lines unknown_at = lines_of(unknowns_, last_unknowns_);
+  const Lines row_at = lines_of(first_rows_, rows_);
+  const auto look_up = [](const Lines& lines, Eigen::Index number) {
+    const auto found = lines.find(number);
+    if (found == lines.end()) throw Error("an entry of the ends belongs to neither of them");
+    return found->second;
+  };
+  for (const EndEntry& entry : entries.ends) {
+    const bool is_row = entry.source == Source::jacobian;
+    const Eigen::Index row = look_up(is_row ? row_at : unknown_at, entry.row);
+    const Eigen::Index column = look_up(unknown_at, entry.column);
+    const double sign = is_row && defines_carry(row) ? -1.0 : 1.0;
+    placed_.push_back({entry.source, entry.entry, std::max(row, column), std::min(row, column), sign});
+  }
+}
+
+void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
+  std::vector<bool> moves(static_cast<std::size_t>(size_), true);
+  const auto drop = [&](Eigen::Index at) { moves[static_cast<std::size_t>(at)] = false; };
+  for (const auto* list : {&unknowns_, &last_unknowns_}) {
+    for (const auto& [number, at] : *list) {
+      if (program.variable_lower()[number] == program.variable_upper()[number]) drop(at);
+    }
+  }
+  // Where nothing but the first interval is in the rows of the first node, s_0 is zero.
+  const bool nothing_carried =
+      std::ranges::none_of(placed_, [&](const Placed& entry) { return defines_carry(entry.row); });
+  for (Eigen::Index i = 0; i < node_sums_ && nothing_carried; ++i) {
+    drop(node_ + i);
+    drop(carry_at_ + i);
+  }
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    if (moves[static_cast<std::size_t>(i)]) kept_.push_back(i);
+  }
+}
+
+void BoundarySystem::assemble(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                              const Horizon& horizon) {
+  const Eigen::Index n = state_size_;
+  matrix_.setZero();
+  right_hand_side_.setZero();
+  matrix_.topLeftCorner(n, n) = horizon.value.P;
+  matrix_.block(multiplier_at_, 0, n, n) = horizon.value.Phi.transpose();
+  matrix_.block(multiplier_at_, multiplier_at_, n, n) = -horizon.value.Gamma;
+  matrix_.block(multiplier_at_, last_state_, n, n) = -Eigen::MatrixXd::Identity(n, n);
+  matrix_.block(last_state_, last_state_, n, n).diagonal() = -horizon.terminal_weights;
+  matrix_.block(carry_at_, node_, node_sums_, node_sums_).setIdentity();
+  matrix_.block(last_rows_, last_state_ + node_, node_sums_, node_sums_).setIdentity();
+  matrix_.block(last_rows_, last_state_, node_sums_, node_) += horizon.last_carry;
+  right_hand_side_.head(n) = -horizon.value.p;
+  right_hand_side_.segment(multiplier_at_, n) = -horizon.value.gamma;
+  for (const Placed& entry : placed_) {
+    const Eigen::VectorXd& values = entry.source == Source::jacobian ? matrix.jacobian : matrix.hessian;
+    matrix_(entry.row, entry.column) += entry.sign * values[entry.entry];
+  }
+  for (const auto& [number, at] : unknowns_) {
+    matrix_(at, at) += matrix.diagonal[number];
+    right_hand_side_[at] -= right_hand_side.gradient[number];
+  }
+  for (const auto& [number, at] : rows_) {
+    matrix_(at, at) -= matrix.compliance_of(number);
+    right_hand_side_[at] -= right_hand_side.constraints[number];
+  }
+}
+
+FactorisationStatus BoundarySystem::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                          const Horizon& horizon) {
+  assemble(matrix, right_hand_side, horizon);
+  Eigen::MatrixXd reduced = matrix_(kept_, kept_);
+  Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
+  const DenseInertia inertia = solve_symmetric(reduced, reduced_solution);
+  is_certain_ = inertia.is_certain;
+  if (inertia.is_singular) return FactorisationStatus::singular;
+  const auto rows = std::ranges::count_if(kept_, [&](Eigen::Index at) { return at >= multiplier_at_; });
+  if (inertia.negative != rows) return FactorisationStatus::wrong_inertia;
+  solution_.setZero(size_);
+  solution_(kept_) = reduced_solution;
+  state_ = solution_.head(state_size_);
+  multiplier_ = solution_.segment(multiplier_at_, state_size_);
+  return FactorisationStatus::solved;
+}
+
+void BoundarySystem::write(const KktStep& step) const {
+  for (const auto* list : {&unknowns_, &last_unknowns_}) {
+    for (const auto& [number, at] : *list) step.primal[number] = solution_[at];
+  }
+  for (const auto& [number, at] : rows_) step.multipliers[number] = solution_[at];
+}
+
+}  // namespace dmocbench::kkt

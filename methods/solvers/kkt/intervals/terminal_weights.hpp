@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/solvers/kkt/intervals/interval_entries.hpp"
+#include "methods/solvers/kkt/intervals/segment_kernel.hpp"
+
+namespace dmocbench::kkt {
+
+/// The weights ρ_i of ½ Σ ρ_i (X_i - d_i)² at the end of every segment. The term is zero where the segment ends at the
+/// given state d, and prevents conjugate points inside (Finsler; README.md, "Terminal weights").
+///
+/// The reachability Γ of a segment is about 1/(ρ + a), a_i being the stiffness that the free unknowns give its end. Too
+/// large a weight drowns a_i, and with it the digits of the join. So weights are multiples of the smallest stiffness
+/// that was last observed, rescaled from matrix to matrix by the compliance of the free unknowns.
+class TerminalWeights {
+ public:
+  explicit TerminalWeights(const IntervalEntries& entries);
+
+  /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
+  /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
+  void use(const EliminationPlan& plan);
+  /// Adapts the weights to a new matrix.
+  void rescale(const NewtonArrays& arrays);
+  /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
+  [[nodiscard]] bool next_multiple();
+  /// All multiples are to be tried after the next failure.
+  void distrust_next_failure() noexcept { believed_ = 0; }
+  /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
+  void observe(const Eigen::MatrixXd& Gamma);
+
+  /// ρ, one per entry of the state.
+  [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }
+
+ private:
+  /// The diagonal entries of the matrix that a moving unknown of the intervals has.
+  struct Diagonal {
+    std::optional<LocalEntry> added;  ///< of d, always there
+    std::optional<LocalEntry> hessian;
+    bool is_free = true;
+  };
+  [[nodiscard]] double compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const;
+  [[nodiscard]] double stiffness_of_free_unknowns(const NewtonArrays& arrays) const;
+  void update();
+
+  Eigen::Index intervals_;
+  std::vector<Diagonal> diagonals_;
+  std::size_t level_ = 0;  // which multiple
+  std::size_t tried_ = 0;  // others, for this matrix
+  int believed_ = 0;       // next failures that are believed without further multiples
+  double scale_ = 1.0;
+  Eigen::VectorXd stiffness_;  // relative to the scale
+  Eigen::VectorXd observed_;   // since the last matrix
+  Eigen::VectorXd values_;
+};
+
+}  // namespace dmocbench::kkt

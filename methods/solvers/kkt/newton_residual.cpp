@@ -1,0 +1,72 @@
+#include "methods/solvers/kkt/newton_residual.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "methods/runtime/long_vectors.hpp"
+#include "methods/solvers/kkt/linearisation.hpp"
+
+namespace dmocbench::kkt {
+
+namespace {
+
+/// A right-hand side that is nearly zero allows nothing; then this share of the largest terms, times the accuracy, is
+/// allowed.
+constexpr double share_of_terms = 1e-6;
+
+double largest_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() > 0 ? a.cwiseProduct(b).lpNorm<Eigen::Infinity>() : 0.0;
+}
+
+double ratio(double left, double allowed) { return left > 0.0 ? left / allowed : 0.0; }
+
+}  // namespace
+
+NewtonResidual::NewtonResidual(const NonlinearProgram& program)
+    : hessian_(MatrixProduct::symmetric(program.hessian_structure())),
+      jacobian_(MatrixProduct::plain(program.jacobian_structure())),
+      transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())),
+      floor_(program.rounding_floor()),
+      fixed_(fixed_variables(program)) {}
+
+void NewtonResidual::compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step) {
+  const Eigen::VectorXd& gradient = right_hand_side.gradient;
+  largest_gradient_ = largest_of(gradient);
+  largest_constraint_ = largest_of(right_hand_side.constraints);
+  resize_unwritten(gradient_, gradient.size());
+  for_stretches(gradient.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+    gradient_.segment(begin, length) =
+        gradient.segment(begin, length) +
+        matrix.diagonal.segment(begin, length).cwiseProduct(step.primal.segment(begin, length));
+  });
+  hessian_.add(matrix.hessian, step.primal, gradient_);
+  transposed_jacobian_.add(matrix.jacobian, step.multipliers, gradient_);
+  for (const Eigen::Index i : fixed_) gradient_[i] = 0.0;
+  copy_to(constraints_, right_hand_side.constraints);
+  if (matrix.compliance.size() > 0) constraints_ -= matrix.compliance.cwiseProduct(step.multipliers);
+  jacobian_.add(matrix.jacobian, step.primal, constraints_);
+}
+
+double NewtonResidual::excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const {
+  const double gradient = largest_of(gradient_);
+  const double constraint = largest_of(constraints_);
+  if (!is_finite(gradient_) || !is_finite(constraints_)) return std::numeric_limits<double>::infinity();
+  const double of_gradient = accuracy * largest_gradient_;
+  const double of_constraint = accuracy * largest_constraint_;
+  // The right-hand side usually allows more than is left; then the other limits need no pass over the matrix.
+  if (gradient <= of_gradient && constraint <= of_constraint) {
+    return std::max(ratio(gradient, of_gradient), ratio(constraint, of_constraint));
+  }
+  const double rounding = 20.0 * std::numeric_limits<double>::epsilon() + share_of_terms * accuracy;
+  const double primal = largest_of(step.primal);
+  const double multiplier = largest_of(step.multipliers);
+  const double jacobian = largest_of(matrix.jacobian);
+  const double allowed_gradient = floor_ * std::max(1.0, multiplier) + of_gradient +
+                                  rounding * (largest_product(matrix.diagonal, step.primal) +
+                                              largest_of(matrix.hessian) * primal + jacobian * multiplier);
+  const double allowed_constraint =
+      floor_ + of_constraint + rounding * (largest_product(matrix.compliance, step.multipliers) + jacobian * primal);
+  return std::max(ratio(gradient, allowed_gradient), ratio(constraint, allowed_constraint));
+}
+
+}  // namespace dmocbench::kkt

@@ -1,0 +1,87 @@
+#include "methods/solvers/kkt/refined_kkt.hpp"
+
+#include <utility>
+
+#include "methods/solvers/kkt/sparse_kkt.hpp"
+
+namespace dmocbench::kkt {
+
+namespace {
+
+constexpr int most_refinements = 5;
+/// A refinement that leaves more than this share of the excess is the last one.
+constexpr double worthwhile = 0.3;
+/// The excess at which a step is still used: Newton's method gains a digit per iteration with it.
+constexpr double tolerable = 1e5;
+/// The excess below which a step is very accurate, and how many coming steps are then not checked.
+constexpr double very_accurate = 1e-2;
+constexpr int unchecked_after_accurate = 2;
+constexpr int unchecked_after_very_accurate = 7;
+/// A Hessian that needs a shift usually has the right inertia after two or three attempts.
+constexpr int refusals_to_check = 4;
+
+}  // namespace
+
+RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy)
+    : program_(program), fast_(std::move(fast)), residual_(program), accuracy_(accuracy) {}
+
+FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                                      const KktStep& step) {
+  const FactorisationStatus status = fast_->solve(matrix, right_hand_side, step);
+  refusals_ = status == FactorisationStatus::wrong_inertia ? refusals_ + 1 : 0;
+  if (refusals_ % refusals_to_check != 0) return status;
+  if (status == FactorisationStatus::solved) {
+    if (unchecked_ > 0) {
+      --unchecked_;
+      return status;
+    }
+    if (refine(*fast_, matrix, right_hand_side, step)) return status;
+  }
+  if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
+  ++fallbacks_;
+  const FactorisationStatus robust = robust_->solve(matrix, right_hand_side, step);
+  if (robust != FactorisationStatus::solved) return robust;
+  // Rounding may hide dependent constraints from its pivots, but not from the residual of its step.
+  return refine(*robust_, matrix, right_hand_side, step) ? robust : FactorisationStatus::singular;
+}
+
+/// Refines a step of `kkt`; false if its residual stays above `tolerable`.
+bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
+                        const KktStep& step) {
+  const auto excess_of_step = [&] {
+    residual_.compute(matrix, right_hand_side, step);
+    return residual_.excess(matrix, step, accuracy_);
+  };
+  double excess = excess_of_step();
+  const bool is_fast = &kkt == fast_.get();
+  if (is_fast && excess <= 1.0) {
+    unchecked_ = excess <= very_accurate ? unchecked_after_very_accurate : unchecked_after_accurate;
+  }
+  if (is_fast && excess > tolerable) {
+    // A solve updates the terminal weights of the elimination by intervals, so a second one may succeed.
+    if (kkt.solve(matrix, right_hand_side, step) != FactorisationStatus::solved) return false;
+    excess = excess_of_step();
+  }
+  for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
+    primal_correction_.resizeLike(step.primal);
+    multiplier_correction_.resizeLike(step.multipliers);
+    ++refinements_;
+    if (kkt.solve(matrix, residual_.value(), {primal_correction_, multiplier_correction_}) !=
+        FactorisationStatus::solved) {
+      break;
+    }
+    step.primal += primal_correction_;
+    step.multipliers += multiplier_correction_;
+    const double before = excess;
+    excess = excess_of_step();
+    if (!(excess <= before)) {
+      step.primal -= primal_correction_;
+      step.multipliers -= multiplier_correction_;
+      excess = before;
+    }
+    if (!(excess <= worthwhile * before)) break;
+  }
+  return excess <= tolerable;
+}
+
+}  // namespace dmocbench::kkt
