@@ -155,10 +155,12 @@ int measure_all(CommandLine& line) {
   listen_for_interrupt();
   Results results;
   for (const auto& problem : selected) measure(*problem, steps, results);
-  write_file(out / "consistency_order.csv", table_of(error_columns, results.errors).csv());
-  write_file(out / "consistency_order_slopes.csv", table_of(order_columns, results.orders).csv());
-  write_complete_run(out / "consistency_order.json", command_line);
-  fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), (out / "consistency_order.csv").string());
+  const std::filesystem::path errors = out / "consistency_order.csv";
+  const std::filesystem::path slopes = out / "consistency_order_slopes.csv";
+  write_file(errors, table_of(error_columns, results.errors).csv());
+  write_file(slopes, table_of(order_columns, results.orders).csv());
+  write_complete_run(out / "consistency_order.json", command_line, {errors, slopes});
+  fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), errors.string());
   return 0;
 }
 

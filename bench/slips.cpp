@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
@@ -97,7 +98,7 @@ const Columns<Slip> columns{
 int evaluate_slips(CommandLine& line) {
   std::filesystem::path out = "results";
   line.option("--out", out, "folder for the results");
-  line.parse();
+  const std::vector<std::string> command_line = line.parse();
   prepare_folder(out);
   listen_for_interrupt();
   SolverOptions options;
@@ -109,8 +110,10 @@ int evaluate_slips(CommandLine& line) {
               {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
   const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),
                                 mayer_gradient(*orbit, motion)};
-  write_file(out / "slips.csv", table_of(columns, slips).csv());
-  fmt::print("slips: {} rows: {}\n", slips.size(), (out / "slips.csv").string());
+  const std::filesystem::path file = out / "slips.csv";
+  write_file(file, table_of(columns, slips).csv());
+  write_complete_run(out / "slips.json", command_line, {file});
+  fmt::print("slips: {} rows: {}\n", slips.size(), file.string());
   return 0;
 }
 

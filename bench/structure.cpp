@@ -161,8 +161,9 @@ int write_tables(CommandLine& line) {
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
   follow_transfer(results);
+  std::vector<std::filesystem::path> files;
   const auto write = [&](const std::string& name, const Table& table) {
-    const std::filesystem::path file = out / (name + ".csv");
+    const std::filesystem::path file = files.emplace_back(out / (name + ".csv"));
     write_file(file, table.csv());
     fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
   };
@@ -172,7 +173,7 @@ int write_tables(CommandLine& line) {
   write("structure_energy", table_of(period_columns, results.periods));
   write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));
   write("structure_energy_slopes", table_of(order_columns, results.orders));
-  write_complete_run(out / "structure.json", command_line);
+  write_complete_run(out / "structure.json", command_line, files);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/written_tables.hpp"
 
 namespace dmocbench {
 
@@ -57,8 +58,9 @@ std::string content_of(const std::filesystem::path& path) {
   return read_file(path);
 }
 
-/// Throws `Error` unless a run came to its end and its own table is the one that it tells of.
-void check_run(const std::filesystem::path& folder, const std::string& run, const ResultTables& tables) {
+/// Throws `Error` unless a run came to its end with all its cases, and wrote the table with this content.
+void check_run(const std::filesystem::path& folder, const std::string& run, const std::string& table,
+               std::string_view content) {
   const std::string file = run + ".json";
   if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
     throw Error(fmt::format("there is no {}, which tells whether the run came to its end", file));
@@ -69,13 +71,11 @@ void check_run(const std::filesystem::path& folder, const std::string& run, cons
     throw Error(fmt::format("{} does not tell whether the run came to its end", file));
   }
   if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted, as {} says; run it again", file));
-  const auto count = description.find("rows");
-  if (count == description.end() || !tables.has(run)) return;
-  const std::size_t rows = tables.rows(run).size();
-  if (*count != rows) {
-    throw Error(fmt::format("{} tells of {} rows and {}.csv has {}: they are of different runs, or rows are lost", file,
-                            count->dump(), run, rows));
+  if (description.contains("cases") && description["cases"] != description.value("rows", nlohmann::json())) {
+    throw Error(fmt::format("{} tells of {} cases, not all of which have a row; run it again", file,
+                            description["cases"].dump()));
   }
+  require_as_written(description, file, table, content);
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ const std::vector<DeclaredTable>& declared_tables() {
        {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"}},
       {"local_minima_shares", "local_minima", solve},
       {"profile", "profile", solve, {"status", "success"}},
-      {"slips", "", {"problem", "slip"}},
+      {"slips", "slips", {"problem", "slip"}},
   };
   return tables;
 }
@@ -117,23 +117,15 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
     const std::string file = declared.name + ".csv";
     try {
       if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) continue;
-      tables.add(declared.name, Table::from_csv(content_of(folder / file)));
+      const std::string content = content_of(folder / file);
+      tables.add(declared.name, Table::from_csv(content));
       check(tables.tables_.at(declared.name), declared);
+      check_run(folder, declared.run, file, content);
     } catch (const Error& error) {
       const std::string sentence = error.what();
       tables.faults_[declared.name] = sentence.find(file) == std::string::npos ? file + ": " + sentence : sentence;
     }
   }
-  std::map<std::string, std::string, std::less<>> faults;
-  for (const DeclaredTable& declared : declared_tables()) {
-    if (declared.run.empty() || !tables.has(declared.name)) continue;
-    try {
-      check_run(folder, declared.run, tables);
-    } catch (const Error& error) {
-      faults[declared.name] = fmt::format("{}.csv: {}", declared.name, error.what());
-    }
-  }
-  tables.faults_.merge(faults);
   return tables;
 }
 

@@ -14,7 +14,7 @@ namespace dmocbench {
 /// What a table has to look like before a claim may be judged by it.
 struct DeclaredTable {
   std::string name;        ///< without ".csv"
-  std::string run;         ///< whose .json tells whether it is whole, without ".json"; empty where there is none
+  std::string run;         ///< whose .json tells whether it is whole, without ".json"
   ColumnNames key;         ///< no two rows agree in all of them; those that count something are finite numbers
   ColumnNames texts = {};  ///< further columns that rows are picked by
 };

@@ -18,6 +18,7 @@
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/written_tables.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -104,10 +105,12 @@ class Run {
       experiment_.finish_interrupted(table, prefix_, metadata_);
     }
     metadata_["complete"] = complete;
+    metadata_["cases"] = cases_.size();
     metadata_["rows"] = table.rows().size();
     metadata_["not_solved"] = failures;
     metadata_["too_coarse"] = too_coarse;
     metadata_["on_another_branch"] = other_branch;
+    metadata_["tables"] = describe_tables(files_of_run());
     write_metadata(prefix_.string() + ".json", metadata_);
     fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
                complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),
@@ -119,6 +122,12 @@ class Run {
  private:
   [[nodiscard]] std::filesystem::path table_file() const {
     return part_.empty() ? std::filesystem::path(prefix_.string() + ".csv") : part_;
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> files_of_run() const {
+    std::vector<std::filesystem::path> files{table_file()};
+    for (const std::string& suffix : experiment_.further_files()) files.emplace_back(prefix_.string() + suffix);
+    return files;
   }
 
   /// The files of an earlier run make room for this one's. One that the run starts from is kept.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <boost/crc.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/solve_case.hpp"
+#include "bench/experiment/written_tables.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
@@ -46,10 +46,7 @@ Eigen::MatrixXd matrix_of(const Json& columns) {
 /// Of a file without its own entry: a digit that is damaged shows, also where no equation asks for it.
 std::uint32_t checksum_of(Json file) {
   file.erase("checksum");
-  const std::string text = file.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return crc.checksum();
+  return crc_32(file.dump());
 }
 
 std::string written(const Problem& problem, const IndirectSolution& solution) {

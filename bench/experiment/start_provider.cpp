@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/motion_file.hpp"
+#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
@@ -140,7 +141,6 @@ class StartProvider::Search {
 
   [[nodiscard]] std::string reason() const {
     const std::string& name = case_.problem->name();
-    if (is_interrupted()) return "interrupted";
     if (seconds_since(begin_) >= provider_.rules_.most_seconds) {
       return fmt::format("It began at the guess: {} has no common start after {:g} s; allow more by --start-seconds.",
                          name, provider_.rules_.most_seconds);
@@ -232,7 +232,7 @@ Start StartProvider::start_for(const Case& the_case) {
   if (from_guess && !rules_.tells_branch_from_guess) return start;
   const FoundStart& found = common_start(the_case);
   if (!found) {
-    if (options_.stop_requested && options_.stop_requested()) throw NoStart(found.error());
+    if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
     start.note = found.error();
     return start;
   }
@@ -245,8 +245,9 @@ Start StartProvider::start_for(const Case& the_case) {
 Trajectory StartProvider::solve(const Case& the_case) {
   const Start start = start_for(the_case);
   const SolvedCase solved = solve_case(the_case, start, *make_solver(the_case.solver, options_), options_.tolerance, 1);
-  if (!solved.trajectory || !is_usable(solved)) throw Error(the_case.label() + " could not be solved");
-  return *solved.trajectory;
+  if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
+  if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
+  throw Error(the_case.label() + " could not be solved");
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {

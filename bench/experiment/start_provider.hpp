@@ -46,10 +46,11 @@ class StartProvider {
   /// The motion to start this case from, and the motion whose branch it should be on. No case starts at its own answer:
   /// where the common start is the case's own method on the same grid, the same branch on the finer grid serves; a file
   /// that is the case's own answer is refused: throws `NoStart`. Where no common start is found, in time or at all, it
-  /// is the guess, and the note says why; throws `NoStart` if the search was interrupted.
+  /// is the guess, and the note says why; throws `Interrupted` if the search was interrupted.
   [[nodiscard]] Start start_for(const Case& the_case);
 
-  /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch.
+  /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch, `Interrupted` if
+  /// that is because a stop was asked for.
   [[nodiscard]] Trajectory solve(const Case& the_case);
 
   /// Called before each solve on the way to a common start, with a description of it.

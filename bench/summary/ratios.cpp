@@ -32,6 +32,7 @@ constexpr std::array currencies{
 };
 
 constexpr double steps_per_decade = 2.0;
+
 /// Columns of the table of equal accuracy, and of the rows that they are read from.
 constexpr std::array costs{std::pair{"intervals", "intervals"}, std::pair{"variables", "free_variables"},
                            std::pair{"seconds", "seconds"}};

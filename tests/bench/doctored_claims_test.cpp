@@ -1,14 +1,17 @@
 // What no table may hold, put into every column that decides on a claim: no claim is reproduced by it.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <set>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "bench/claims/claim.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/written_tables.hpp"
 #include "tests/bench/all_tables_for_claims.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -92,14 +95,36 @@ class DoctoredClaims : public tests::InTemporaryFolder {
       }
       columns_[declared.name] = columns_of_rows(declared, rows_[declared.name]);
       write(declared.name, columns_[declared.name], rows_[declared.name]);
-      if (!declared.run.empty()) write_file(folder() / (declared.run + ".json"), R"({"complete": true})");
     }
     whole_ = judge();
   }
-  void write(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
+  /// Writes a table without telling its run.
+  void slip_in(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
     Table table(columns);
     for (const Row& row : rows) table.append(row);
-    write_file(folder() / (name + ".csv"), table.csv());
+    write_quickly(name + ".csv", table.csv());
+  }
+  /// Writes a table as its run does.
+  void write(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
+    slip_in(name, columns, rows);
+    tell_of_tables_like(name);
+  }
+  /// Writes the metadata of a run that has come to its end with the tables that are there.
+  void tell_of_tables_like(const std::string& name) const {
+    const std::string run = run_of(name);
+    std::vector<std::filesystem::path> files;
+    for (const DeclaredTable& declared : declared_tables()) {
+      if (declared.run == run) files.push_back(folder() / (declared.name + ".csv"));
+    }
+    write_quickly(run + ".json",
+                  nlohmann::json{{"complete", true}, {"tables", nlohmann::json(describe_tables(files))}}.dump());
+  }
+  /// Thousands of files that nobody needs on the disk.
+  void write_quickly(const std::string& name, const std::string& content) const {
+    std::ofstream(folder() / name, std::ios::binary) << content;
+  }
+  static std::string run_of(const std::string& name) {
+    return std::ranges::find(declared_tables(), name, &DeclaredTable::name)->run;
   }
   /// The table with a text in a column of some rows.
   [[nodiscard]] Judgements with(
@@ -248,7 +273,6 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
     EXPECT_EQ(judged["orbital_transfer/symplectic"].verdict, ClaimVerdict::reproduced);
     std::filesystem::remove(file);
     write(name, columns_.at(name), rows_.at(name));
-    write_file(folder() / "local_minima.json", R"({"complete": true})");
   };
   Rows doubled = rows_.at(name);
   doubled.push_back(doubled.front());
@@ -272,10 +296,49 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
 }
 
 TEST_F(DoctoredClaims, SayWhenATableAndItsRunDoNotBelongTogether) {
-  write_file(folder() / "objective.json", R"({"complete": true, "rows": 7})");
-  const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
-  EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet);
-  EXPECT_NE(claim.measured.find("7 rows and objective.csv has 6"), std::string::npos) << claim.measured;
+  const ColumnNames& columns = columns_.at("objective");
+  const Rows& rows = rows_.at("objective");
+  const auto expect = [&](const std::string& sentence) {
+    const JudgedClaim claim = judge()["orbital_transfer/objective_evolution"];
+    EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << sentence;
+    EXPECT_NE(claim.measured.find(sentence), std::string::npos) << claim.measured;
+    write("objective", columns, rows);
+  };
+  slip_in("objective", columns, {rows.begin(), rows.end() - 1});
+  expect("6 rows and objective.csv has 5");
+  ColumnNames more = columns;
+  more.emplace_back("wish");
+  slip_in("objective", more, rows);
+  expect("has the column \"wish\"");
+  ColumnNames fewer = columns;
+  std::erase(fewer, "objective");
+  slip_in("objective", fewer, rows);
+  expect("objective.csv lacks the column \"objective\"");
+  write_file(folder() / "objective.json", R"({"complete": true})");
+  expect("objective.json does not tell of objective.csv");
+  write_file(folder() / "objective.json", R"({"complete": true, "cases": 8, "rows": 6})");
+  expect("8 cases");
+  EXPECT_EQ(judge()["orbital_transfer/objective_evolution"].verdict, ClaimVerdict::reproduced);
+}
+
+/// A table that was changed behind its run is told by its checksum, whatever was changed in whichever table.
+TEST_F(DoctoredClaims, AreNotYetWhereAnyTableIsNotAsItsRunWroteIt) {
+  for (const auto& [name, columns] : columns_) {
+    Rows doctored = rows_.at(name);
+    Row& last = doctored.back();
+    const auto column = std::ranges::find_if(columns, [&](const std::string& c) { return last.number(c).has_value(); });
+    ASSERT_NE(column, columns.end()) << name;
+    last.set(*column, *last.number(*column) + 1.0);
+    slip_in(name, columns, doctored);
+    bool is_told = false;
+    for (const auto& [id, claim] : judge()) {
+      if (claim.measured.find(name + ".csv is not as its run wrote it") == std::string::npos) continue;
+      is_told = true;
+      EXPECT_EQ(claim.verdict, ClaimVerdict::not_yet) << id;
+    }
+    EXPECT_TRUE(is_told) << name;
+    write(name, columns, rows_.at(name));
+  }
 }
 
 TEST_F(DoctoredClaims, NameTheOrdersThatOneRowLacks) {

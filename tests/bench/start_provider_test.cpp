@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/experiment/process_pool.hpp"
 #include "tests/support/restated_problems.hpp"
 
 namespace dmocbench {
@@ -55,7 +56,7 @@ TEST_F(StartProviders, HeedAStopRequest) {
   SolverOptions options;
   options.stop_requested = [this] { return solves_ >= 2; };
   StartProvider source = provider({}, options);
-  EXPECT_THROW(static_cast<void>(source.start_for(with("dmoc"))), NoStart);
+  EXPECT_THROW(static_cast<void>(source.start_for(with("dmoc"))), Interrupted);
   EXPECT_LE(solves_, 3);
 }
 
