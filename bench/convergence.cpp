@@ -123,6 +123,9 @@ class Convergence final : public Experiment {
     FittedOrders orders = fit_orders(table, fit_range_, reference_);
     write_file(prefix.string() + "_slopes.csv", orders.table.csv());
     write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
+    metadata["reference"] = reference_ == exact_reference ? "the indirect solution"
+                            : reference_ > 0              ? fmt::format("N = {} of the same method", reference_)
+                                                          : "the finest grid of the same method";
     if (indirect_) {
       write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
       metadata["references"] = indirect_->metadata();

@@ -103,7 +103,6 @@ class StructureAdvantage final : public Experiment {
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     write_file(prefix.string() + "_ratios.csv", advantage_ratios(table).csv());
-    metadata["repeats"] = options().repeats;
     metadata["references"] = reference_->metadata();
   }
 

@@ -70,6 +70,9 @@ class Run {
     starts_.on_long_search = [this](const std::string& sentence) {
       if (!terminal_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
     };
+    metadata_["start"] = options_.start;
+    metadata_["tolerance"] = options_.tolerance;
+    metadata_["repeats"] = options_.repeats;
     for (const Case& the_case : cases_) {
       nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
       if (scale.is_null()) scale = the_case.problem->cost_scale();

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/summary/share_interval.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -74,29 +76,20 @@ Table best_minimum_shares(const Selection& rows, double separation, double confi
       const Selection starts = group.where("method", method);
       if (starts.empty()) continue;
       const std::size_t hits = best == minima.end() ? 0 : best->where("method", method).size();
-      const ShareInterval interval = wilson_interval(hits, starts.size());
+      const ShareCount count{.hits = hits, .trials = starts.size()};
+      const ShareInterval interval = wilson_interval(count);
       Row row = fields_of(starts.front(), group_columns);
       row.set("method", method);
       row.set("starts", starts.size());
       row.set("solved", starts.where("status", "solved").size());
       row.set("best", hits);
-      row.set("share", static_cast<double>(hits) / static_cast<double>(starts.size()));
+      row.set("share", count.share());
       row.set("share_lower", interval.lower);
       row.set("share_upper", interval.upper);
       table.append(std::move(row));
     }
   }
   return table;
-}
-
-ShareInterval wilson_interval(std::size_t hits, std::size_t trials) {
-  constexpr double z = 1.959963984540054;  // 97.5 % of a normal distribution lie below
-  const auto n = static_cast<double>(trials);
-  const double share = static_cast<double>(hits) / n;
-  const double centre = share + z * z / (2.0 * n);
-  const double half_width = z * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-  const double norm = 1.0 + z * z / n;
-  return {std::max(0.0, (centre - half_width) / norm), std::min(1.0, (centre + half_width) / norm)};
 }
 
 }  // namespace dmocbench

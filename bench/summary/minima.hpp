@@ -19,11 +19,4 @@ namespace dmocbench {
 /// interval is Wilson's, 95 %.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation, double confirmed_replay);
 
-/// Wilson's interval at 95 % for a share of `hits` in `trials`.
-struct ShareInterval {
-  double lower = 0.0;
-  double upper = 1.0;
-};
-[[nodiscard]] ShareInterval wilson_interval(std::size_t hits, std::size_t trials);
-
 }  // namespace dmocbench

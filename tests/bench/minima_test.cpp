@@ -60,22 +60,6 @@ TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   EXPECT_GT(shares.rows()[0].number("share_upper").value_or(0.0), 1.0 / 3.0);
 }
 
-TEST(WilsonInterval, SolvesItsQuadraticEquation) {
-  // The ends are the shares π with |hits/n - π| = z sqrt(π(1 - π)/n).
-  constexpr double z = 1.959963984540054;
-  for (const auto& [hits, trials] : {std::pair(10LL, 40LL), {1LL, 7LL}, {199LL, 200LL}}) {
-    const auto n = static_cast<double>(trials);
-    const double share = static_cast<double>(hits) / n;
-    const ShareInterval interval = wilson_interval(hits, trials);
-    for (const double end : {interval.lower, interval.upper}) {
-      EXPECT_NEAR(std::abs(share - end), z * std::sqrt(end * (1.0 - end) / n), 1e-12);
-    }
-  }
-  EXPECT_EQ(wilson_interval(0, 20).lower, 0.0);
-  EXPECT_GT(wilson_interval(0, 20).upper, 0.0);
-  EXPECT_EQ(wilson_interval(20, 20).upper, 1.0);
-}
-
 TEST(PerturbedGuess, KeepsTheEndsAndTheSeedTellsItApart) {
   const auto problem = make_problem("two_link_manipulator");
   const Motion guess{[&](double t) { return problem->guess(t); }, problem->horizon()};
