@@ -7,7 +7,7 @@
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/start_provider.hpp"
+#include "bench/structure/energy_tables.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/simulated_tables.hpp"
@@ -33,13 +33,6 @@ struct EnergyOrder {
   Scheme scheme;
   const char* quantity = "";
   FittedOrder fit;
-};
-
-struct TransferEnergy {
-  Scheme scheme;
-  long long intervals = 0;
-  double h = 0.0;
-  EnergyBalance balance;
 };
 
 /// The columns that begin the tables of the unforced ellipse.
@@ -75,23 +68,10 @@ const Columns<EnergyOrder> order_columns =
     Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
     fitted_order_columns(&EnergyOrder::fit);
 
-constexpr auto transfer_balance = &TransferEnergy::balance;
-const Columns<TransferEnergy> transfer_columns =
-    scheme_columns<TransferEnergy>() +
-    Columns<TransferEnergy>{
-        {"intervals", "", "number of intervals N", &TransferEnergy::intervals},
-        {"h", "", "step", &TransferEnergy::h},
-        {"energy_change", "", "E(T) - E(0)", from(transfer_balance, &EnergyBalance::change)},
-        {"work", "", "work of the thrust", from(transfer_balance, &EnergyBalance::work)},
-        {"gap", "", "their difference", [](const TransferEnergy& e) { return e.balance.change - e.balance.work; }},
-        {"largest_gap", "", "largest difference over the nodes", from(transfer_balance, &EnergyBalance::largest_gap)},
-        {"largest_work", "", "largest work over the nodes", from(transfer_balance, &EnergyBalance::largest_work)}};
-
 struct EnergyResults {
   std::vector<EnergyOfPeriod> periods;
   std::vector<EnergyOfPeriods> behaviour;
   std::vector<EnergyOrder> orders;
-  std::vector<TransferEnergy> transfer;
 };
 
 Scheme on_ellipse(const LongTimeMethod& method) { return {"kepler", method.name, method.tableau, method.stages}; }
@@ -118,29 +98,6 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results)
   if (const auto order = fit_order(points)) results.orders.push_back({on_ellipse(method), "oscillation", *order});
 }
 
-/// Energy change against the work of the thrust along the optimal transfer, for all methods.
-void follow_transfer(EnergyResults& results) {
-  const std::shared_ptr<const Problem> problem = make_problem("orbital_transfer");
-  SolverOptions options;
-  options.stop_requested = interrupt_requested;
-  StartProvider starts({}, options);
-  Case the_case{.problem = problem, .method = {}, .tableau = "gauss", .solver = "ipopt"};
-  for (const std::string& method : element_names()) {
-    the_case.method = method;
-    const Scheme scheme{problem->name(), method, the_case.tableau, the_case.stages};
-    std::vector<GridError> points;
-    for (const long long intervals : {32, 64, 128, 256}) {
-      throw_if_interrupted();
-      the_case.grid = Grid::uniform(intervals);
-      const EnergyBalance balance = energy_balance(*problem, starts.solve(the_case));
-      const double h = problem->horizon() / static_cast<double>(intervals);
-      results.transfer.push_back({scheme, intervals, h, balance});
-      points.push_back({h, balance.largest_gap});
-    }
-    if (const auto order = fit_order(points)) results.orders.push_back({scheme, "transfer_gap", *order});
-  }
-}
-
 int write_tables(CommandLine& line) {
   std::filesystem::path out = "results";
   int steps = 400;
@@ -160,7 +117,10 @@ int write_tables(CommandLine& line) {
     follow(method, steps_per_period, periods, true, results);
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
-  follow_transfer(results);
+  SolverOptions options;
+  options.stop_requested = interrupt_requested;
+  const ModifiedEnergyTables modified = modified_energy_tables();
+  const EnergyWorkTables work = energy_work_tables(options);
   std::vector<std::filesystem::path> files;
   const auto write = [&](const std::string& name, const Table& table) {
     const std::filesystem::path file = files.emplace_back(out / (name + ".csv"));
@@ -169,7 +129,11 @@ int write_tables(CommandLine& line) {
   };
   write("structure_momentum", momentum);
   write("structure_symplecticity", symplecticity);
-  write("structure_transfer", table_of(transfer_columns, results.transfer));
+  write("structure_modified_energy", modified.drifts);
+  write("structure_modified_energy_slopes", modified.slopes);
+  write("structure_energy_work", work.plain);
+  write("structure_modified_work", work.modified);
+  write("structure_energy_work_slopes", work.slopes);
   write("structure_energy", table_of(period_columns, results.periods));
   write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));
   write("structure_energy_slopes", table_of(order_columns, results.orders));
@@ -184,7 +148,10 @@ int main(int argc, char** argv) {
       "structure",
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
-      "(structure_energy.csv, structure_energy_behaviour.csv) and along the optimal orbital transfer "
-      "(structure_transfer.csv).",
+      "(structure_energy.csv, structure_energy_behaviour.csv), the modified energy of the midpoint rule along free "
+      "motions "
+      "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
+      "paper's "
+      "problems (structure_energy_work.csv, structure_modified_work.csv).",
       argc, argv, dmocbench::programs::write_tables);
 }

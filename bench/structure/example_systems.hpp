@@ -33,6 +33,19 @@ class ExampleSystem : public Problem {
   double horizon_;
 };
 
+/// A pendulum of unit mass and length, q = θ from below, L = ½θ̇² + cos θ, with a torque at its pivot.
+class Pendulum final : public ExampleSystem {
+ public:
+  Pendulum()
+      : ExampleSystem("pendulum", {"theta"}, {Eigen::VectorXd::Constant(1, 1.0), Eigen::VectorXd::Constant(1, 0.5)},
+                      12.0) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] + cos(x.q[0]); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+};
+
+/// A state of the two-link manipulator in motion, away from every equilibrium.
+[[nodiscard]] inline BoundaryState bent_links() { return {Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)}; }
+
 /// A satellite on the orbit of (orb_trans), q = (r, φ), L = ½(ṙ² + r²φ̇²) + 1/r, whose thrust points away from the
 /// centre: f = (u, 0) is orthogonal to the rotations ξ = (0, 1).
 class RadialThrust final : public ExampleSystem {

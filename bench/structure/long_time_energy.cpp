@@ -26,8 +26,8 @@ constexpr long long first_periods = 10;
 /// Moves (q, v) by one step; p = v, because the mass of `Kepler` is the identity.
 using Stepper = std::function<void(Eigen::VectorXd& q, Eigen::VectorXd& v)>;
 
-Stepper discrete_mechanics(const Problem& problem, const Tableau& tableau, double h) {
-  const auto map = std::make_shared<OneStepMap<double>>(TracedProblem(problem), *make_element("dmoc"), tableau);
+Stepper implicit_method(const Problem& problem, const std::string& element, const Tableau& tableau, double h) {
+  const auto map = std::make_shared<OneStepMap<double>>(TracedProblem(problem), *make_element(element), tableau);
   const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
   return [=](Eigen::VectorXd& q, Eigen::VectorXd& v) {
     OneStepMap<double>::Step step = map->advance(q, v, v, no_control, h, 0.0);
@@ -62,7 +62,15 @@ auto explicit_midpoint() {
 }
 
 Stepper stepper_of(const LongTimeMethod& method, const Problem& problem, double h) {
-  if (method.name == "dmoc") return discrete_mechanics(problem, make_tableau(method.tableau, method.stages), h);
+  if (method.name == "dmoc") {
+    return implicit_method(problem, "dmoc", make_tableau(method.tableau, method.stages), h);
+  }
+  if (method.name == "radau") {
+    // Radau IIA is collocation of the equations of motion: its stages, with the end of the step among them.
+    const long double root = std::sqrt(6.0L);
+    const std::vector<long double> nodes{(4.0L - root) / 10.0L, (4.0L + root) / 10.0L, 1.0L};
+    return implicit_method(problem, "tangent", collocation_tableau("radau", nodes, method.order), h);
+  }
   if (method.name == "explicit_midpoint") return explicit_method(problem, explicit_midpoint(), h);
   if (method.name == "runge_kutta_4") return explicit_method(problem, odeint::runge_kutta4<PhaseVector>(), h);
   throw Error("there is no integrator \"" + method.name + "\"");
@@ -73,6 +81,7 @@ Stepper stepper_of(const LongTimeMethod& method, const Problem& problem, double 
 std::vector<LongTimeMethod> long_time_methods() {
   return {{.name = "dmoc", .tableau = "gauss", .stages = 1, .order = 2},
           {.name = "dmoc", .tableau = "gauss", .stages = 2, .order = 4},
+          {.name = "radau", .tableau = "radau", .stages = 3, .order = 5},
           {.name = "explicit_midpoint", .tableau = "", .stages = 2, .order = 2},
           {.name = "runge_kutta_4", .tableau = "", .stages = 4, .order = 4}};
 }

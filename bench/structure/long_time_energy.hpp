@@ -10,13 +10,14 @@ namespace dmocbench {
 
 /// An integrator of the unforced Kepler ellipse that is followed for many periods.
 struct LongTimeMethod {
-  std::string name;     ///< "dmoc", "explicit_midpoint", "runge_kutta_4"
-  std::string tableau;  ///< of DMOC; empty for the others
+  std::string name;     ///< "dmoc", "radau", "explicit_midpoint", "runge_kutta_4"
+  std::string tableau;  ///< of the implicit ones; empty for the others
   int stages = 0;
   int order = 0;
 };
 
-/// DMOC with one and two Gauss stages and explicit Runge-Kutta methods of the same orders.
+/// DMOC with one and two Gauss stages, explicit Runge-Kutta methods of the same orders, and Radau IIA of order 5: the
+/// implicit collocation of the equations of motion that is neither symplectic nor symmetric.
 [[nodiscard]] std::vector<LongTimeMethod> long_time_methods();
 
 /// The error of the energy during one period, over its steps.

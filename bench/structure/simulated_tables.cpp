@@ -27,8 +27,6 @@ struct Invariant {
   double step;
 };
 
-const BoundaryState bent_links{Eigen::Vector2d(-1.0, 0.5), Eigen::Vector2d(1.0, -0.5)};
-
 /// Systems whose L is invariant under ξ; ξ is constant for all of them.
 std::vector<Invariant> invariant_systems() {
   const auto radial = std::make_shared<RadialThrust>();
@@ -38,7 +36,7 @@ std::vector<Invariant> invariant_systems() {
   return {{radial, true, 0.3, radial->initial_state(), 0.05},
           {pendulum, true, 0.5, pendulum->initial_state(), 0.05},
           {make_problem("orbital_transfer"), false, 0.1, radial->initial_state(), 0.05},
-          {links, false, 1.0, bent_links, 0.02}};
+          {links, false, 1.0, bent_links(), 0.02}};
 }
 
 /// Neither smooth nor random: the theorem asks nothing of the controls.
@@ -186,7 +184,7 @@ Table symplecticity_table() {
   };
   add(Kepler(), Kepler().initial_state(), 0.1);
   add(*make_problem("orbital_transfer"), RadialThrust().initial_state(), 0.2);
-  add(*make_problem("two_link_manipulator"), bent_links, 0.1);
+  add(*make_problem("two_link_manipulator"), bent_links(), 0.1);
   const Columns<Unforced> columns{
       {"h", "", "step", &Unforced::h},
       {"defect", "", "largest entry of D^T Omega D - Omega over some states", &Unforced::defect},

@@ -1,0 +1,246 @@
+#include "bench/structure/energy_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "bench/experiment/column.hpp"
+#include "bench/experiment/process_pool.hpp"
+#include "bench/experiment/start_provider.hpp"
+#include "bench/structure/example_systems.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/modified_energy.hpp"
+#include "methods/diagnostics/one_step_map.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/element.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr std::array truncations{2, 4, 6};
+
+/// The midpoint rule of one family of elements on one problem, in long double, with all that is asked of its energy.
+class FollowedEnergy {
+ public:
+  /// Largest distances from the first energy, with and without the work taken off, per order of truncation.
+  struct Deviations {
+    std::array<double, truncations.size()> range{};               ///< max - min of the energy
+    std::array<double, truncations.size()> from_work{};           ///< of its change from the virtual work
+    std::array<double, truncations.size()> from_modified_work{};  ///< and from the modified work of the same order
+  };
+
+  FollowedEnergy(const Problem& problem, const std::string& method)
+      : traced_(problem), modified_(problem), map_(traced_, *make_element(method), gauss_tableau(1)) {}
+
+  /// One step per row of `controls`, from `start` at t = 0.
+  [[nodiscard]] Deviations along(const BoundaryState& start, const Eigen::MatrixXd& controls, double h) const {
+    LongVector q = start.q.cast<long double>();
+    LongVector v = start.v.cast<long double>();
+    LongVector p = LegendreTransform(traced_).momentum(start.q, start.v, 0.0).cast<long double>();
+    const StepSeries first = partial_sums(modified_.energy(q, v), h);
+    StepSeries smallest = first;
+    StepSeries largest = first;
+    StepSeries work{};
+    Deviations result;
+    for (Eigen::Index k = 0; k < controls.rows(); ++k) {
+      throw_if_interrupted();
+      const LongMatrix u = controls.row(k).cast<long double>();
+      const long double t = static_cast<long double>(k) * h;
+      const auto step = map_.advance(q, p, v, u, h, t);
+      const StepSeries power =
+          partial_sums(modified_.power((q + step.q) / 2.0L, step.mean_velocity, u.row(0).transpose(), t + h / 2.0L), h);
+      q = step.q;
+      p = step.p;
+      v = modified_.velocity(q, p, step.mean_velocity);
+      const StepSeries energy = partial_sums(modified_.energy(q, v), h);
+      for (std::size_t i = 0; i < truncations.size(); ++i) {
+        work[i] += h * power[i];
+        smallest[i] = std::min(smallest[i], energy[i]);
+        largest[i] = std::max(largest[i], energy[i]);
+        raise(result.from_work[i], energy[i] - first[i] - work[0]);
+        raise(result.from_modified_work[i], energy[i] - first[i] - work[i]);
+        result.range[i] = static_cast<double>(largest[i] - smallest[i]);
+      }
+    }
+    return result;
+  }
+
+ private:
+  static void raise(double& largest, long double deviation) {
+    largest = std::max(largest, static_cast<double>(std::abs(deviation)));
+  }
+  TracedProblem traced_;
+  ModifiedEnergy modified_;
+  OneStepMap<long double> map_;
+};
+
+Scheme midpoint_of(const Problem& problem, const std::string& method) { return {problem.name(), method, "gauss", 1}; }
+
+struct FittedQuantity {
+  Scheme scheme;
+  std::string quantity;
+  FittedOrder fit;
+};
+
+const Columns<FittedQuantity> slope_columns =
+    scheme_columns<FittedQuantity>() +
+    Columns<FittedQuantity>{{"quantity", "", "what shrinks with the step", &FittedQuantity::quantity}} +
+    fitted_order_columns(&FittedQuantity::fit);
+
+/// Points of several curves of one scheme, by the names of their quantities.
+class Curves {
+ public:
+  void add(const std::string& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
+  void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme) const {
+    for (const auto& [quantity, points] : points_) {
+      if (const auto order = fit_order(points)) fits.push_back({scheme, quantity, *order});
+    }
+  }
+
+ private:
+  std::map<std::string, std::vector<GridError>> points_;
+};
+
+struct Drift {
+  Scheme scheme;
+  int steps = 0;
+  double h = 0.0;
+  int truncation = 0;
+  double drift = 0.0;
+};
+
+const Columns<Drift> drift_columns =
+    scheme_columns<Drift>() +
+    Columns<Drift>{
+        {"steps", "", "number of steps", &Drift::steps},
+        {"h", "", "step", &Drift::h},
+        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Drift::truncation},
+        {"drift", "", "max - min of the truncated modified energy over the motion", &Drift::drift}};
+
+struct FreeSystem {
+  std::shared_ptr<const Problem> problem;
+  BoundaryState start;
+  double duration;
+};
+
+/// A constant mass and moving ones; only the pendulum and the orbits are integrable.
+std::vector<FreeSystem> free_systems() {
+  const auto pendulum = std::make_shared<Pendulum>();
+  const auto radial = std::make_shared<RadialThrust>();
+  const auto spherical = std::make_shared<MeridianPendulum>();
+  return {{pendulum, pendulum->initial_state(), pendulum->horizon()},
+          {radial, radial->initial_state(), radial->horizon()},
+          {spherical, spherical->initial_state(), spherical->horizon()},
+          {make_problem("two_link_manipulator"), bent_links(), 2.0}};
+}
+
+struct Gap {
+  Scheme scheme;
+  long long intervals = 0;
+  double h = 0.0;
+  int truncation = 0;
+  double to_work = 0.0;
+  double to_modified_work = 0.0;
+};
+
+const Columns<Gap> gap_columns =
+    scheme_columns<Gap>() +
+    Columns<Gap>{
+        {"intervals", "", "number of intervals N", &Gap::intervals},
+        {"h", "", "step", &Gap::h},
+        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Gap::truncation},
+        {"gap_to_work", "", "largest difference of its change and the virtual work over the nodes", &Gap::to_work},
+        {"gap_to_modified_work", "", "the same to the modified work, cut off at the same order",
+         &Gap::to_modified_work}};
+
+struct PlainGap {
+  Scheme scheme;
+  long long intervals = 0;
+  double h = 0.0;
+  EnergyBalance balance;
+};
+
+constexpr auto balance_of = &PlainGap::balance;
+const Columns<PlainGap> plain_columns =
+    scheme_columns<PlainGap>() +
+    Columns<PlainGap>{
+        {"intervals", "", "number of intervals N", &PlainGap::intervals},
+        {"h", "", "step", &PlainGap::h},
+        {"energy_change", "", "E(T) - E(0)", from(balance_of, &EnergyBalance::change)},
+        {"work", "", "virtual work of the control forces", from(balance_of, &EnergyBalance::work)},
+        {"gap", "", "their difference", [](const PlainGap& e) { return e.balance.change - e.balance.work; }},
+        {"largest_gap", "", "largest difference over the nodes", from(balance_of, &EnergyBalance::largest_gap)},
+        {"largest_work", "", "largest work over the nodes", from(balance_of, &EnergyBalance::largest_work)}};
+
+/// The rows of all tables before they are written.
+struct EnergyWorkRows {
+  std::vector<PlainGap> plain;
+  std::vector<Gap> modified;
+  std::vector<FittedQuantity> fits;
+};
+
+/// One problem by one method: the optimal controls are replayed by the method's own map in long double, so that the
+/// rounding of the solve does not hide the small gaps.
+void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const std::string& method,
+                            StartProvider& starts, EnergyWorkRows& rows) {
+  const Scheme scheme = midpoint_of(*problem, method);
+  const FollowedEnergy followed(*problem, method);
+  Case the_case{.problem = problem, .method = method, .tableau = "gauss", .solver = "ipopt"};
+  Curves curves;
+  for (const long long intervals : {32, 48, 64, 96, 128, 192, 256}) {
+    throw_if_interrupted();
+    the_case.grid = Grid::uniform(intervals);
+    const Trajectory motion = starts.solve(the_case);
+    const double h = problem->horizon() / static_cast<double>(intervals);
+    rows.plain.push_back({scheme, intervals, h, energy_balance(*problem, motion)});
+    curves.add("gap", h, rows.plain.back().balance.largest_gap);
+    const FollowedEnergy::Deviations gaps = followed.along(problem->initial_state(), motion.stage_u, h);
+    for (std::size_t i = 0; i < truncations.size(); ++i) {
+      rows.modified.push_back({scheme, intervals, h, truncations[i], gaps.from_work[i], gaps.from_modified_work[i]});
+      curves.add(fmt::format("gap_to_work_{}", truncations[i]), h, gaps.from_work[i]);
+      curves.add(fmt::format("gap_to_modified_work_{}", truncations[i]), h, gaps.from_modified_work[i]);
+    }
+  }
+  curves.fit_into(rows.fits, scheme);
+}
+
+}  // namespace
+
+ModifiedEnergyTables modified_energy_tables() {
+  std::vector<Drift> drifts;
+  std::vector<FittedQuantity> fits;
+  for (const FreeSystem& system : free_systems()) {
+    for (const std::string& method : element_names()) {
+      const Scheme scheme = midpoint_of(*system.problem, method);
+      const FollowedEnergy followed(*system.problem, method);
+      Curves curves;
+      for (const int steps : {128, 192, 256, 384, 512}) {
+        const double h = system.duration / steps;
+        const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(steps, system.problem->control_size());
+        const auto range = followed.along(system.start, no_control, h).range;
+        for (std::size_t i = 0; i < truncations.size(); ++i) {
+          drifts.push_back({scheme, steps, h, truncations[i], range[i]});
+          curves.add(fmt::format("drift_{}", truncations[i]), h, range[i]);
+        }
+      }
+      curves.fit_into(fits, scheme);
+    }
+  }
+  return {.drifts = table_of(drift_columns, drifts), .slopes = table_of(slope_columns, fits)};
+}
+
+EnergyWorkTables energy_work_tables(const SolverOptions& options) {
+  StartProvider starts({}, options);
+  EnergyWorkRows rows;
+  for (const std::string& name : paper_problem_names()) {
+    const std::shared_ptr<const Problem> problem = make_problem(name);
+    for (const std::string& method : element_names()) follow_optimal_motions(problem, method, starts, rows);
+  }
+  return {.plain = table_of(plain_columns, rows.plain),
+          .modified = table_of(gap_columns, rows.modified),
+          .slopes = table_of(slope_columns, rows.fits)};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,79 @@
+# Energy and modified energy of the midpoint rule ("Conservation of a Modified Energy"): the truncated modified energies
+# along free motions, and both energies against the work of the forces along optimal motions.
+#   gnuplot -e "results='results'" plots/energy_work.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("structure_modified_energy", "problem,method,tableau,stages,h,truncation,drift")
+eval require("structure_modified_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+eval require("structure_energy_work", "problem,method,tableau,stages,h,largest_gap")
+eval require("structure_modified_work", "problem,method,tableau,stages,h,truncation,gap_to_modified_work")
+eval require("structure_energy_work_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+
+truncations = "2 4 6"
+colour(truncation) = truncation == 2 ? blue : truncation == 4 ? vermilion : purple
+energy_label(truncation) = truncation == 2 ? "{/:Italic H}"\
+    : truncation == 4 ? "{/:Italic H} + {/:Italic h}^2{/:Italic H}_2"\
+    : "{/:Italic H} + {/:Italic h}^2{/:Italic H}_2 + {/:Italic h}^4{/:Italic H}_4"
+scheme(problem, method) = "problem=".problem.",method=".method.",tableau=gauss,stages=1"
+of_truncation(problem, method, truncation) = scheme(problem, method).",truncation=".truncation
+step_tics = "set xtics autofreq; set format x '%g'; set xtics add (0.003, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5)"
+
+# One panel of truncated energies: filled discs of DMOC, open triangles of tangent-space collocation.
+do for [where in problems_of("structure_modified_energy", "drift")] {
+  problem = entry(where, "problem")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_modified_energy", 900, 760)
+    set title title_text(problem_label(problem).", no force: how far the modified energy of the midpoint rule leaves",\
+        "its first value, cut off behind one, two and three terms", "one motion; range over its nodes, long double")
+    eval power_axis("xy")
+    eval step_tics
+    set xlabel "step {/:Italic h}"
+    set ylabel "max − min over the motion"
+    set bmargin at screen 0.35
+    set key at screen 0.2, 0.24 left top Left reverse
+    plot for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "dmoc", i), "drift")\
+           using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1 pointtype 7\
+           pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
+             slope("structure_modified_energy_slopes", scheme(problem, "dmoc"), "drift_".i)),\
+         for [i in truncations] rows("structure_modified_energy", of_truncation(problem, "tangent", i), "drift")\
+           using "h":"drift" with linespoints linecolor rgb colour(int(i)) linewidth 1.2 dashtype (8, 5) pointtype 8\
+           pointsize 1 title with_slope("Tangent-space, ".energy_label(int(i)),\
+             slope("structure_modified_energy_slopes", scheme(problem, "tangent"), "drift_".i))
+    eval end_figure(kind, problem."_modified_energy")
+  }
+}
+unset title
+unset bmargin
+
+do for [where in problems_of("structure_energy_work", "largest_gap")] {
+  problem = entry(where, "problem")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_energy_work", 1200, 740)
+    set multiplot layout 1, 2 title title_text(\
+        problem_label(problem).": energy against the work of the forces along the optimal motions, midpoint rule",\
+        "", "each method on its own optimal motion; largest difference over the nodes") offset 0, -0.4\
+        margins 0.075, 0.985, 0.36, 0.84 spacing 0.1
+    eval power_axis("xy")
+    eval step_tics
+    set xlabel "step {/:Italic h}"
+    set ylabel "max_k |change of energy − work|"
+    set key at screen 0.05, 0.25 left top Left reverse
+    set title "the energy and the virtual work"
+    plot for [method in "dmoc hamiltonian tangent"] rows("structure_energy_work", scheme(problem, method), "largest_gap")\
+           using "h":"largest_gap" with linespoints linestyle method_style(method)\
+           title with_slope(method_label(method),\
+             slope("structure_energy_work_slopes", scheme(problem, method), "gap"))
+    set key at screen 0.53, 0.25 left top Left reverse
+    set title "the truncated modified energy and the modified work"
+    plot for [i in truncations] rows("structure_modified_work", of_truncation(problem, "dmoc", i), "gap_to_modified_work")\
+           using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i)) linewidth 2.5 dashtype 1\
+           pointtype 7 pointsize 0.7 title with_slope("DMOC, ".energy_label(int(i)),\
+             slope("structure_energy_work_slopes", scheme(problem, "dmoc"), "gap_to_modified_work_".i)),\
+         for [i in truncations] rows("structure_modified_work", of_truncation(problem, "tangent", i),\
+           "gap_to_modified_work") using "h":"gap_to_modified_work" with linespoints linecolor rgb colour(int(i))\
+           linewidth 1.2 dashtype (8, 5) pointtype 8 pointsize 1 title with_slope("Tangent, ".energy_label(int(i)),\
+             slope("structure_energy_work_slopes", scheme(problem, "tangent"), "gap_to_modified_work_".i))
+    unset multiplot
+    eval end_figure(kind, problem."_energy_work")
+  }
+}
