@@ -99,7 +99,7 @@ int evaluate_slips(CommandLine& line) {
   std::filesystem::path out = "results";
   line.option("--out", out, "folder for the results");
   const std::vector<std::string> command_line = line.parse();
-  prepare_folder(out);
+  const OutputFolder folder(out);
   listen_for_interrupt();
   SolverOptions options;
   options.stop_requested = interrupt_requested;

@@ -145,6 +145,7 @@ int run_program(const std::string& name, const std::string& description, int arg
     report_error(name, interrupt.what());
     return 130;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   }

@@ -78,7 +78,7 @@ class Run {
   }
 
   int run() {
-    prepare_folder(options_.out);
+    const OutputFolder folder(options_.out);
     const ResultLock lock(prefix_);
     require_writable(table_file());
     listen_for_interrupt();
