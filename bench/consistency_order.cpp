@@ -166,8 +166,8 @@ int measure_all(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   const auto selected = selected_problems(problems, settings);
-  const OutputFolder folder(out);
   listen_for_interrupt();
+  const OutputFolder folder(out);
   Results results;
   for (const auto& problem : selected) measure(*problem, steps, results);
   const std::filesystem::path errors = out / "consistency_order.csv";

@@ -93,8 +93,11 @@ void remove_leftovers(const std::filesystem::path& folder) {
 // From the other constructor, so that what was made is removed also where this one throws.
 OutputFolder::OutputFolder(const std::filesystem::path& folder) : OutputFolder() {
   std::error_code error;
-  for (auto part = std::filesystem::absolute(folder, error); !error && !std::filesystem::exists(part, error);
-       part = part.parent_path()) {
+  const auto is_missing = [](const std::filesystem::path& part) {  // a link that leads nowhere is not
+    std::error_code none;
+    return std::filesystem::symlink_status(part, none).type() == std::filesystem::file_type::not_found;
+  };
+  for (auto part = std::filesystem::absolute(folder, error); !error && is_missing(part); part = part.parent_path()) {
     made_.push_back(part);
   }
   error.clear();
