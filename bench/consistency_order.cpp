@@ -8,12 +8,15 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/structure/one_step_tableaus.hpp"
+#include "methods/error.hpp"
 
 namespace dmocbench::programs {
 
@@ -53,17 +56,6 @@ std::vector<BoundaryState> initial_conditions(const Problem& problem) {
   return starts;
 }
 
-std::vector<Tableau> all_tableaus() {
-  std::vector<Tableau> tableaus;
-  for (const std::string& family : tableau_names()) {
-    for (const int stages : tableau_stages(family)) {
-      Tableau tableau = make_tableau(family, stages);
-      if (!tableau.shares_controls) tableaus.push_back(std::move(tableau));  // on one interval it is the same method
-    }
-  }
-  return tableaus;
-}
-
 /// A measured error, or a fitted order, and what it is of.
 template <class Value>
 struct Measured {
@@ -85,12 +77,20 @@ Columns<Record> first_columns() {
           {"quantity", "", "what is compared with the exact one", &Record::quantity}};
 }
 
-using MeasuredError = Measured<GridError>;
+/// What was measured on one step; no error where an equation has no solution for it.
+struct ErrorOfStep {
+  double h = 0.0;
+  std::optional<double> error;
+  std::string message;
+};
+
+using MeasuredError = Measured<ErrorOfStep>;
 const Columns<MeasuredError> error_columns =
     first_columns<MeasuredError>() +
     Columns<MeasuredError>{
-        {"h", "", "step", from(&MeasuredError::value, &GridError::step)},
-        {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &GridError::error)}};
+        {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h)},
+        {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &ErrorOfStep::error)},
+        {"message", "", "why there is none", from(&MeasuredError::value, &ErrorOfStep::message)}};
 
 using MeasuredOrder = Measured<FittedOrder>;
 const Columns<MeasuredOrder> order_columns =
@@ -113,15 +113,26 @@ std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   return fit_order(points);
 }
 
+/// The errors of every tableau for one step, or why there are none.
+tl::expected<std::vector<ConsistencyErrors>, std::string> errors_of_step(const ConsistencyOrder& order,
+                                                                         const std::vector<Tableau>& tableaus,
+                                                                         double h) {
+  try {
+    return order.errors(tableaus, h);
+  } catch (const Error& error) {
+    return tl::unexpected<std::string>(error.what());
+  }
+}
+
 /// Steps T/N, coarsest first.
 void measure(const Problem& problem, const std::vector<long long>& intervals, Results& results) {
-  const std::vector<Tableau> tableaus = all_tableaus();
+  const std::vector<Tableau> tableaus = one_step_tableaus();
   const ConsistencyOrder order(problem, smooth_control(problem), initial_conditions(problem));
-  std::vector<std::vector<ConsistencyErrors>> errors;  // per step, per tableau
+  std::vector<tl::expected<std::vector<ConsistencyErrors>, std::string>> errors;  // per step, then per tableau
   const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
   for (std::size_t k = 0; k < intervals.size(); ++k) {
     throw_if_interrupted();
-    errors.push_back(order.errors(tableaus, step(k)));
+    errors.push_back(errors_of_step(order, tableaus, step(k)));
   }
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
     for (const auto& [quantity, error] : quantities) {
@@ -131,8 +142,12 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
       };
       std::vector<GridError> points;
       for (std::size_t k = 0; k < intervals.size(); ++k) {
-        points.push_back({step(k), errors[k][i].*error});
-        results.errors.push_back(measured(points.back()));
+        if (!errors[k]) {
+          results.errors.push_back(measured(ErrorOfStep{step(k), std::nullopt, errors[k].error()}));
+          continue;
+        }
+        points.push_back({step(k), (*errors[k])[i].*error});
+        results.errors.push_back(measured(ErrorOfStep{step(k), points.back().error, ""}));
       }
       if (const auto fitted = fit_finest(points)) results.orders.push_back(measured(*fitted));
     }
@@ -151,8 +166,8 @@ int measure_all(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   const auto selected = selected_problems(problems, settings);
-  prepare_folder(out);
   listen_for_interrupt();
+  const OutputFolder folder(out);
   Results results;
   for (const auto& problem : selected) measure(*problem, steps, results);
   const std::filesystem::path errors = out / "consistency_order.csv";
@@ -160,8 +175,10 @@ int measure_all(CommandLine& line) {
   write_file(errors, table_of(error_columns, results.errors).csv());
   write_file(slopes, table_of(order_columns, results.orders).csv());
   write_complete_run(out / "consistency_order.json", command_line, {errors, slopes});
-  fmt::print("consistency_order: {} rows: {}\n", results.errors.size(), errors.string());
-  return 0;
+  const auto failures =
+      std::ranges::count_if(results.errors, [](const MeasuredError& row) { return !row.value.error; });
+  fmt::print("consistency_order: {} rows, {} not measured: {}\n", results.errors.size(), failures, errors.string());
+  return failures > 0 ? 1 : 0;
 }
 
 }  // namespace dmocbench::programs

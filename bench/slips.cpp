@@ -99,8 +99,8 @@ int evaluate_slips(CommandLine& line) {
   std::filesystem::path out = "results";
   line.option("--out", out, "folder for the results");
   const std::vector<std::string> command_line = line.parse();
-  prepare_folder(out);
   listen_for_interrupt();
+  const OutputFolder folder(out);
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");

@@ -108,8 +108,8 @@ int write_tables(CommandLine& line) {
   line.number("--steps-per-period", steps_per_period, 16, 100000, "steps per period of the orbit");
   line.number("--periods", periods, 3, 10000000, "periods of the orbit");
   const std::vector<std::string> command_line = line.parse();
-  prepare_folder(out);
   listen_for_interrupt();
+  const OutputFolder folder(out);
   const Table momentum = noether_table(steps);
   const Table symplecticity = symplecticity_table();
   EnergyResults results;

@@ -75,7 +75,11 @@ void check_run(const std::filesystem::path& folder, const std::string& run, cons
     throw Error(fmt::format("{} tells of {} cases, not all of which have a row; run it again", file,
                             description["cases"].dump()));
   }
-  require_as_written(description, file, table, content);
+  try {
+    require_as_written(description, file, table, content);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}; run it again", error.what()));
+  }
 }
 
 }  // namespace

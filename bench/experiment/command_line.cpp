@@ -53,7 +53,7 @@ bool is_out_of_memory(const std::exception& error) noexcept {
 std::string sentence_of(const std::exception& error) {
   if (is_out_of_memory(error)) return "out of memory; fewer intervals or a higher limit (ulimit -v) help";
   if (is_out_of_threads(error)) {
-    return "the system gives no more threads; set DMOCBENCH_THREADS=1 or raise the limit (ulimit -u)";
+    return "the system gives no more threads; set DMOCBENCH_THREADS=1 or raise the limits (ulimit -u, -v)";
   }
   if (const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
     return fmt::format("{}: {}", of_file->path1().string(), of_file->code().message());
@@ -145,6 +145,7 @@ int run_program(const std::string& name, const std::string& description, int arg
     report_error(name, interrupt.what());
     return 130;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
   }

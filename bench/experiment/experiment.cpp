@@ -81,10 +81,10 @@ class Run {
   }
 
   int run() {
-    prepare_folder(options_.out);
+    listen_for_interrupt();
+    const OutputFolder folder(options_.out);
     const ResultLock lock(prefix_);
     require_writable(table_file());
-    listen_for_interrupt();
     if (experiment_.card().takes_turns) {
       solve_in_turn();
     } else if (options_.jobs > 1) {

@@ -74,6 +74,35 @@ Table series_table(const std::string& time, const Eigen::VectorXd& times, const 
   return table;
 }
 
+/// Throws `Error` unless the stages lie in the intervals of the nodes from the first to the last: a file may have been
+/// cut, or be another motion's.
+void require_one_motion(const Trajectory& motion, const std::filesystem::path& nodes,
+                        const std::filesystem::path& stages) {
+  const Eigen::Index last = motion.node_times.size() - 1;
+  const double first_stage = motion.stage_times[0];
+  const double last_stage = motion.stage_times[motion.stage_times.size() - 1];
+  const double rounding = 1e-9 * motion.node_times[last];
+  if (std::abs(motion.node_times[0]) > rounding) throw Error(fmt::format("{}: t must begin at 0", nodes.string()));
+  if (first_stage >= -rounding && first_stage <= motion.node_times[1] + rounding &&
+      last_stage >= motion.node_times[last - 1] - rounding && last_stage <= motion.node_times[last] + rounding) {
+    return;
+  }
+  throw Error(
+      fmt::format("{} has stages from t = {:g} to {:g}, and the nodes in {} reach from 0 to {:g}: they are not of "
+                  "one motion, or one of the files was cut",
+                  stages.string(), first_stage, last_stage, nodes.filename().string(), motion.node_times[last]));
+}
+
+/// Throws `Error` if a motion lasts so much longer or shorter than the problem's that its times must be in another
+/// unit.
+void require_similar_horizon(const Problem& problem, double horizon, const std::filesystem::path& nodes) {
+  constexpr double most = 10.0;
+  if (horizon <= most * problem.horizon() && most * horizon >= problem.horizon()) return;
+  throw Error(
+      fmt::format("{}: the motion lasts {:g}, that of {} {:g}; a start is stretched by a factor of at most {:g}",
+                  nodes.string(), horizon, problem.name(), problem.horizon(), most));
+}
+
 }  // namespace
 
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
@@ -114,13 +143,17 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   return series_table(fmt::format("t_[{}]", time.name), trajectory.node_times * time.factor, {{"", names, values}});
 }
 
-Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
+std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   constexpr std::string_view ending = "_nodes.csv";
   const std::string name = nodes_file.string();
   if (name.size() <= ending.size() || !name.ends_with(ending)) {
     throw Error(fmt::format("--start {} is none of: common, guess, a file X_nodes.csv written by solve", name));
   }
-  const std::filesystem::path stages_file = name.substr(0, name.size() - ending.size()) + "_stages.csv";
+  return name.substr(0, name.size() - ending.size()) + "_stages.csv";
+}
+
+Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
+  const std::filesystem::path stages_file = stages_file_of(nodes_file);
   const Table nodes = table_in(nodes_file);
   const Table stages = table_in(stages_file);
 
@@ -132,6 +165,8 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
   if (trajectory.node_times.size() < 2 || trajectory.stage_times.size() == 0) {
     throw Error(fmt::format("{} holds no motion", nodes_file.string()));
   }
+  require_one_motion(trajectory, nodes_file, stages_file);
+  require_similar_horizon(problem, trajectory.node_times.tail<1>()[0], nodes_file);
   trajectory.q = columns(nodes, problem.configuration_names(), "", nodes_file);
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
   trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);

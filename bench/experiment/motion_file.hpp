@@ -20,9 +20,13 @@ namespace dmocbench {
 /// each named NAME_[UNIT]. The control at a node is that of `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
 
+/// The stage table beside a node table: X_stages.csv beside X_nodes.csv. Throws `Error` if the name has another ending.
+[[nodiscard]] std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file);
+
 /// Reads a motion back from FILE, a node table, and the stage table beside it (X_nodes.csv and X_stages.csv): piecewise
 /// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what is
-/// missing.
+/// missing, or where the two tables are not of one motion from t = 0 on, or it lasts more than ten times as long as the
+/// problem's, or less than a tenth of it.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
 
 }  // namespace dmocbench

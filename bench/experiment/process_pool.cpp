@@ -91,7 +91,7 @@ void throw_if_interrupted() {
 void for_each_in_processes(std::size_t count, std::size_t jobs, const std::function<void(std::size_t)>& work,
                            const std::function<void(std::size_t)>& done) {
   std::map<pid_t, Worker> running;
-  std::exception_ptr failure;  // the first; the processes at work are waited for all the same
+  std::exception_ptr failure;  // the first one; it is thrown when all processes have ended
   const auto attempt = [&failure](const auto& step) {
     try {
       step();

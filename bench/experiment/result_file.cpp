@@ -90,8 +90,17 @@ void remove_leftovers(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void prepare_folder(const std::filesystem::path& folder) {
+// From the other constructor, so that what was made is removed also where this one throws.
+OutputFolder::OutputFolder(const std::filesystem::path& folder) : OutputFolder() {
   std::error_code error;
+  const auto is_missing = [](const std::filesystem::path& part) {  // a link that leads nowhere is not
+    std::error_code none;
+    return std::filesystem::symlink_status(part, none).type() == std::filesystem::file_type::not_found;
+  };
+  for (auto part = std::filesystem::absolute(folder, error); !error && is_missing(part); part = part.parent_path()) {
+    made_.push_back(part);
+  }
+  error.clear();
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
     throw Error(fmt::format("cannot make the output folder {}: {}", folder.string(),
@@ -101,6 +110,11 @@ void prepare_folder(const std::filesystem::path& folder) {
     throw Error(fmt::format("cannot write to the output folder {}: {}", folder.string(), reason()));
   }
   remove_leftovers(folder);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code none;  // one that holds something stays
+  for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, none);
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& file) {

@@ -3,12 +3,28 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dmocbench {
 
-/// Makes the folder, parents included, and checks that files can be written there. Removes what programs that were
-/// killed have left in it: hidden files that end with the number of a process that is no more. Throws `Error` if not.
-void prepare_folder(const std::filesystem::path& folder);
+/// A folder for results, parents included; what it had to make and nothing was written to is gone when its time is
+/// over.
+class OutputFolder {
+ public:
+  /// Makes the folder and checks that files can be written there. Removes what programs that were killed have left in
+  /// it: hidden files that end with the number of a process that is no more. Throws `Error` if that cannot be done.
+  explicit OutputFolder(const std::filesystem::path& folder);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  OutputFolder(OutputFolder&&) = delete;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+  ~OutputFolder();
+
+ private:
+  OutputFolder() = default;
+
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
 
 /// The hidden name beside a file under which this process writes it: ".NAME.PROCESS".
 [[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& file);

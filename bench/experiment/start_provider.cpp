@@ -13,6 +13,7 @@
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/written_tables.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
@@ -33,19 +34,48 @@ std::string scheme_and_grid(const std::string& method, const std::string& tablea
   return fmt::format("{} {} {} {}", method, tableau, stages, intervals);
 }
 
-/// The scheme and grid of the solve that wrote a node file, as the metadata beside it tell; empty if none do.
+/// The metadata in a file; null if it holds none, whatever else it is.
+nlohmann::json metadata_in(const std::filesystem::path& file) {
+  std::error_code none;
+  if (file.extension() != ".json" || !std::filesystem::is_regular_file(file, none)) return {};
+  try {
+    return nlohmann::json::parse(read_file(file), nullptr, false);
+  } catch (const Error&) {
+    return {};  // somebody else's
+  }
+}
+
+/// The scheme and grid of the solve that wrote a node file, if metadata tell it; empty otherwise.
+std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) {
+  try {
+    if (!metadata.is_object() || !metadata.contains("motions")) return {};
+    for (const auto& motion : metadata["motions"]) {
+      if (motion.at("nodes") != nodes) continue;
+      return scheme_and_grid(motion.at("method"), motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
+    }
+  } catch (const nlohmann::json::exception&) {  // it is no metadata of a solve
+  }
+  return {};
+}
+
+/// The scheme and grid of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws
+/// `Error` if they tell of another content, as that of a file that was cut short.
 std::string origin_of(const std::filesystem::path& nodes_file) {
   if (!std::filesystem::exists(nodes_file)) return {};
   const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    const auto metadata = nlohmann::json::parse(read_file(entry.path()), nullptr, false);
-    if (!metadata.is_object() || !metadata.contains("motions")) continue;
-    for (const auto& motion : metadata["motions"]) {
-      if (motion.value("nodes", "") != nodes_file.filename().string()) continue;
-      return scheme_and_grid(motion.value("method", ""), motion.value("tableau", ""), motion.value("stages", 0),
-                             motion.value("intervals", std::size_t{0}));
+    const nlohmann::json metadata = metadata_in(entry.path());
+    const std::string nodes = nodes_file.filename().string();
+    std::string origin = origin_in(metadata, nodes);
+    if (origin.empty()) continue;
+    for (const std::string& table : {nodes, stages_file_of(nodes_file).filename().string()}) {
+      try {
+        require_as_written(metadata, entry.path().filename().string(), table, read_file(folder / table));
+      } catch (const Error& error) {
+        throw Error(fmt::format("{}; run it again, or give a motion of your own another name", error.what()));
+      }
     }
+    return origin;
   }
   return {};
 }

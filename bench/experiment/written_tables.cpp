@@ -58,8 +58,7 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
 void require_as_written(const nlohmann::json& metadata, const std::string& source, const std::string& table,
                         std::string_view content) {
   const nlohmann::json told = told_of(metadata, table);
-  if (told.is_null())
-    throw Error(fmt::format("{} does not tell of {}: they are of different runs; run it again", source, table));
+  if (told.is_null()) throw Error(fmt::format("{} does not tell of {}: they are of different runs", source, table));
   const Table found = Table::from_csv(content);
   const std::vector<nlohmann::json> columns(found.columns().begin(), found.columns().end());
   if (const std::string more = lacked(columns, told["columns"]); !more.empty())
@@ -71,8 +70,8 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
                             told["rows"].dump(), table, found.rows().size()));
   }
   if (const std::string checksum = checksum_in_words(content); told["crc32"] != checksum) {
-    throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} tells of {}; run it again",
-                            table, checksum, source, told["crc32"].get<std::string>()));
+    throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} tells of {}", table, checksum,
+                            source, told["crc32"].get<std::string>()));
   }
 }
 

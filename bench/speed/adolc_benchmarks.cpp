@@ -1,7 +1,6 @@
 #include <cstddef>
-#include <functional>
 #include <memory>
-#include <variant>
+#include <span>
 #include <vector>
 
 #include <adolc/adolc.h>
@@ -9,46 +8,12 @@
 
 #include "bench/speed/interval_benchmark.hpp"
 #include "methods/error.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/transcription/recorded_number.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
-
-/// Adds the only output of a schedule to `sum`, recorded with the fewest operations that ADOL-C can do with: constants
-/// stay numbers, and no value is copied. (`replay<adouble>` would record both.)
-void record(const Schedule& schedule, const adouble* inputs, adouble& sum) {
-  using Value = std::variant<double, const adouble*>;
-  std::vector<adouble> computed;
-  computed.reserve(schedule.steps().size());  // `values` points into it
-  std::vector<Value> values;
-  const auto keep = [&](const auto& result) -> Value { return &computed.emplace_back(result); };
-  const auto variable = [&](std::uint32_t position) -> const adouble& {
-    return *std::get<const adouble*>(values[position]);
-  };
-  const auto combined = [&](const Schedule::Step& step, auto combine) {
-    const double* left = std::get_if<double>(&values[step.left]);
-    const double* right = std::get_if<double>(&values[step.right]);
-    if (left != nullptr) return keep(combine(*left, variable(step.right)));
-    if (right != nullptr) return keep(combine(variable(step.left), *right));
-    return keep(combine(variable(step.left), variable(step.right)));
-  };
-  const auto record_step = [&](const Schedule::Step& step) -> Value {
-    if (step.operation == Operation::constant) return step.value;
-    if (step.operation == Operation::input) return &inputs[step.input_index];
-    if (step.operation == Operation::negate) return keep(-variable(step.left));
-    if (step.operation == Operation::reciprocal) return keep(1.0 / variable(step.left));
-    if (step.operation == Operation::square_root) return keep(sqrt(variable(step.left)));
-    if (step.operation == Operation::sine) return keep(sin(variable(step.left)));
-    if (step.operation == Operation::cosine) return keep(cos(variable(step.left)));
-    if (step.operation == Operation::add) return combined(step, std::plus<>());
-    if (step.operation == Operation::subtract) return combined(step, std::minus<>());
-    if (step.operation == Operation::multiply) return combined(step, std::multiplies<>());
-    if (step.operation == Operation::divide) return combined(step, std::divides<>());
-    throw Error("a problem of this benchmark has an operation that is not recorded for ADOL-C");
-  };
-  for (const Schedule::Step& step : schedule.steps()) values.push_back(record_step(step));
-  sum += variable(schedule.outputs().front());
-}
 
 /// The Hessian of the Lagrangian of one or more intervals by ADOL-C's driver hess_mat.
 ///
@@ -70,10 +35,17 @@ class AdolcHessian {
     for (auto row : result_.rowwise()) result_rows_.push_back(row.data());
     trace_on(tag);
     {
-      std::vector<adouble> independents(seed_rows_.size());
-      for (adouble& independent : independents) independent <<= 1.0;
+      std::vector<RecordedNumber> independents;
+      for (std::size_t i = 0; i < seed_rows_.size(); ++i) {
+        const auto independent = std::make_shared<adouble>();
+        *independent <<= 1.0;
+        independents.emplace_back(independent);
+      }
       adouble sum = 0.0;
-      for (std::size_t k = 0; k < intervals; ++k) record(lagrangian, &independents[k * inputs.count()], sum);
+      for (std::size_t k = 0; k < intervals; ++k) {
+        const std::span of_interval(&independents[k * inputs.count()], inputs.count());
+        sum += replay<RecordedNumber>(lagrangian, of_interval).front().variable();
+      }
       double value = 0.0;
       sum >>= value;
     }

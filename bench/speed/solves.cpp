@@ -159,7 +159,7 @@ void add(const std::string& part, const SolveCase& solve) {
       ->Unit(benchmark::kMillisecond);
 }
 
-/// One grid by both solvers, and where it is long by two threads.
+/// Adds the solves of one grid: by interior_point on one thread and, where the grid is long, on two; by Ipopt.
 void add_grid(const std::string& part, SolveCase solve) {
   constexpr int most_intervals_of_ipopt = 262144;  // beyond it no solve ends within its minute
   constexpr int fewest_intervals_of_two = 16384;   // the next shorter grid is a single part of the work
@@ -171,7 +171,8 @@ void add_grid(const std::string& part, SolveCase solve) {
   if (solve.intervals <= most_intervals_of_ipopt) add(part, solve);
 }
 
-/// The paper's problems and, with inequalities, a third on every grid; every other problem of the library on one.
+/// Adds the paper's two problems and a third, which has inequalities, on every grid, and each other problem of the
+/// library on one grid.
 void register_solves() {
   const std::vector<std::string> papers = paper_problem_names();
   std::vector<std::string> on_all_grids = papers;

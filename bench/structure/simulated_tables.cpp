@@ -10,6 +10,7 @@
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/structure/example_systems.hpp"
+#include "bench/structure/one_step_tableaus.hpp"
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -50,12 +51,7 @@ Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step
 template <class Visit>
 void for_all_maps(const Visit& visit) {
   for (const std::string& method : element_names()) {
-    for (const std::string& family : tableau_names()) {
-      for (const int stages : tableau_stages(family)) {
-        const Tableau tableau = make_tableau(family, stages);
-        if (!tableau.shares_controls) visit(*make_element(method), tableau);  // each step has controls of its own
-      }
-    }
+    for (const Tableau& tableau : one_step_tableaus()) visit(*make_element(method), tableau);
   }
 }
 
@@ -74,7 +70,7 @@ struct Forced {
   double defect_in_long_double = 0.0;
 };
 
-/// All but the defect in long double.
+/// Simulates a motion in numbers of type Scalar. `defect_in_long_double` is left to the caller.
 template <class Scalar>
 Forced simulate(const Invariant& system, const Element& element, const Tableau& tableau, int steps) {
   using Vector = typename OneStepMap<Scalar>::Vector;

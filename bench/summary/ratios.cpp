@@ -33,7 +33,8 @@ constexpr std::array currencies{
 
 constexpr double steps_per_decade = 2.0;
 
-/// Columns of the table of equal accuracy, and of the rows that they are read from.
+/// What a method pays for an accuracy: the column in the table of equal accuracy, and the column of a solve that it is
+/// read from.
 constexpr std::array costs{std::pair{"intervals", "intervals"}, std::pair{"variables", "free_variables"},
                            std::pair{"seconds", "seconds"}};
 

@@ -1,10 +1,7 @@
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
-#include <type_traits>
 #include <utility>
 
 #include <adolc/adolc.h>
@@ -12,99 +9,11 @@
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
+#include "methods/transcription/recorded_number.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// A number of a recording. It is a constant until it is combined with an independent variable, so that ADOL-C records
-/// no operation on constants. Copies share the variable, so that copying records nothing.
-class RecordedNumber {
- public:
-  explicit RecordedNumber(double value) : value_(value) {}
-  explicit RecordedNumber(std::shared_ptr<const adouble> variable) : variable_(std::move(variable)) {}
-
-  /// The result of a function of ADOL-C. (It is never applied to constants, which are folded while formulas are
-  /// traced.)
-  template <class Function>
-  static RecordedNumber of(const Function& function, const RecordedNumber& x) {
-    return kept(x.variable_ ? function(*x.variable_) : function(adouble(x.value_)));
-  }
-  /// The result of an operation that is defined on doubles and on ADOL-C's variables.
-  template <class Function>
-  static RecordedNumber of(const Function& function, const RecordedNumber& x, const RecordedNumber& y) {
-    if (x.variable_ && y.variable_) return kept(function(*x.variable_, *y.variable_));
-    if (x.variable_) return kept(function(*x.variable_, y.value_));
-    if (y.variable_) return kept(function(x.value_, *y.variable_));
-    return kept(function(x.value_, y.value_));
-  }
-  [[nodiscard]] adouble variable() const { return variable_ ? *variable_ : adouble(value_); }
-
- private:
-  template <class Result>
-  static RecordedNumber kept(const Result& result) {
-    if constexpr (std::is_same_v<Result, double>) {
-      return RecordedNumber(result);
-    } else {
-      return RecordedNumber(std::make_shared<const adouble>(result));
-    }
-  }
-
-  double value_ = 0.0;
-  std::shared_ptr<const adouble> variable_;  // null for a constant
-};
-
-using Number = RecordedNumber;
-
-Number operator+(const Number& x, const Number& y) { return Number::of(std::plus<>(), x, y); }
-Number operator-(const Number& x, const Number& y) { return Number::of(std::minus<>(), x, y); }
-Number operator*(const Number& x, const Number& y) { return Number::of(std::multiplies<>(), x, y); }
-Number operator/(const Number& x, const Number& y) { return Number::of(std::divides<>(), x, y); }
-Number operator/(double x, const Number& y) { return Number(x) / y; }
-Number operator-(const Number& x) { return Number::of(std::negate<>(), x); }
-Number sqrt(const Number& x) {
-  return Number::of([](const auto& a) { return sqrt(a); }, x);
-}
-Number exp(const Number& x) {
-  return Number::of([](const auto& a) { return exp(a); }, x);
-}
-Number log(const Number& x) {
-  return Number::of([](const auto& a) { return log(a); }, x);
-}
-Number sin(const Number& x) {
-  return Number::of([](const auto& a) { return sin(a); }, x);
-}
-Number cos(const Number& x) {
-  return Number::of([](const auto& a) { return cos(a); }, x);
-}
-Number tan(const Number& x) {
-  return Number::of([](const auto& a) { return tan(a); }, x);
-}
-Number asin(const Number& x) {
-  return Number::of([](const auto& a) { return asin(a); }, x);
-}
-Number acos(const Number& x) {
-  return Number::of([](const auto& a) { return acos(a); }, x);
-}
-Number atan(const Number& x) {
-  return Number::of([](const auto& a) { return atan(a); }, x);
-}
-Number sinh(const Number& x) {
-  return Number::of([](const auto& a) { return sinh(a); }, x);
-}
-Number cosh(const Number& x) {
-  return Number::of([](const auto& a) { return cosh(a); }, x);
-}
-Number tanh(const Number& x) {
-  return Number::of([](const auto& a) { return tanh(a); }, x);
-}
-Number pow(const Number& x, double exponent) {
-  return Number::of([exponent](const auto& a) { return pow(a, exponent); }, x);
-}
-Number atan2(const Number& x, const Number& y) {
-  // ADOL-C's atan2 takes no constants.
-  return Number(std::make_shared<const adouble>(atan2(x.variable(), y.variable())));
-}
 
 /// The numbers under which ADOL-C keeps our recordings, far from those that a user would choose.
 class Tags {
@@ -144,13 +53,13 @@ class Recording {
       : tag_(Tags::take()), output_count_(static_cast<int>(schedule.outputs().size())), point_(schedule.input_count()) {
     trace_on(tag_);
     {
-      std::vector<Number> inputs;
+      std::vector<RecordedNumber> inputs;
       for (std::size_t i = 0; i < point_.size(); ++i) {
         const auto independent = std::make_shared<adouble>();
         *independent <<= 1.0;
         inputs.emplace_back(independent);
       }
-      for (const Number& output : replay<Number>(schedule, std::span<const Number>(inputs))) {
+      for (const RecordedNumber& output : replay<RecordedNumber>(schedule, std::span<const RecordedNumber>(inputs))) {
         adouble dependent = output.variable();
         double value = 0.0;
         dependent >>= value;

@@ -152,12 +152,12 @@ TEST_F(ResultFile, LeftByAProcessThatIsNoMoreIsRemovedByTheNext) {
   };
   for (const char* const name : {".table.csv", ".table_part_0.csv", ".table.json"}) write_file(named(name, ended), "");
   write_file(named("..table_part_0.csv.1", ended), "");
-  prepare_folder(folder());
+  { const OutputFolder next(folder()); }
   EXPECT_EQ(entries(), 0);
   write_file(named(".table.csv", ::getppid()), "");  // somebody is at it
   write_file(named("notes.csv", ended), "");         // not hidden: the user's
   write_file(named(".notes", ended), "");
-  prepare_folder(folder());
+  { const OutputFolder next(folder()); }
   EXPECT_EQ(entries(), 3);
 }
 
@@ -181,16 +181,39 @@ TEST_F(ResultFile, ThatCannotBeWrittenIsNoticedBeforehand) {
   }
 }
 
-TEST_F(ResultFile, FoldersAreMadeWithTheirParents) {
-  prepare_folder(folder() / "a" / "b");
-  prepare_folder(folder() / "a" / "b");
-  EXPECT_TRUE(std::filesystem::is_directory(folder() / "a" / "b"));
+TEST_F(ResultFile, FoldersAreMadeWithTheirParentsAndGoWhereNothingIsWritten) {
+  const std::filesystem::path inner = folder() / "a" / "b";
+  {
+    const OutputFolder first(inner);
+    const OutputFolder second(inner);
+    EXPECT_TRUE(std::filesystem::is_directory(inner));
+  }
+  EXPECT_EQ(entries(), 0);
+  {
+    const OutputFolder used(inner);
+    write_file(inner / "table.csv", "a\n");
+  }
+  EXPECT_TRUE(std::filesystem::exists(inner / "table.csv"));
+  std::filesystem::remove(inner / "table.csv");
+  { const OutputFolder found(inner); }
+  EXPECT_TRUE(std::filesystem::is_directory(inner)) << "it was there before";
+}
+
+TEST_F(ResultFile, ALinkThatLeadsNowhereStaysOne) {
+  std::filesystem::create_symlink("nowhere", folder() / "link");
+  expect_error_naming({"cannot make", "link"}, [&] { const OutputFolder none(folder() / "link"); });
+  EXPECT_TRUE(std::filesystem::is_symlink(folder() / "link"));
+}
+
+TEST_F(ResultFile, NoFolderIsLeftWhereNotAllCanBeMade) {
+  expect_error_naming({"cannot make"}, [&] { const OutputFolder none(folder() / "a" / std::string(300, 'x')); });
+  EXPECT_EQ(entries(), 0);
 }
 
 TEST_F(ResultFile, AFileInTheWayOfAFolderIsNamed) {
   write_file(folder() / "results", "");
-  expect_error_naming({"results"}, [&] { prepare_folder(folder() / "results"); });
-  expect_error_naming({"inner"}, [&] { prepare_folder(folder() / "results" / "inner"); });
+  expect_error_naming({"results"}, [&] { const OutputFolder none(folder() / "results"); });
+  expect_error_naming({"inner"}, [&] { const OutputFolder none(folder() / "results" / "inner"); });
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // ends to what is promised: exit codes 0, 1, 2 and 130 only, one line with 2, whole files and none elsewhere. A line
 // depends on the seed and its number alone.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cctype>
 #include <chrono>
@@ -22,28 +21,6 @@ namespace dmocbench::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A fault that is known and not yet mended: lines that show it are counted, not failed. Take its line away with the
-/// fault.
-struct KnownFault {
-  const char* name;
-  const char* binary;    ///< "" for any
-  const char* argument;  ///< a part of the command line, "" for any
-  const char* sentence;  ///< a part of the sentence
-};
-constexpr std::array known_faults{
-    KnownFault{"tables are written before a map is found that Newton's method cannot solve", "structure", "",
-               "refuses, but"},
-    KnownFault{"the folder is made before a map is found that Newton's method cannot solve", "consistency_order", "",
-               "refuses, but"},
-    KnownFault{"the folder is made before Ipopt refuses an option", "", "--option", "refuses, but"},
-    KnownFault{"each of several workers says that Ipopt refuses an option", "", "--option", "2 lines"},
-    KnownFault{"an interrupt is not listened to", "structure", "", "signal 2"},
-    KnownFault{"an interrupt is not listened to", "slips", "", "signal 2"},
-    KnownFault{"an interrupt is not listened to", "consistency_order", "", "signal 2"},
-    KnownFault{"ADOL-C ends the experiment in its own words", "derivatives", "", "2 lines"},
-    KnownFault{"ADOL-C ends the experiment in its own words", "derivatives", "", "refuses, but"},
-};
 
 struct Settings {
   std::string folder;
@@ -76,19 +53,10 @@ std::string in_shell(const std::vector<std::string>& line) {
   return text;
 }
 
-const KnownFault* known(const std::string& command, const std::string& binary, const std::string& sentence) {
-  const auto* const found = std::ranges::find_if(known_faults, [&](const KnownFault& fault) {
-    return (*fault.binary == '\0' || binary == fault.binary) && command.find(fault.argument) != std::string::npos &&
-           sentence.find(fault.sentence) != std::string::npos;
-  });
-  return found == known_faults.end() ? nullptr : &*found;
-}
-
 /// What all tries share.
 struct Tally {
   std::mutex guard;
   long long faults = 0;
-  std::map<std::string, long long> known;  ///< lines by name of the fault
   std::map<int, long long> codes;
 };
 
@@ -112,11 +80,7 @@ void try_line(const Settings& settings, const std::vector<Program>& programs, co
   const std::string command = name + in_shell(line);
   const std::scoped_lock lock(tally.guard);
   ++tally.codes[ended.code];
-  const auto is_new = [&](const std::string& fault) { return known(command, name, fault) == nullptr; };
-  for (const std::string& fault : faults) {
-    if (!is_new(fault)) ++tally.known[known(command, name, fault)->name];
-  }
-  if (std::ranges::any_of(faults, is_new)) {
+  if (!faults.empty()) {
     ++tally.faults;
     fmt::print("FAULT in line {}: {}\n  {}\n  code {}, {:.1f} s{}, {}\n", number, fmt::join(faults, "; "), command,
                ended.code, seconds.count(), ended.was_interrupted ? " (interrupted)" : "", ended.error.substr(0, 300));
@@ -157,7 +121,6 @@ int fuzz(const Settings& settings) {
   fmt::print("{} lines of seed {}, exit codes", end - first, settings.seed);
   for (const auto& [code, count] : tally.codes) fmt::print(" {}: {}", code, count);
   fmt::print("; {} at fault\n", tally.faults);
-  for (const auto& [name, count] : tally.known) fmt::print("known fault, not failed: {} ({} times)\n", name, count);
   return tally.faults > 0 ? 1 : 0;
 }
 

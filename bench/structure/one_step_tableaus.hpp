@@ -1,0 +1,23 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "methods/transcription/tableau.hpp"
+
+namespace dmocbench {
+
+/// Every tableau, each family with each number of stages, but for those whose neighbouring intervals share controls: on
+/// a single interval they are the same method as those that do not.
+[[nodiscard]] inline std::vector<Tableau> one_step_tableaus() {
+  std::vector<Tableau> tableaus;
+  for (const std::string& family : tableau_names()) {
+    for (const int stages : tableau_stages(family)) {
+      Tableau tableau = make_tableau(family, stages);
+      if (!tableau.shares_controls) tableaus.push_back(std::move(tableau));
+    }
+  }
+  return tableaus;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,95 @@
+#include "bench/experiment/motion_file.hpp"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/written_tables.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::expect_error_naming;
+
+/// A motion of the double integrator on four intervals of a quarter, in the files X_nodes.csv and X_stages.csv.
+class MotionFile : public tests::InTemporaryFolder {
+ protected:
+  static constexpr const char* nodes_text = "t,q,v_q\n0,0,0\n0.25,0.1,1\n0.5,0.5,1.5\n0.75,0.9,1\n1,1,0\n";
+  static constexpr const char* stages_text = "t,u\n0.125,4\n0.375,2\n0.625,-2\n0.875,-4\n";
+
+  void SetUp() override {
+    InTemporaryFolder::SetUp();
+    write(nodes_text, stages_text);
+  }
+  void write(const std::string& nodes, const std::string& stages) const {
+    write_file(nodes_file(), nodes);
+    write_file(folder() / "X_stages.csv", stages);
+  }
+  [[nodiscard]] std::filesystem::path nodes_file() const { return folder() / "X_nodes.csv"; }
+  [[nodiscard]] Motion read() const { return read_motion(*problem_, nodes_file()); }
+  /// Asks for the start in the file as an experiment does.
+  void provide() const {
+    StartProvider starts({.kind = nodes_file().string()}, {});
+    const Case the_case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(8)};
+    starts.check({the_case});
+    EXPECT_EQ(starts.start_for(the_case).motion.at(0.5).q[0], 0.5);
+  }
+
+  std::shared_ptr<const Problem> problem_ = make_problem("double_integrator");
+};
+
+TEST_F(MotionFile, GivesNodesVelocitiesAndControls) {
+  const Motion motion = read();
+  EXPECT_EQ(motion.horizon, 1.0);
+  EXPECT_DOUBLE_EQ(motion.at(0.25).q[0], 0.1);
+  EXPECT_DOUBLE_EQ(motion.at(0.5).v[0], 1.5);
+  EXPECT_DOUBLE_EQ(motion.at(0.25).u[0], 3.0);
+}
+
+TEST_F(MotionFile, IsRefusedWithItsNameWhereItIsNoMotion) {
+  const auto expect = [&](const std::string& nodes, const std::string& stages,
+                          std::initializer_list<std::string> words) {
+    write(nodes, stages);
+    expect_error_naming(words, [&] { static_cast<void>(read()); });
+  };
+  expect("t,q,v_q\n0,0,0\n0.25,nan,1\n1,1,0\n", stages_text, {"X_nodes.csv", "column q"});
+  expect("t,q,v_q\n0,0,0\n0.25,0,inf\n1,1,0\n", stages_text, {"X_nodes.csv", "column v_q"});
+  expect("t,q,v_q\n0,0,0\n0.25,0\n1,1,0\n", stages_text, {"X_nodes.csv", "record 3"});
+  expect("t,q,v_q\n0,0,0\n0.5,0,0\n0.5,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "ascend"});
+  expect("t,q,v_q\n0.1,0,0\n1,1,0\n", stages_text, {"X_nodes.csv", "begin at 0"});
+  expect("t,q,v_q\n0,0,0\n", stages_text, {"X_nodes.csv", "no motion"});
+  expect("t,q,v_q\n0,0,0\n0.25,0.1,1\n0.5,0.5,1.5\n", stages_text, {"X_stages.csv", "cut"});
+  expect(nodes_text, "t,u\n0.125,4\n0.375,2\n", {"X_stages.csv", "cut"});
+  expect("t,q,v_q\n0,0,0\n500,0.5,1\n1000,1,0\n", "t,u\n250,4\n750,-4\n", {"X_nodes.csv", "1000", "double_integrator"});
+}
+
+TEST_F(MotionFile, ServesWhateverElseLiesBesideIt) {
+  for (const char* const text :
+       {R"({"motions": 5})", R"({"motions": [5]})", R"({"motions": [{"nodes": 7}]})", R"({"motions": {"a": {}}})",
+        R"({"motions": [{"nodes": "X_nodes.csv", "method": 3}]})", "[", "5", "null", ""}) {
+    write_file(folder() / "other.json", text);
+    EXPECT_NO_THROW(provide()) << text;
+  }
+  std::filesystem::create_directory(folder() / "folder.json");
+  std::filesystem::create_symlink("nowhere", folder() / "link.json");
+  EXPECT_NO_THROW(provide());
+}
+
+TEST_F(MotionFile, IsRefusedWhereItIsNotAsItsRunWroteIt) {
+  const nlohmann::json motion{
+      {"nodes", "X_nodes.csv"}, {"method", "dmoc"}, {"tableau", "gauss"}, {"stages", 1}, {"intervals", 4}};
+  const nlohmann::json told = nlohmann::json(describe_tables({nodes_file(), folder() / "X_stages.csv"}));
+  write_file(folder() / "X.json", nlohmann::json{{"motions", {motion}}, {"tables", told}}.dump());
+  EXPECT_NO_THROW(provide());
+  write(nodes_text, "t,u\n0.125,4\n0.375,2\n0.625,-2\n0.875,-5\n");
+  expect_error_naming({"X_stages.csv", "X.json", "another name"}, [&] { provide(); });
+}
+
+}  // namespace
+}  // namespace dmocbench
