@@ -99,7 +99,7 @@ class ColdStart final : public Experiment {
   long long other_starts_ = 50;
   long long other_library_starts_ = 0;
   std::uint64_t seed_ = 1;
-  double amplitude_ = 0.5;
+  double amplitude_ = 0.3;
   double objective_tolerance_ = 0.02;
 };
 

@@ -100,6 +100,15 @@ TEST(ColdStartShares, TakeTheLowestConfirmedCostOfAnyMethodWhereNothingIsCertifi
   EXPECT_EQ(shares.rows()[1].needed("best"), 1.0);
 }
 
+TEST(ColdStartShares, TakeTheLowestConfirmedCostWhereNoneReachesTheCertifiedOne) {
+  const Table shares = cold_start_shares(with_reference(40.0), 0.02);
+  for (const Row& row : shares.rows()) {
+    EXPECT_EQ(row.needed("certified_objective"), 40.0);
+    EXPECT_EQ(row.needed("reference_objective"), 95.0);
+    EXPECT_EQ(row.text("reference_kind"), "lowest confirmed");
+  }
+}
+
 TEST(ColdStartShares, HaveQuartilesOfTheBestAnswersOnly) {
   const Table shares = cold_start_shares(with_reference(100.0), 0.02);
   const Row& dmoc = shares.rows().front();
