@@ -13,9 +13,9 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   eval intervals_axis
   eval power_axis("y")
   eval set_range("x", x_low, x_high, 1.25)
-  set title title_text(problem_label(problem).": DMOC and Hamiltonian collocation keep the",\
-      "momentum balance to rounding, tangent-space collocation does not",\
-      "DMOC's momenta are differences of positions over h: what is left is their rounding and the solver's residual.")
+  set title title_text(problem_label(problem).": change of the momentum against the force, interval by interval",\
+      of_paper(problem, "kepler\\_J", "twolink\\_obj b)").conditions("consistency").".",\
+      "DMOC’s momenta are differences of positions over h: rounding in them grows with N.")
   set ylabel axis_label("largest momentum defect of an interval", problem, "momentum_unit")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_momentum", 900, 600)

@@ -9,6 +9,9 @@ if (errors) {
   eval require("convergence", "problem,method,tableau,stages,solver,status,branch,intervals,objective_error")
 }
 
+reference_words = strlen(told("convergence", "reference")) > 0 ? told("convergence", "reference")\
+    : "the finest grid of the same method"
+
 do for [where in problems_of("objective", "")] {
   problem = entry(where, "problem")
   curves = curves_of("objective", where, "")
@@ -16,8 +19,10 @@ do for [where in problems_of("objective", "")] {
   panels = strlen(error_curves) > 0 ? 2 : 1
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_objective", panels == 2 ? 1100 : 900, 560)
-    title = title_text(problem_label(problem).": the cost of all methods tends to the same optimum", "", "")
-    if (panels == 2) { eval two_panels(title, 0.135) } else { set title title }
+    figure_title = title_text(problem_label(problem).": cost over the number of intervals",\
+        of_paper(problem, "", "twolink\\_obj a)").conditions("objective").".",\
+        panels == 2 ? "Right: J_{ref} is that of ".reference_words."; an error that changes its sign dips." : "")
+    if (panels == 2) { eval two_panels(0.135) } else { set title figure_title }
     set key top right
     eval measure("objective", where, "intervals", "objective")
     eval intervals_axis
