@@ -41,6 +41,7 @@ do for [name in "convergence convergence_512"] {
       # The guide lines of order 2 are for one stage.
       one_stage = distinct(name, "stages", where, error) eq "stages=1"
       h_ref = reference_step(name, where)
+      coarse_curves = has_coarse(name, where) ? curves : ""
       eval power_axis("xy")
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.3)
@@ -60,7 +61,7 @@ do for [name in "convergence convergence_512"] {
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
              title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
-             for [curve in curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
+             for [curve in coarse_curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
              with points linetype method_style(entry(curve, "method")) pointtype 6 notitle,\
              keyentry with points linetype 8 pointtype 6 title (has_coarse(name, where) ? "too coarse to be a motion" : ""),\
              one_stage ? y_guide * (x / x_guide)**2 : NaN with lines linetype 8 title (one_stage ? "C h²" : ""),\
@@ -97,7 +98,7 @@ do for [problem_word in problems_of(name, "state_error")] {
   eval set_range("x", x_low, x_high, 1.3)
   eval set_range("y", y_low, y_high, 3)
   set title title_text(problem_label(problem).": error of the state over the step, Gauss tableaus with s stages",\
-      "Against ".reference_words(name).". ".conditions(name).". Guides have the order 2s of the tableau.",\
+      "Against ".reference_words(name).". ".conditions(name).".",\
       "A curve without a slope has too few grids between the coarse ones and its floor of rounding.")
   set xlabel step_label(problem)
   set ylabel state_label(problem)
@@ -108,7 +109,7 @@ do for [problem_word in problems_of(name, "state_error")] {
          with linespoints linetype method_style(entry(curve, "method"))\
          title with_slope(stage_label(curve), slope(name."_slopes", curve, "state")),\
          for [guide in guides] nth(guide, 2) * (x / nth(guide, 1))**nth(guide, 3)\
-         with lines linetype 8 dashtype (14 - 2 * nth(guide, 3), 5) title sprintf("C h^%d", nth(guide, 3))
+         with lines linetype 8 dashtype (18 - 3 * nth(guide, 3), 5) title sprintf("C h^%d, guide", nth(guide, 3))
     eval end_figure(kind, figure)
   }
 }

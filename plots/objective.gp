@@ -28,11 +28,17 @@ do for [where in problems_of("objective", "")] {
     eval intervals_axis
     eval set_range("x", x_low, x_high, 1.25)
     eval plain_axis("y", y_high)
-    set ylabel axis_label("cost J", problem, "cost_unit")
-    plot for [curve in curves] rows("objective", curve, "") using (column("intervals")):(column("objective"))\
+    power = abs(y_high) > 0.01 && abs(y_high) < 1e5 ? 0 : int(floor(log10(abs(y_high))))
+    set format y "%g"
+    set ylabel axis_label("cost J".(power == 0 ? "" : sprintf(" · 10^{%d}", -power)), problem, "cost_unit")
+    plot for [curve in curves] rows("objective", curve, "")\
+         using (column("intervals")):(column("objective") / 10.0**power)\
          with linespoints linetype method_style(entry(curve, "method")) title curve_label("objective", curve)
     if (panels == 2) {
       unset key
+      eval measure("convergence", where, "intervals", "objective_error")
+      eval intervals_axis
+      eval set_range("x", x_low, x_high, 1.25)
       eval power_axis("y")
       set ylabel axis_label("|J − J_{ref}|", problem, "cost_unit")
       plot for [curve in error_curves] rows("convergence", curve, "objective_error")\
