@@ -13,6 +13,7 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   eval intervals_axis
   eval power_axis("y")
   eval set_range("x", x_low, x_high, 1.25)
+  eval set_range("y", y_low, y_high, 10)
   set title title_text(problem_label(problem).": change of the momentum against the force, interval by interval",\
       of_paper(problem, "kepler\\_J", "twolink\\_obj b)").conditions("consistency").".",\
       "DMOC’s momenta are differences of positions over h: rounding in them grows with N.")

@@ -75,8 +75,8 @@ eval require(name, "problem,method,tableau,stages,intervals,currency,ratio_at_eq
 # Counts in the order of the legend, each with its label, colour, point and size; open points lie around filled ones that
 # coincide with them. Times are left to figures of their own.
 currencies = "free_variables minor_iterations minor_iterations_crash_basis factor_nonzeros ipopt_iterations"
-currency_labels = "'free variables' 'minor iterations of SQP,\n  basis of slacks' 'minor iterations of SQP,\n  first basis for free'\
-  'entries of the factor\n  of the KKT matrix' 'iterations of Ipopt'"
+currency_labels = "'free variables' 'minor iterations, slacks first' 'minor iterations, free basis'\
+  'entries of the KKT factor' 'iterations of Ipopt'"
 currency_colours = "#000000 #0072B2 #56B4E9 #CC79A7 #E69F00"
 currency_points = "7 6 4 13 8"
 currency_sizes = "0.7 1.5 1.1 1.0 1.1"
@@ -112,12 +112,12 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
       eval intervals_axis
       eval set_range("x", x_low, x_high, 1.3)
       set logscale y 2
-      set ytics (0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 6, 8); set format y '%g'; unset mytics
+      set ytics (0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.5, 3, 4, 6, 8); set format y '%g'; unset mytics
       set yrange [low / 1.1:high * 1.1]
       set title word(panel_titles, i) font ",14"
       set ylabel (i == 1 ? "collocation / DMOC" : "")
       if (i > 1) { set format y "" }
-      if (i < 3) { unset key } else { set key at screen 0.8, graph 1 left top font ",12" samplen 2.5 spacing 1.6 }
+      if (i < 3) { unset key } else { set key at screen 0.8, graph 1 left top font ",12" samplen 2.5 }
       drawn = ""
       do for [c = 1:words(currencies)] {
         currency = conditions_of_panel.",currency=".word(currencies, c)

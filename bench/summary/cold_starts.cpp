@@ -173,8 +173,8 @@ void append_profile(Table& table, const Row& cell, const std::string& measure, d
 }
 
 void append_profiles_of_problems(Table& table, const Selection& rows, const std::string& measure) {
-  for (const Selection& problem : rows.group_by({"problem"})) {
-    const std::vector<Curve> curves = curves_of(problem, measure);
+  for (const Selection& of_solver : rows.group_by({"problem", "solver"})) {
+    const std::vector<Curve> curves = curves_of(of_solver, measure);
     const std::vector<double> budgets = budgets_of(curves);
     for (const Curve& curve : curves) {
       for (const double budget : budgets)
