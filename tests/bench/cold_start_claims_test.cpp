@@ -10,7 +10,7 @@ namespace dmocbench {
 namespace {
 
 /// How many of `starts` each method has on the best branch and confirmed.
-struct Outcome {
+struct ColdOutcome {
   double dmoc = 0.0;
   double hamiltonian = 0.0;
   double tangent = 0.0;
@@ -18,7 +18,7 @@ struct Outcome {
   const char* start_kind = "cold";
 };
 
-JudgedClaim judged(const Outcome& outcome, const std::string& id = "cold_starts_confirmed_as_often") {
+JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "cold_starts_confirmed_as_often") {
   Table shares({"problem"});
   for (const auto& [method, hits] : {std::tuple("dmoc", outcome.dmoc), std::tuple("hamiltonian", outcome.hamiltonian),
                                      std::tuple("tangent", outcome.tangent)}) {
@@ -45,32 +45,33 @@ JudgedClaim judged(const Outcome& outcome, const std::string& id = "cold_starts_
   return {};
 }
 
-ClaimVerdict verdict(const Outcome& outcome) { return judged(outcome).verdict; }
+ClaimVerdict verdict_cold(const ColdOutcome& outcome) { return judged_cold(outcome).verdict; }
 
 TEST(ColdStartClaims, HoldWhereTheIntervalOfTheDifferenceIsWithinTheMargin) {
-  EXPECT_EQ(verdict({.dmoc = 950, .hamiltonian = 955, .tangent = 960}), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 955, .tangent = 960}), ClaimVerdict::reproduced);
 }
 
 TEST(ColdStartClaims, DifferWhereItIsBeyondTheMarginInEitherDirection) {
-  EXPECT_EQ(verdict({.dmoc = 800, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
-  EXPECT_EQ(verdict({.dmoc = 950, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_cold({.dmoc = 800, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 800, .tangent = 950}), ClaimVerdict::differs);
 }
 
 TEST(ColdStartClaims, AreUndecidedWhereTheIntervalHoldsTheMargin) {
-  EXPECT_EQ(verdict({.dmoc = 900, .hamiltonian = 950, .tangent = 900}), ClaimVerdict::undecided);
-  EXPECT_EQ(verdict({.dmoc = 19, .hamiltonian = 19, .tangent = 19, .starts = 20}), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_cold({.dmoc = 900, .hamiltonian = 950, .tangent = 900}), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_cold({.dmoc = 19, .hamiltonian = 19, .tangent = 19, .starts = 20}), ClaimVerdict::undecided);
 }
 
 TEST(ColdStartClaims, AreNotJudgedByOtherStartsOrImpossibleCounts) {
-  EXPECT_EQ(verdict({.dmoc = 950, .hamiltonian = 950, .tangent = 950, .start_kind = "warm"}), ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict({.dmoc = 1001, .hamiltonian = 950, .tangent = 950}), ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict({.dmoc = 0.5, .hamiltonian = 1, .tangent = 1}), ClaimVerdict::not_yet);
-  EXPECT_EQ(verdict({.starts = 0.0}), ClaimVerdict::not_yet);
+  EXPECT_EQ(verdict_cold({.dmoc = 950, .hamiltonian = 950, .tangent = 950, .start_kind = "warm"}),
+            ClaimVerdict::not_yet);
+  EXPECT_EQ(verdict_cold({.dmoc = 1001, .hamiltonian = 950, .tangent = 950}), ClaimVerdict::not_yet);
+  EXPECT_EQ(verdict_cold({.dmoc = 0.5, .hamiltonian = 1, .tangent = 1}), ClaimVerdict::not_yet);
+  EXPECT_EQ(verdict_cold({.starts = 0.0}), ClaimVerdict::not_yet);
 }
 
 TEST(ColdStartClaims, AreOursAndNameTheirStarts) {
   for (const std::string id : {"cold_starts_confirmed_as_often", "cold_starts_best_as_often"}) {
-    const JudgedClaim claim = judged({.dmoc = 950, .hamiltonian = 950, .tangent = 950}, id);
+    const JudgedClaim claim = judged_cold({.dmoc = 950, .hamiltonian = 950, .tangent = 950}, id);
     EXPECT_EQ(claim.whose, Whose::ours);
     EXPECT_NE(claim.states.find("cold"), std::string::npos);
     EXPECT_NE(claim.measured.find("cold"), std::string::npos);
