@@ -20,7 +20,8 @@ values(column, where) = values_of(distinct(shares, column, where, ""), column)
 values_of(found, column) = words(found) == 0 ? "" : system("echo '".found."' | sed 's/".column."=//g'")
 steps_of(where, measure, method) = rows(profiles, where.",measure=".measure.",method=".method, "")
 what_is_counted = "Solved: an optimum of the discrete program. Confirmed: each interval, replayed alone, joins the next."\
-    ." Best: confirmed, and the cost is within the reference’s 2 %."
+    ." Best: and its cost is the reference’s."
+perturbed = "The guess, and that guess with random curves of up to ".told("cold_start", "amplitude")." of its range."
 drawn_starts(where) = values_of(distinct(shares, "starts", where, ""), "starts")
 
 # --- A problem by several solvers ------------------------------------------------------------------------------------
@@ -36,9 +37,9 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
   x_of(solver, method, c) = place_in(solvers, solver) + 0.27 * (place_in(methods, method) - 2) + 0.07 * (c - 2)
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_cold_start", 1400, 640)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": shares of cold starts, the guess and perturbed"\
-        ." guesses, N = ".entry(scheme, "intervals"), what_is_counted,\
-        "Bars are 95 % intervals (Wilson). Tolerance ".told("cold_start", "tolerance").".") offset 0, -0.4
+    set multiplot layout 1, 3 title title_text(problem_label(problem).": shares of cold starts, N = ".entry(scheme, "intervals"),\
+        what_is_counted,\
+        perturbed." Bars are 95 % intervals (Wilson). Tolerance ".told("cold_start", "tolerance").".") offset 0, -0.4
     set lmargin at screen 0.055; set rmargin at screen 0.43; set tmargin at screen 0.8; set bmargin at screen 0.25
     unset logscale
     set xtics nomirror scale 0 () font ",13"
@@ -94,7 +95,7 @@ mean_where = "problem=every_problem,".where
 do for [kind in kinds] {
   eval begin_figure(kind, "library_cold_start", 1400, height)
   set multiplot layout 1, 3 title title_text("Every problem: shares of cold starts by interior point, N = "\
-      .word(values("intervals", where), 1), what_is_counted, "Bars are 95 % intervals (Wilson); "\
+      .word(values("intervals", where), 1), what_is_counted, "95 % intervals (Wilson), "\
       .word(drawn_starts(where.",problem=".word(problems, count)), 1)." starts a problem and method, "\
       .word(drawn_starts(where.",problem=".word(problems, 1)), 1)." on the paper’s problems. Right: mean of the problems’ shares.")\
       offset 0, -0.3
