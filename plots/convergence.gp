@@ -41,7 +41,8 @@ do for [name in "convergence convergence_512"] {
       # The guide lines of order 2 are for one stage.
       one_stage = distinct(name, "stages", where, error) eq "stages=1"
       h_ref = reference_step(name, where)
-      coarse_curves = has_coarse(name, where) ? curves : ""
+      coarse_curves = ""
+      do for [curve in curves] { if (has_coarse(name, curve)) { coarse_curves = coarse_curves." ".curve } }
       eval power_axis("xy")
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.3)
