@@ -65,7 +65,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     do for [i = 1:drawn] {
       set xtics add (minimum_tic(group.",minimum=".word(numbers, i), i == 1) i)
     }
-    set xtics add ("un-\nconfirmed" drawn + 1, "not\nsolved" drawn + 2)
+    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor too coarse" drawn + 2)
     set arrow 1 from first drawn + 0.5, graph 0 to first drawn + 0.5, graph 1 nohead linecolor rgb grey dashtype (4, 4)
     set ytics nomirror; set grid noxtics ytics
     set format y "%g"
@@ -83,7 +83,8 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
            (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",11" notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
            using (x_of_rest(rest, i)):(column(rest)):(0.9 * bar)\
-           with boxes fillstyle pattern 5 border linecolor rgb colour(word(methods, i)) notitle,\
+           with boxes fillcolor rgb colour(word(methods, i)) dashtype 1\
+           fillstyle pattern 5 border rgb colour(word(methods, i)) notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
            using (x_of_rest(rest, i)):(column(rest)):(sprintf("%d", column(rest))) with labels offset 0, 0.6 font ",11"\
            notitle
