@@ -77,8 +77,10 @@ class ColdStart final : public Experiment {
     const Table shares = cold_start_shares(table, objective_tolerance_);
     write_file(prefix.string() + "_shares.csv", shares.csv());
     write_file(prefix.string() + "_profiles.csv", cold_start_profiles(table).csv());
-    metadata["starts"] = {
-        {"kind", "cold"}, {"seed", seed_}, {"amplitude", amplitude_}, {"objective_tolerance", objective_tolerance_}};
+    metadata["start"] = "cold";
+    metadata["seed"] = seed_;
+    metadata["amplitude"] = amplitude_;
+    metadata["objective_tolerance"] = objective_tolerance_;
     for (const Row& row : shares.rows()) {
       fmt::print("{:<22} {:<12} {:<15} {:>5} cold starts: {} solved, {} confirmed, {} on the best branch\n",
                  row.text("problem"), row.text("method"), row.text("solver"), row.text("starts"), row.text("solved"),
@@ -99,7 +101,7 @@ class ColdStart final : public Experiment {
   long long other_starts_ = 50;
   long long other_library_starts_ = 0;
   std::uint64_t seed_ = 1;
-  double amplitude_ = 0.5;
+  double amplitude_ = 0.3;
   double objective_tolerance_ = 0.02;
 };
 

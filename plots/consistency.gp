@@ -13,15 +13,27 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   eval intervals_axis
   eval power_axis("y")
   eval set_range("x", x_low, x_high, 1.25)
-  set title title_text(problem_label(problem).": DMOC and Hamiltonian collocation keep the",\
-      "momentum balance to rounding, tangent-space collocation does not",\
-      "DMOC's momenta are differences of positions over h: what is left is their rounding and the solver's residual.")
+  eval set_range("y", y_low, y_high, 10)
+  set title title_text(problem_label(problem).": change of the momentum against the force, interval by interval",\
+      of_paper(problem, "kepler\\_J", "twolink\\_obj b)").conditions("consistency").".",\
+      "DMOC’s momenta are differences of positions over h: rounding in them grows with N.")
   set ylabel axis_label("largest momentum defect of an interval", problem, "momentum_unit")
+  # A guide through the coarsest grid of tangent-space collocation.
+  tangent = where.",method=tangent"
+  has_tangent = strlen(distinct("consistency", "method", tangent, "momentum_defect_max")) > 0
+  top = 0
+  if (has_tangent) {
+    stats rows("consistency", tangent, "momentum_defect_max")\
+        using (column("intervals") == x_low ? column("momentum_defect_max") : NaN) name "G" nooutput
+    top = 3 * G_max
+  }
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_momentum", 900, 600)
+    set ytics 10
     plot for [curve in curves] rows("consistency", curve, "momentum_defect_max")\
          using (column("intervals")):(column("momentum_defect_max"))\
-         with linespoints linetype method_style(entry(curve, "method")) title curve_label("consistency", curve)
+         with linespoints linetype method_style(entry(curve, "method")) title curve_label("consistency", curve),\
+         has_tangent ? top * (x / x_low)**(-3) : NaN with lines linetype 8 title (has_tangent ? "C h³, guide" : "")
     eval end_figure(kind, problem."_momentum")
   }
 }

@@ -8,13 +8,14 @@ eval require("consistency_order_slopes", "problem,tableau,stages,order,quantity,
 
 # Below this, errors are the rounding of the tableau's coefficients.
 smallest = 1e-16
-panels = "lagrangian map left_force left_legendre"
-panel_title(quantity) = quantity eq "lagrangian" ? "discrete Lagrangian: h^{r+1}"\
-    : quantity eq "map" ? "one-step map (q_0, p_0) ↦ (q_1, p_1): h^{r+1}"\
-    : quantity eq "left_force" ? "discrete forces f_d^{−}: h^{r}, not h^{r+1}"\
-    : "forced discrete Legendre transform 𝔽^{f−}L_d: h^{r}, not h^{r+1}"
+panels = "lagrangian left_force right_force map left_legendre right_legendre"
+panel_title(quantity) = quantity eq "lagrangian" ? "discrete Lagrangian L_d"\
+    : quantity eq "map" ? "one-step map (q_0, p_0) ↦ (q_1, p_1)"\
+    : quantity eq "left_force" ? "left discrete force f_d^{−}" : quantity eq "right_force" ? "right discrete force f_d^{+}"\
+    : quantity eq "left_legendre" ? "left Legendre transform 𝔽^{f−}L_d" : "right Legendre transform 𝔽^{f+}L_d"
 formula(quantity) = quantity eq "lagrangian" ? "|L_d − L_d^E|" : quantity eq "map" ? "distance from the exact (q_1, p_1)"\
-    : quantity eq "left_force" ? "|f_d^{−} − f_d^{E−}|" : "|𝔽^{f−}L_d − 𝔽^{f−}L_d^E|"
+    : quantity eq "left_force" ? "|f_d^{−} − f_d^{E−}|" : quantity eq "right_force" ? "|f_d^{+} − f_d^{E+}|"\
+    : quantity eq "left_legendre" ? "|𝔽^{f−}L_d − 𝔽^{f−}L_d^E|" : "|𝔽^{f+}L_d − 𝔽^{f+}L_d^E|"
 # What a problem's slope of a quantity and a tableau is, as text.
 measured(where, quantity) = system(rows_awk("-v where='".where.",quantity=".quantity."'", "consistency_order_slopes").\
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"slope\") c = i; next } { printf \"%.2f\", $c }'")
@@ -22,7 +23,7 @@ points_of(where) = entry(where, "tableau") eq "gauss" ? 7 : 6
 dashes_of(where) = entry(where, "tableau") eq "gauss" ? 1 : 2
 colour(where) = int(entry(where, "stages")) == 1 ? blue : int(entry(where, "stages")) == 2 ? vermilion\
     : int(entry(where, "stages")) == 3 ? green : purple
-curve_title(where, quantity) = sprintf("%s, s = %s, r = %s: slope %s", entry(where, "tableau"), entry(where, "stages"),\
+curve_title(where, quantity) = sprintf("%s %s, r = %s: %s", entry(where, "tableau"), entry(where, "stages"),\
     entry(where, "order"), measured(where, quantity))
 
 do for [problem_word in problems_of("consistency_order", "error")] {
@@ -30,10 +31,12 @@ do for [problem_word in problems_of("consistency_order", "error")] {
   curves = distinct("consistency_order", "problem,tableau,stages,order", problem_word, "error")
   orders = distinct("consistency_order", "order", problem_word, "error")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_consistency_order", 1500, 900)
-    set multiplot layout 2, 2 title title_text(problem_label(problem)\
-        .": at fixed end points a derivative costs one power of the step", "", "Grey: C h^r, and C h^{r+1} dotted.")\
-        offset 0, -0.4 margins 0.06, 0.835, 0.07, 0.88 spacing 0.25, 0.11
+    eval begin_figure(kind, problem."_consistency_order", 1700, 950)
+    set multiplot layout 2, 3 title title_text(problem_label(problem)\
+        .": DMOC’s discrete objects against the exact ones, r the order of the tableau",\
+        "Paper: th:ordercalculation, eq:DMOC\\_orderL, eq:DMOC\\_orderf and eq:DMOC\\_orderLeg state h^{r+1} for all of them.",\
+        "Legends hold fitted slopes. Grey guides: C h^r dashed, C h^{r+1} dotted. No solve: both end points are given.")\
+        offset 0, -0.4 margins 0.055, 0.89, 0.07, 0.86 spacing 0.155, 0.11
     do for [quantity in panels] {
       where = problem_word.",quantity=".quantity
       eval measure("consistency_order", where, "h", "error")
@@ -49,8 +52,8 @@ do for [problem_word in problems_of("consistency_order", "error")] {
       eval set_range("x", x_low, x_high, 1.2)
       set yrange [smallest / 3:10 * y_high]
       set title panel_title(quantity) offset 0, -0.5
-      set xlabel (quantity eq "left_force" || quantity eq "left_legendre" ? "step {/:Italic h}, as solved" : "")
-      set ylabel formula(quantity)
+      set xlabel "step {/:Italic h}, unit of time as solved"
+      set ylabel formula(quantity) offset 1.5
       set key at graph 1.03, graph 1 left top font ",11" samplen 2.5
       plot for [guide in guides] number(up_to_comma(guide)) * (x / x_high)**number(guide[strstrt(guide, ",") + 1:*])\
            with lines linetype 8,\

@@ -21,6 +21,7 @@ guide_start(name, where, y) = sprintf(\
      stats rows('%s', '%s', '%s') using (abs(column('step') / x_guide - 1) < 0.01 ?\
          column('%s') : NaN) name 'G' nooutput;\
      y_guide = G_min / 3", name, where, y, name, where, y, y)
+reference_words(name) = strlen(told(name, "reference")) > 0 ? told(name, "reference") : "the finest grid of the same method"
 # Step of the reference among the rows without an error; 0 if the table holds no reference of its own.
 reference_step(name, where) = number(system(rows_awk("-v without=state_error -v where=".where, name).\
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"step\") c = i; next }\
@@ -37,22 +38,23 @@ do for [name in "convergence convergence_512"] {
       curves = curves_of(name, where, error)
       eval measure(name, where, "step", error)
       eval guide_start(name, where, error)
-      # The claim of order 2 and its guide lines are for one stage.
+      # The guide lines of order 2 are for one stage.
       one_stage = distinct(name, "stages", where, error) eq "stages=1"
       h_ref = reference_step(name, where)
+      coarse_curves = ""
+      do for [curve in curves] { if (has_coarse(name, curve)) { coarse_curves = coarse_curves." ".curve } }
       eval power_axis("xy")
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.3)
       eval set_range("y", y_low, y_high, 3)
-      if (!one_stage) {
-        set title title_text(problem_label(problem).": error of the ".quantity." over the step", "", "")
-      } else { if (name eq "convergence") {
-        set title title_text(problem_label(problem).": the ".quantity." converges with order 2 for all methods", "", "")
-      } else {
-        set title title_text(problem_label(problem).": against the paper's own reference N = 512",\
-            "the slope of the ".quantity." error comes out above 2",\
-            "That reference is in error itself: what is seen is C (h² − h_{ref}²), steeper than C h².")
-      } }
+      fitted = fit_range(name."_slopes", word(curves, 1), quantity)
+      guide_remark = one_stage && h_ref > 0\
+          ? " C (h² − h_{ref}²) is what an error C h² becomes against a reference of step h_{ref}." : ""
+      set title title_text(problem_label(problem).": error of the ".quantity." over the step",\
+          (quantity eq "state" ? of_paper(problem, "kepler\\_error, left", "twolink\\_error a)")\
+              : of_paper(problem, "kepler\\_error, right", "twolink\\_error b)"))\
+              ."Against ".reference_words(name).". ".conditions(name).".",\
+          labelled("Slopes are fitted over ", sentence(fitted)).guide_remark)
       set xlabel step_label(problem)
       set ylabel (quantity eq "state" ? state_label(problem) : control_label(problem))
       do for [kind in kinds] {
@@ -60,7 +62,7 @@ do for [name in "convergence convergence_512"] {
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
              title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
-             for [curve in curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
+             for [curve in coarse_curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
              with points linetype method_style(entry(curve, "method")) pointtype 6 notitle,\
              keyentry with points linetype 8 pointtype 6 title (has_coarse(name, where) ? "too coarse to be a motion" : ""),\
              one_stage ? y_guide * (x / x_guide)**2 : NaN with lines linetype 8 title (one_stage ? "C h²" : ""),\
@@ -96,8 +98,9 @@ do for [problem_word in problems_of(name, "state_error")] {
   eval finer_tics("x")
   eval set_range("x", x_low, x_high, 1.3)
   eval set_range("y", y_low, y_high, 3)
-  set title title_text(problem_label(problem).": with s stages all methods converge with order 2s,",\
-      "until the tolerance of the solver and rounding are reached", "")
+  set title title_text(problem_label(problem).": error of the state over the step, Gauss tableaus with s stages",\
+      "Against ".reference_words(name).". ".conditions(name).".",\
+      "A curve without a slope has too few grids between the coarse ones and its floor of rounding.")
   set xlabel step_label(problem)
   set ylabel state_label(problem)
   do for [kind in kinds] {
@@ -107,7 +110,7 @@ do for [problem_word in problems_of(name, "state_error")] {
          with linespoints linetype method_style(entry(curve, "method"))\
          title with_slope(stage_label(curve), slope(name."_slopes", curve, "state")),\
          for [guide in guides] nth(guide, 2) * (x / nth(guide, 1))**nth(guide, 3)\
-         with lines linetype 8 dashtype (10 - nth(guide, 3), 5) title sprintf("C h^%d", nth(guide, 3))
+         with lines linetype 8 dashtype (18 - 3 * nth(guide, 3), 5) title sprintf("C h^%d, guide", nth(guide, 3))
     eval end_figure(kind, figure)
   }
 }

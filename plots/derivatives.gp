@@ -28,39 +28,55 @@ problems = system(rows_awk("-v take=all -v distinct=problem -v need=seconds", "d
 do for [problem_word in problems] {
   problem = entry(problem_word, "problem")
   methods = system(rows_awk("-v take=all -v distinct=method -v where='".problem_word."'", "derivatives"))
-  where = problem_word.",".word(methods, 1).",".word(system(rows_awk(\
-      "-v take=all -v distinct=tableau,stages,solver -v where='".problem_word."'", "derivatives")), 1)
-  solved = ""; unsolved = ""; shown = ""
+  scheme = word(system(rows_awk("-v take=all -v distinct=tableau,stages,solver -v where='".problem_word."'",\
+      "derivatives")), 1)
+  everything = problem_word.",".scheme
+  shown = ""
   do for [i = 1:6] {
-    if (counted("''", where.",".curve_of(i), "seconds") > 0) { solved = solved." ".i }
-    if (counted("unsolved", where.",".curve_of(i), "kkt_residual") > 0) { unsolved = unsolved." ".i }
+    if (counted("all", everything.",".curve_of(i), "seconds") > 0) { shown = shown." ".i }
   }
-  do for [i = 1:6] { if (strstrt(solved.unsolved, "".i) > 0) { shown = shown." ".i } }
+  columns_of_panels = words(methods)
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_derivatives", 1100, 640)
-    set multiplot layout 1, 2 title title_text(problem_label(problem).": with exact derivatives ".\
-        method_label(entry(where, "method"))." is solved on every grid, fastest by the tape", "",\
-        "Open markers: not solved; the time spent, which is limited, and the residual reached when the solve ended.")\
-        offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.87 spacing 0.1
+    eval begin_figure(kind, problem."_derivatives", 220 + 380 * columns_of_panels, 900)
+    set multiplot layout 2, columns_of_panels title title_text(problem_label(problem)\
+        .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
+        timed_conditions("derivatives").".",\
+        "Open markers: not solved to that tolerance; the time spent, which is limited, and the residual reached.")\
+        offset 0, -0.4 margins 0.075, 0.985, 0.17, 0.84 spacing 0.02, 0.03
     do for [q = 1:2] {
       quantity = word(quantities, q)
-      unset logscale; set autoscale
-      stats taken("all", where, quantity) using (column("intervals")):(column(quantity)) name 'S' nooutput
-      eval intervals_axis
-      eval power_axis("y")
-      eval set_range("x", S_min_x, S_max_x, 1.25)
-      eval set_range("y", S_min_y, S_max_y, q == 1 ? 1.6 : 4)
-      set ylabel (q == 1 ? "time of the solver [s]" : "KKT residual reached, by exact derivatives")
-      if (q == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
-      plot for [i in shown] keyentry with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
-               pointtype filled(i + 0) pointsize 0.75 title label_of(i + 0),\
-           for [i in solved] taken("''", where.",".curve_of(i + 0), quantity)\
-               using (column("intervals")):(column(quantity))\
-               with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
-               pointtype filled(i + 0) pointsize 0.75,\
-           for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
-               using (column("intervals")):(column(quantity))\
-               with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9
+      do for [m = 1:columns_of_panels] {
+        where = everything.",".word(methods, m)
+        solved = ""; unsolved = ""
+        do for [i = 1:6] {
+          if (counted("''", where.",".curve_of(i), quantity) > 0) { solved = solved." ".i }
+          if (counted("unsolved", where.",".curve_of(i), quantity) > 0) { unsolved = unsolved." ".i }
+        }
+        unset logscale; set autoscale
+        stats taken("all", everything, quantity) using (column("intervals")):(column(quantity)) name 'S' nooutput
+        eval intervals_axis
+        eval power_axis("y")
+        eval set_range("x", S_min_x, S_max_x, 1.25)
+        eval set_range("y", S_min_y, S_max_y, q == 1 ? 1.6 : 4)
+        if (m > 1) { set format y "" }
+        set title (q == 1 ? method_label(entry(word(methods, m), "method")) : "") font ",14" offset 0, -0.6
+        set xlabel (q == 2 ? "number of intervals N" : "")
+        if (q == 1) { set format x "" }
+        set ylabel (m > 1 ? "" : q == 1 ? "time of the solver [s]" : "KKT residual, exact derivatives")
+        if (q == 1 && m == 1) {
+          set key at screen 0.52, screen 0.008 center bottom vertical maxrows 3 width 2
+        } else { unset key }
+        plot for [i in shown] keyentry with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
+                 pointtype filled(i + 0) pointsize 0.75 title label_of(i + 0),\
+             NaN notitle,\
+             for [i in solved] taken("''", where.",".curve_of(i + 0), quantity)\
+                 using (column("intervals")):(column(quantity))\
+                 with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
+                 pointtype filled(i + 0) pointsize 0.75,\
+             for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
+                 using (column("intervals")):(column(quantity))\
+                 with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9
+      }
     }
     unset multiplot
     eval end_figure(kind, problem."_derivatives")

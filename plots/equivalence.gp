@@ -18,17 +18,23 @@ measured(where) = exists_table("equivalence_slopes") ? system(rows_awk("-v where
     " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"slope\") s = i; next }\
       $s != \"\" { printf \": slope %.2f\", $s }'") : ""
 curves_with(method, column) = distinct(name, "problem,method,tableau,stages", problem_word.",method=".method, column)
-interval_axis = "set logscale x 2; set xtics (16, 32, 64, 128, 256, 512, 1024); set xlabel 'number of intervals N'"
+# Ticks at the grids of the table.
+grid_tics = ""
+do for [grid in distinct(name, "intervals", "", "")] {
+  grid_tics = grid_tics.(strlen(grid_tics) == 0 ? "" : ", ").entry(grid, "intervals")
+}
+interval_axis = "set logscale x 2; set xtics (".grid_tics."); set xlabel 'number of intervals N'"
+pale = "#A0A0A0"
 
 do for [problem_word in problems_of(name, "")] {
   problem = entry(problem_word, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_equivalence", 1400, 620)
     set multiplot layout 1, 2 title title_text(problem_label(problem)\
-        .": collocation against DMOC by the same tableau", "",\
-        "Hamiltonian collocation differs by rounding, tangent-space collocation by a power of the step,"\
-        ." unless the mass is constant and the tableau its own conjugate (Gauss).")\
-        offset 0, -0.4 margins 0.07, 0.845, 0.12, 0.83 spacing 0.27
+        .": differences of collocation from DMOC by the same tableau",\
+        conditions(name).", then Newton steps to rounding.",\
+        "Largest difference over nodes and components, relative to the largest value of the quantity by DMOC.")\
+        offset 0, -0.4 margins 0.07, 0.845, 0.12, 0.79 spacing 0.27
     do for [column in "configuration_difference costate_difference"] {
       eval measure(name, problem_word, "intervals", column)
       eval power_axis("y")
@@ -46,15 +52,17 @@ do for [problem_word in problems_of(name, "")] {
            title "tangent, ".tableau_label(curve).(column eq "configuration_difference" ? measured(curve) : ""),\
            for [curve in curves_with("hamiltonian", column)] rows(name, curve, column)\
            using (column("intervals")):(column(column))\
-           with linespoints linewidth 1 linecolor rgb colour(curve) pointsize 0.7\
-           pointtype (is_gauss(curve) ? 5 : 4) dashtype 3 title "Hamiltonian, ".tableau_label(curve)
+           with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3 notitle,\
+           keyentry with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3\
+           title "Hamiltonian, all tableaus"
     }
     unset multiplot
     eval end_figure(kind, problem."_equivalence")
 
     eval begin_figure(kind, problem."_adjoint", 1100, 620)
-    set title title_text(problem_label(problem).": solved multipliers satisfy the adjoint Runge-Kutta scheme",\
-        "with the coefficients of the theorem, and no others", "")
+    set title title_text(problem_label(problem).": what solved multipliers leave in the adjoint Runge-Kutta scheme",\
+        conditions(name).", then Newton steps to rounding.",\
+        "Triangles: the same multipliers with the coefficients of ψ^q and ψ^p not exchanged; for Gauss they are equal.")
     eval measure(name, problem_word.",method=dmoc,tableau=lobatto", "intervals", "adjoint_residual_by_plain_coefficients")
     eval power_axis("y")
     eval interval_axis
@@ -68,15 +76,16 @@ do for [problem_word in problems_of(name, "")] {
          rows(name, curve, "adjoint_residual_by_plain_coefficients")\
          using (column("intervals")):(column("adjoint_residual_by_plain_coefficients"))\
          with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.9 pointtype 8 dashtype 3\
-         title "DMOC, ".tableau_label(curve).", halves not exchanged",\
+         title "DMOC, ".tableau_label(curve).", not exchanged",\
          for [curve in curves_with("dmoc", "adjoint_residual")] rows(name, curve, "adjoint_residual")\
          using (column("intervals")):(column("adjoint_residual"))\
          with linespoints linewidth 1.8 linecolor rgb colour(curve) pointsize 0.7\
          pointtype points_of(curve) dashtype dashes_of(curve) title "DMOC, ".tableau_label(curve),\
          for [curve in curves_with("hamiltonian", "adjoint_residual")] rows(name, curve, "adjoint_residual")\
          using (column("intervals")):(column("adjoint_residual"))\
-         with linespoints linewidth 1 linecolor rgb colour(curve) pointsize 0.7\
-         pointtype (is_gauss(curve) ? 5 : 4) dashtype dashes_of(curve) title "Hamiltonian, ".tableau_label(curve)
+         with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3 notitle,\
+         keyentry with linespoints linewidth 1 linecolor rgb pale pointsize 0.7 pointtype 4 dashtype 3\
+         title "Hamiltonian, all tableaus"
     eval end_figure(kind, problem."_adjoint")
     unset rmargin
   }

@@ -1,95 +1,136 @@
 # Minor iterations of the SQP method over the number of intervals: fig:kepler_iterations and fig:twolink_iterations; and
 # what collocation costs beside DMOC in every currency.
 #   gnuplot -e "results='results'" plots/iterations.gp
-# Reads iterations.csv; the second figure iterations_common_ratios.csv if it is there, else iterations_ratios.csv.
+# Reads iterations.csv with its ratios, iterations_limited_memory.csv with its ratios if they are there; the last figure
+# iterations_common_ratios.csv if it is there, else iterations_ratios.csv.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-eval require("iterations",\
-    "problem,method,tableau,stages,solver,status,branch,intervals,minor_iterations,predicted_minors,crash")
+minor_columns = "problem,method,tableau,stages,solver,status,branch,intervals,minor_iterations,predicted_minors,crash"
 
-do for [where in problems_of("iterations", "minor_iterations")] {
-  problem = entry(where, "problem")
-  slack = curves_of("iterations", where.",solver=sqp,crash=none", "minor_iterations")
-  crash = curves_of("iterations", where.",solver=sqp,crash=basis", "minor_iterations")
-  with_start(curve, crash) = curve.",crash=".crash
-  eval measure("iterations", where, "intervals", "minor_iterations")
-  unset logscale
-  set xtics autofreq; set ytics autofreq; set format x '%g'; set format y '%g'; unset mxtics; unset mytics
-  set xlabel "number of intervals N"
-  set ylabel "minor iterations of the SQP method"
-  set xrange [0:1.03 * x_high]
-  set yrange [0:1.25 * y_high]
-  set key top left
-  set title title_text(problem_label(problem).": the law of the slack start, one minor iteration per free variable",\
-      "and one per later major iteration, is what is counted",\
-      words(crash) > 0 ? "With the first basis chosen for free (small marks, broken line) all methods need the same." : "")
-  do for [kind in kinds] {
-    eval begin_figure(kind, problem."_iterations", 900, 600)
-    plot for [curve in slack] rows("iterations", with_start(curve, "none"), "minor_iterations")\
-           using (column("intervals")):(column("predicted_minors")) with lines linetype method_style(entry(curve, "method"))\
-           linewidth 1.2 dashtype 1 notitle,\
-         for [curve in crash] rows("iterations", with_start(curve, "basis"), "minor_iterations")\
-           using (column("intervals")):(column("predicted_minors")) with lines linetype method_style(entry(curve, "method"))\
-           linewidth 1.2 dashtype (9, 7) notitle,\
-         for [curve in slack] rows("iterations", with_start(curve, "none"), "minor_iterations")\
-           using (column("intervals")):(column("minor_iterations")) with points linetype method_style(entry(curve, "method"))\
-           pointsize (method_style(entry(curve, "method")) == 2 ? 1.6 : 1.0) title method_label(entry(curve, "method")),\
-         for [curve in crash] rows("iterations", with_start(curve, "basis"), "minor_iterations")\
-           using (column("intervals")):(column("minor_iterations")) with points linetype method_style(entry(curve, "method"))\
-           pointsize (method_style(entry(curve, "method")) == 2 ? 0.9 : 0.5) notitle,\
-         NaN with lines linecolor rgb "#404040" linewidth 1.2 dashtype 1 title "predicted, from the slack basis",\
-         words(crash) > 0 ? NaN : 1/0 with lines linecolor rgb "#404040" linewidth 1.2 dashtype (9, 7)\
-           title (words(crash) > 0 ? "predicted, first basis chosen for free" : "")
-    eval end_figure(kind, problem."_iterations")
+# "1.65 times DMOC at N = 256": the ratio of a method's curve on the finest grid.
+ratio_fields(name, problem_word, method, currency) = system(rows_awk("-v need=ratio_at_equal_intervals -v where='"\
+    .problem_word.",method=".method.",currency=".currency."'", name."_ratios").\
+    " | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if ($i == \"intervals\") n = i;\
+      if ($i == \"ratio_at_equal_intervals\") r = i }; next } { print $n, $r }' | sort -n | tail -n 1")
+ratio_text(fields) = words(fields) < 2 ? "" : sprintf(", %.2f × DMOC at N = %s", number(word(fields, 2)), word(fields, 1))
+minor_label(name, problem_word, curve, currency) = method_label(entry(curve, "method"))\
+    .(exists_table(name."_ratios") ? ratio_text(ratio_fields(name, problem_word, entry(curve, "method"), currency)) : "")
+# How many rows stand in the table, and how many of them are drawn.
+count_of(take, name, where) = int(system(rows_awk("-v take=".take." -v branches=".(take eq "all" ? "any" : "same")\
+    ." -v where='".where."'", name)." | wc -l")) - 1
+left_out_text(all, drawn) = all == drawn ? "" : sprintf(" %d of %d solves are not drawn: not solved, or on another branch.",\
+    all - drawn, all)
+
+do for [name in "iterations iterations_limited_memory"] {
+  if (name eq "iterations_limited_memory" && !exists_table(name)) { continue }
+  eval require(name, minor_columns)
+  figure_of(problem) = problem."_".name
+  do for [where in problems_of(name, "minor_iterations")] {
+    problem = entry(where, "problem")
+    slack = curves_of(name, where.",solver=sqp,crash=none", "minor_iterations")
+    crash = curves_of(name, where.",solver=sqp,crash=basis", "minor_iterations")
+    with_start(curve, crash) = curve.",crash=".crash
+    size(curve, large) = (method_style(entry(curve, "method")) == 2 ? 1.6 : 1.0) * (large ? 1.0 : 0.55)
+    eval measure(name, where, "intervals", "minor_iterations")
+    unset logscale
+    set xtics autofreq; set ytics autofreq; set format x '%g'; set format y '%g'; unset mxtics; unset mytics
+    set xlabel "number of intervals N"
+    set ylabel "minor iterations of the SQP method"
+    set xrange [0:1.03 * x_high]
+    set yrange [0:1.5 * y_high]
+    set key top left font ",12"
+    set title title_text(problem_label(problem).": minor iterations of the SQP method, "\
+        .(name eq "iterations" ? "exact" : "quasi-Newton")." Hessian",\
+        of_paper(problem, "kepler\\_iterations", "twolink\\_iterations").conditions(name).".",\
+        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations."\
+        .left_out_text(count_of("all", name, where), count_of("''", name, where)))
+    do for [kind in kinds] {
+      eval begin_figure(kind, figure_of(problem), 1000, 640)
+      plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
+             using (column("intervals")):(column("predicted_minors")) with lines\
+             linetype method_style(entry(curve, "method")) linewidth 1.2 dashtype 1 notitle,\
+           for [curve in crash] rows(name, with_start(curve, "basis"), "minor_iterations")\
+             using (column("intervals")):(column("predicted_minors")) with lines\
+             linetype method_style(entry(curve, "method")) linewidth 1.2 dashtype (9, 7) notitle,\
+           keyentry with lines linecolor rgb "white" title "{/:Bold from the basis of slacks}",\
+           for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\
+             using (column("intervals")):(column("minor_iterations")) with points\
+             linetype method_style(entry(curve, "method")) pointsize size(curve, 1)\
+             title minor_label(name, where, curve, "minor_iterations"),\
+           keyentry with lines linecolor rgb "white"\
+             title (words(crash) > 0 ? "{/:Bold from a first basis chosen for free}" : ""),\
+           for [curve in crash] rows(name, with_start(curve, "basis"), "minor_iterations")\
+             using (column("intervals")):(column("minor_iterations")) with points\
+             linetype method_style(entry(curve, "method")) pointsize size(curve, 0)\
+             title minor_label(name, where, curve, "minor_iterations_crash_basis")
+      eval end_figure(kind, figure_of(problem))
+    }
   }
 }
 
 name = exists_table("iterations_common_ratios") ? "iterations_common_ratios" : "iterations_ratios"
+solves = name eq "iterations_common_ratios" ? "iterations_common" : "iterations"
 eval require(name, "problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy")
 
-# Currencies in the order of the legend, each with its label, colour and point.
-currencies = "free_variables kkt_nonzeros factor_nonzeros minor_iterations minor_iterations_crash_basis sqp_seconds\
-  ipopt_iterations ipopt_seconds slsqp_evaluations"
-currency_labels = "'free variables' 'entries of the KKT matrix' 'entries of its factor' 'minor iterations, slack basis'\
-  'minor iterations, crash basis' 'time of SQP, slack basis' 'iterations of Ipopt' 'time of Ipopt' 'evaluations of SLSQP'"
-currency_colours = "#000000 #707070 #CC79A7 #0072B2 #56B4E9 #009E73 #E69F00 #D55E00 #8B4513"
-currency_points = "7 6 13 5 4 9 8 11 12"
+# Counts in the order of the legend, each with its label, colour, point and size; open points lie around filled ones that
+# coincide with them. Times are left to figures of their own.
+currencies = "free_variables minor_iterations minor_iterations_crash_basis factor_nonzeros ipopt_iterations"
+currency_labels = "'free variables' 'minor iterations, slacks first' 'minor iterations, free basis'\
+  'entries of the KKT factor' 'iterations of Ipopt'"
+currency_colours = "#000000 #0072B2 #56B4E9 #CC79A7 #E69F00"
+currency_points = "7 6 4 13 8"
+currency_sizes = "0.7 1.5 1.1 1.0 1.1"
 # Hamiltonian collocation has DMOC's solutions: at equal accuracy its grids are the same.
 panels = "hamiltonian tangent tangent"
 panel_columns = "ratio_at_equal_intervals ratio_at_equal_intervals ratio_at_equal_accuracy"
-panel_titles = "'Hamiltonian, same N' 'Tangent-space, same N' 'Tangent-space, same accuracy'"
+panel_titles = "'Hamiltonian, same N' 'Tangent-space, same N' 'Tangent-space, same replay error'"
 
 do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_savings", 1300, 600)
-    set multiplot layout 1, 3 title title_text(problem_label(problem).": what collocation costs beside DMOC,",\
-        "currency by currency", "Accuracy is the error of the replayed motion at its end; both methods start from one motion.")\
-        offset 0, -0.4 margins 0.065, 0.775, 0.12, 0.8 spacing 0.025
+    eval begin_figure(kind, problem."_savings", 1300, 620)
+    set multiplot layout 1, 3 title title_text(problem_label(problem).": what collocation takes, in multiples of DMOC",\
+        conditions(solves).". Above the line DMOC takes less.",\
+        "Replay error: how far from the final state the continuous system ends under the computed control.")\
+        offset 0, -0.4 margins 0.065, 0.79, 0.12, 0.77 spacing 0.025
+    low = 1; high = 1
+    do for [c = 1:words(currencies)] {
+      do for [column_name in "ratio_at_equal_intervals ratio_at_equal_accuracy"] {
+        currency = where.",currency=".word(currencies, c)
+        if (strlen(distinct(name, "currency", currency, column_name)) > 0) {
+          eval measure(name, currency, "intervals", column_name)
+          if (y_low < low) { low = y_low }
+          if (y_high > high) { high = y_high }
+        }
+      }
+    }
     do for [i = 1:3] {
       method = word(panels, i)
       ratio = word(panel_columns, i)
-      conditions = where.",method=".method
-      eval measure(name, conditions, "intervals", "ratio_at_equal_intervals")
+      conditions_of_panel = where.",method=".method
+      eval measure(name, conditions_of_panel, "intervals", "ratio_at_equal_intervals")
       eval intervals_axis
       eval set_range("x", x_low, x_high, 1.3)
       set logscale y 2
-      set ytics (0.5, 0.75, 1, 1.5, 2, 3, 4); set format y '%g'; unset mytics
-      set yrange [0.4:4.5]
+      set ytics (0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.5, 3, 4, 6, 8); set format y '%g'; unset mytics
+      set yrange [low / 1.1:high * 1.1]
       set title word(panel_titles, i) font ",14"
-      set ylabel (i == 1 ? "cost of collocation / cost of DMOC" : "")
+      set ylabel (i == 1 ? "collocation / DMOC" : "")
       if (i > 1) { set format y "" }
-      if (i < 3) { unset key } else { set key at screen 0.785, graph 1 left top font ",12" samplen 2.5 }
+      if (i < 3) { unset key } else { set key at screen 0.8, graph 1 left top font ",12" samplen 2.5 }
       drawn = ""
       do for [c = 1:words(currencies)] {
-        currency = conditions.",currency=".word(currencies, c)
+        currency = conditions_of_panel.",currency=".word(currencies, c)
         if (strlen(distinct(name, "currency", currency, ratio)) > 0) { drawn = drawn." ".c }
       }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
-           for [c in drawn] rows(name, conditions.",currency=".word(currencies, c + 0), ratio)\
+           for [c in drawn] rows(name, conditions_of_panel.",currency=".word(currencies, c + 0), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints\
-             linecolor rgb word(currency_colours, c + 0) linewidth 1.8 dashtype 1 pointtype int(word(currency_points, c + 0))\
-             pointsize 0.8 title word(currency_labels, c + 0)
+             linecolor rgb word(currency_colours, c + 0) linewidth 1.5 dashtype 1 pointtype int(word(currency_points, c + 0))\
+             pointsize real(word(currency_sizes, c + 0)) notitle,\
+           for [c = 1:words(currencies)] keyentry with linespoints linecolor rgb word(currency_colours, c) linewidth 1.5\
+             dashtype 1 pointtype int(word(currency_points, c)) pointsize real(word(currency_sizes, c))\
+             title word(currency_labels, c)
     }
     unset multiplot
     eval end_figure(kind, problem."_savings")

@@ -8,7 +8,7 @@ minima = "local_minima_minima"
 shares = "local_minima_shares"
 eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,replay_confirmed")
 eval require(shares,\
-    "problem,method,tableau,stages,intervals,starts,solved,best,share,share_lower,share_upper")
+    "problem,method,tableau,stages,intervals,starts,solved,unsolved,unconfirmed,best,share,share_lower,share_upper")
 
 most_minima = 8
 colour(method) = word(blue." ".vermilion." ".green." ".purple, method_style(method))
@@ -18,10 +18,9 @@ two_lines(label) = strstrt(label, " ") > 0\
     ? label[1:strstrt(label, " ") - 1]."\n".label[strstrt(label, " ") + 1:*] : label."\n"
 method_tic(where, method) = sprintf("%s\n%s of %s", two_lines(method_label(method)),\
     share_field(where.",method=".method, "solved"), share_field(where.",method=".method, "starts"))
-# What no replay confirms is no motion, or one that the grid is too coarse for.
-minimum_tic(where, number, best) = system("printf %.4g ".entry(distinct(minima, "objective", where, ""), "objective"))\
-    .(number == best ? "\n{/:Bold best}"\
-      : entry(distinct(minima, "replay_confirmed", where, ""), "replay_confirmed") eq "no" ? "\nunconfirmed" : "\n")
+minimum_tic(where, is_best) = system("printf %.4g ".entry(distinct(minima, "objective", where, ""), "objective"))\
+    .(is_best ? "\n{/:Bold best}" : "\n")
+values_of(found, column) = words(found) == 0 ? "" : system("echo '".found."' | sed 's/".column."=//g'")
 
 do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   problem = entry(group, "problem")
@@ -31,35 +30,48 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   methods = ""
   do for [method_word in distinct(shares, "method", group, "")] { methods = methods." ".entry(method_word, "method") }
   count = words(methods)
-  found = words(distinct(minima, "minimum", group, ""))
+  # Confirmed minima by their cost, the best first; then the answers that no replay confirms, and the unsolved starts.
+  numbers = values_of(distinct(minima, "minimum", group.",replay_confirmed=yes", ""), "minimum")
+  found = words(numbers)
   drawn = found < most_minima ? found : most_minima
-  best_word = distinct(minima, "minimum", group.",is_best=yes", "")
-  best = strlen(best_word) > 0 ? int(entry(best_word, "minimum")) : 0
   highest = 0
   do for [method in methods] {
     unset logscale; set autoscale
-    stats rows(minima, group, "") using (column("minimum") <= drawn ? column(method) : NaN) name 'S' nooutput
-    if (S_max > highest) { highest = S_max }
+    if (drawn > 0) {
+      stats rows(minima, group.",replay_confirmed=yes", "") using (column("minimum") <= int(word(numbers, drawn))\
+          ? column(method) : NaN) name 'S' nooutput
+      if (S_max > highest) { highest = S_max }
+    }
+    do for [rest in "unconfirmed unsolved"] {
+      count_of_rest = int(share_field(group.",method=".method, rest))
+      if (count_of_rest > highest) { highest = count_of_rest }
+    }
   }
   bar = 0.8 / count
-  x_of(minimum, i) = minimum <= drawn ? minimum + (i - 0.5 * (count + 1)) * bar : NaN
+  place_in(list, text) = sum [k = 1:words(list)] (word(list, k) eq text ? k : 0)
+  x_of(minimum, i) = place_in(numbers, sprintf("%d", minimum)) > 0 && place_in(numbers, sprintf("%d", minimum)) <= drawn\
+      ? place_in(numbers, sprintf("%d", minimum)) + (i - 0.5 * (count + 1)) * bar : NaN
+  x_of_rest(rest, i) = drawn + (rest eq "unconfirmed" ? 1 : 2) + (i - 0.5 * (count + 1)) * bar
   do for [kind in kinds] {
-    eval begin_figure(kind, figure, 1300, 600)
-    set multiplot title title_text(problem_label(problem).": where the methods end from perturbed guesses", "",\
-        sprintf("N = %s.%s", entry(group, "intervals"), found > drawn\
-            ? sprintf(" The %d lowest of %d distinct minima.", drawn, found) : ""))\
+    eval begin_figure(kind, figure, 1300, 620)
+    set multiplot title title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
+        sprintf("%s; N = %s.%s", conditions("local_minima"), entry(group, "intervals"), found > drawn\
+            ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
+        "Unconfirmed: the continuous system, replayed under the control, ends far from the final state.")\
         offset 0, -0.4
 
-    set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.79; set bmargin at screen 0.19
+    set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.77; set bmargin at screen 0.19
     set xtics nomirror scale 0 () font ",13"
     do for [i = 1:drawn] {
-      set xtics add (minimum_tic(group.",minimum=".i, i, best) i)
+      set xtics add (minimum_tic(group.",minimum=".word(numbers, i), i == 1) i)
     }
+    set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor too coarse" drawn + 2)
+    set arrow 1 from first drawn + 0.5, graph 0 to first drawn + 0.5, graph 1 nohead linecolor rgb grey dashtype (4, 4)
     set ytics nomirror; set grid noxtics ytics
     set format y "%g"
-    set xrange [0.5:drawn + 0.5]
+    set xrange [0.5:drawn + 2.5]
     set yrange [0:1.1 * highest]
-    set xlabel axis_label("cost J of the minimum", problem, "cost_unit") offset 0, -0.7
+    set xlabel axis_label("cost J of the confirmed minimum", problem, "cost_unit") offset 0, -0.7
     set ylabel "starts that ended there"
     set key at graph 0.5, graph 1.02 center bottom vertical maxrows 2 width -2 font ",12"
     set style fill solid 1.0 noborder
@@ -68,7 +80,15 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
            with boxes linecolor rgb colour(word(methods, i)) title method_label(word(methods, i)),\
          for [i = 1:count] rows(minima, group, "")\
            using (x_of(column("minimum"), i)):(column(word(methods, i))):\
-           (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",11" notitle
+           (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",11" notitle,\
+         for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
+           using (x_of_rest(rest, i)):(column(rest)):(0.9 * bar)\
+           with boxes fillcolor rgb colour(word(methods, i)) dashtype 1\
+           fillstyle pattern 5 border rgb colour(word(methods, i)) notitle,\
+         for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
+           using (x_of_rest(rest, i)):(column(rest)):(sprintf("%d", column(rest))) with labels offset 0, 0.6 font ",11"\
+           notitle
+    unset arrow 1
 
     set lmargin at screen 0.725; set rmargin at screen 0.985
     set xtics nomirror scale 0 () font ",12"
@@ -76,7 +96,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set xrange [0.5:count + 0.5]
     set yrange [0:1]
     set ytics 0, 0.2, 1; set format y "%.1f"
-    set xlabel "solved starts" offset 0, -1.3
+    set xlabel "starts solved" offset 0, -1.3
     set ylabel "share of starts in the best (95 % interval)"
     unset key
     plot for [i = 1:count] rows(shares, group.",method=".word(methods, i), "")\

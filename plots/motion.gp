@@ -20,7 +20,7 @@ even_spacing(intervals, count) = first_of(divisor(intervals, spacing(intervals, 
 # To be evaluated: axes as they were, a title over two panels, the square panel on the left, a panel on the right.
 plain_axes = "unset logscale; set autoscale; set xtics autofreq; set ytics autofreq; set format '%g'; unset colorbox;\
     unset key; set size noratio; unset title; unset lmargin; unset rmargin; unset tmargin; unset bmargin"
-begin_panels(claim) = "set multiplot title '".title_text(claim, "", "")."' offset 0, -0.4"
+begin_panels(title) = "set multiplot title '".title_text(title, "", "")."' offset 0, -0.4"
 left_square = "set lmargin at screen 0.105; set rmargin at screen 0.525; set bmargin at screen 0.13;\
     set tmargin at screen 0.9; set size ratio -1"
 right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.635; set rmargin at screen 0.98;\
@@ -30,6 +30,10 @@ do for [problem in problems] {
   nodes = "motion_".problem."_nodes"
   stages = "motion_".problem."_stages"
   picture = "motion_".problem."_picture"
+  # " by DMOC, N = 128", from the row of the solve.
+  solve = exists_table("motion_".problem) ? word(system(rows_awk("-v take=drawn -v branches=any -v distinct=method,intervals",\
+      "motion_".problem)), 1) : ""
+  by_whom = strlen(solve) == 0 ? "" : " by ".method_label(entry(solve, "method")).", N = ".entry(solve, "intervals")
   drawing = plots."/pictures/".problem.".gp"
   if (system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
   do for [kind in kinds] { load drawing }

@@ -9,6 +9,9 @@ if (errors) {
   eval require("convergence", "problem,method,tableau,stages,solver,status,branch,intervals,objective_error")
 }
 
+reference_words = strlen(told("convergence", "reference")) > 0 ? told("convergence", "reference")\
+    : "the finest grid of the same method"
+
 do for [where in problems_of("objective", "")] {
   problem = entry(where, "problem")
   curves = curves_of("objective", where, "")
@@ -16,18 +19,26 @@ do for [where in problems_of("objective", "")] {
   panels = strlen(error_curves) > 0 ? 2 : 1
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_objective", panels == 2 ? 1100 : 900, 560)
-    title = title_text(problem_label(problem).": the cost of all methods tends to the same optimum", "", "")
-    if (panels == 2) { eval two_panels(title, 0.135) } else { set title title }
+    figure_title = title_text(problem_label(problem).": cost over the number of intervals",\
+        of_paper(problem, "", "twolink\\_obj a)").conditions("objective").".",\
+        panels == 2 ? "Right: J_{ref} is that of ".reference_words."; an error that changes its sign dips." : "")
+    if (panels == 2) { eval two_panels(0.135) } else { set title figure_title }
     set key top right
     eval measure("objective", where, "intervals", "objective")
     eval intervals_axis
     eval set_range("x", x_low, x_high, 1.25)
     eval plain_axis("y", y_high)
-    set ylabel axis_label("cost J", problem, "cost_unit")
-    plot for [curve in curves] rows("objective", curve, "") using (column("intervals")):(column("objective"))\
+    power = abs(y_high) > 0.01 && abs(y_high) < 1e5 ? 0 : int(floor(log10(abs(y_high))))
+    set format y "%g"
+    set ylabel axis_label("cost J".(power == 0 ? "" : sprintf(" · 10^{%d}", -power)), problem, "cost_unit")
+    plot for [curve in curves] rows("objective", curve, "")\
+         using (column("intervals")):(column("objective") / 10.0**power)\
          with linespoints linetype method_style(entry(curve, "method")) title curve_label("objective", curve)
     if (panels == 2) {
       unset key
+      eval measure("convergence", where, "intervals", "objective_error")
+      eval intervals_axis
+      eval set_range("x", x_low, x_high, 1.25)
       eval power_axis("y")
       set ylabel axis_label("|J − J_{ref}|", problem, "cost_unit")
       plot for [curve in error_curves] rows("convergence", curve, "objective_error")\

@@ -62,10 +62,11 @@ do for [i = 1:count] { if (label_at[i] < label_gap * (count - i)) { label_at[i] 
 do for [kind in kinds] {
   eval begin_figure(kind, "profile", 1400, 600)
   set multiplot layout 1, 3 title title_text(\
-      "Share of the library that each method solves within a multiple of the best method's effort", "",\
+      "Share of the library that each method solves within a multiple of the best method’s effort",\
+      timed_conditions("profile").".",\
       sprintf("%d instances, each a problem on a grid. A curve that stays below 1 failed on the rest: not solved,\
  or off the reference's cost.%s", instances, left_out))\
-      offset 0, -0.4 margins 0.062, 0.8, 0.13, 0.80 spacing 0.022
+      offset 0, -0.4 margins 0.062, 0.8, 0.13, 0.77 spacing 0.022
   do for [m = 1:3] {
     measure = word(measures, m)
     unset logscale; set autoscale
@@ -136,7 +137,7 @@ height = 150 + 235 * lines
 do for [kind in kinds] {
   eval begin_figure(kind, "library_work_precision", 1400, height)
   set multiplot layout lines, columns title title_text(\
-      "What an accurate cost takes on every problem of the library", "",\
+      "What an accurate cost takes on every problem of the library", timed_conditions("profile").".",\
       "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)\
       offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - 100.0 / height spacing 0.045, 74.0 / height
   do for [p = 1:words(problems)] {

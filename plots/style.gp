@@ -45,14 +45,35 @@ number(text) = strstrt(text, "e") == 0 || strstrt(text, ".") > 0 ? real(text)\
     : real(text[1:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):*])
 
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
-slope_fields(name, where, quantity) = exists_table(name) ? system(rows_awk(sprintf(\
+slope_fields(name, where, quantity, fields) = exists_table(name) ? system(rows_awk(sprintf(\
     "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s'", entry(where, "problem"),\
     entry(where, "method"), entry(where, "tableau"), entry(where, "stages"), quantity), name).\
-    " | awk -F, 'NR == 2 { print $6, $7 }'") : ""
+    " | awk -F, 'NR == 2 { print ".fields." }'") : ""
 slope_text(fields) =\
     words(fields) < 2 ? "" : sprintf("slope %.3f ± %.3f", number(word(fields, 1)), number(word(fields, 2)))
-slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity))
+slope(name, where, quantity) = slope_text(slope_fields(name, where, quantity, "$6, $7"))
+# The numbers of intervals that it is fitted over.
+fit_range(name, where, quantity) = fit_range_text(slope_fields(name, where, quantity, "$9, $8"))
+fit_range_text(fields) = words(fields) < 2 ? "" : sprintf("N = %s to %s", word(fields, 1), word(fields, 2))
 with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
+
+# --- How a table was made --------------------------------------------------------------------------------------------
+# A value of the run's metadata, results/NAME.json, as text; empty if it is not told.
+told(name, key) = system(sprintf("sed -n 's/^  \"%s\": \"*\\([^\",]*\\)\"*,*$/\\1/p' '%s/%s.json' 2>/dev/null",\
+    key, results, name))
+start_in_words(start) = start eq "common" ? "Warm start (one motion for all methods)"\
+    : start eq "guess" ? "Cold start (the problem’s guess)" : strlen(start) == 0 ? "" : "Warm start (a motion from a file)"
+# "Warm start (...); tolerance 1e-10", and over how many solves the medians of times go.
+conditions(name) = joined(start_in_words(told(name, "start")), labelled("tolerance ", told(name, "tolerance")))
+timed_conditions(name) = joined(conditions(name), number_of_solves(told(name, "repeats")))
+number_of_solves(repeats) = strlen(repeats) == 0 ? "" : repeats eq "1" ? "times of single solves"\
+    : "times are medians of ".repeats." solves"
+labelled(label, text) = strlen(text) == 0 ? "" : label.text
+joined(a, b) = a.(strlen(a) == 0 || strlen(b) == 0 ? "" : "; ").b
+sentence(text) = strlen(text) == 0 ? "" : text.". "
+# The label of the paper's figure that a figure repeats, as a sentence; its underscores are no subscripts.
+of_paper(problem, orbit, two_link) = problem eq "orbital_transfer" ? sentence(labelled("Paper: fig:", orbit))\
+    : problem eq "two_link_manipulator" ? sentence(labelled("Paper: fig:", two_link)) : ""
 
 # --- Names and units -------------------------------------------------------------------------------------------------
 described(problem, column) = system(sprintf("awk -F, '\
@@ -63,8 +84,9 @@ plain_label(problem) = system("echo '".problem."' | awk '\
 solver_label(solver) = solver eq "interior_point" ? "interior point" : solver
 or_else(text, default) = strlen(text) > 0 ? text : default
 problem_label(problem) = or_else(described(problem, "label"), plain_label(problem))
-with_unit(text, unit) = strlen(unit) == 0 ? text\
-    : unit eq "dimensionless" ? text." (dimensionless)" : text." [".unit."]"
+# A unit that is also the symbol of the quantity is spelled out.
+with_unit(text, unit) = strlen(unit) == 0 ? text : unit eq "dimensionless" ? text." (dimensionless)"\
+    : text." [".(unit eq "h" ? "hours" : unit)."]"
 axis_label(text, problem, column) = with_unit(text, described(problem, column))
 
 method_label(method) = method eq "dmoc" ? "DMOC" : method eq "hamiltonian" ? "Hamiltonian collocation"\
@@ -93,10 +115,10 @@ set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
 set grid xtics ytics linecolor rgb "#DADADA" linewidth 1 dashtype 1
 set key reverse Left samplen 3.5 spacing 1.25 width 1 noautotitle font ",13"
 set style fill solid 1.0 noborder
-# Title: the claim in bold, in one line or two, and a remark below; empty lines are left out.
-bold(line) = strlen(line) == 0 ? "" : "{/:Bold ".line."}"
-title_text(first, second, remark) = bold(first).(strlen(second) == 0 ? "" : "\n".bold(second))\
-    .(strlen(remark) == 0 ? "" : "\n{/*0.87 ".remark."}")
+# Title: what is drawn in bold, and remarks below, a line each; empty ones are left out. A title asserts nothing: what
+# came out stands in legends, as numbers of the tables.
+remark(line) = strlen(line) == 0 ? "" : "\n{/*0.8 ".line."}"
+title_text(title, first, second) = "{/:Bold ".title."}".remark(first).remark(second)
 
 # Axis of interval numbers: ticks at powers of two, a little room at both ends.
 power_tics = "set xtics ("
@@ -117,9 +139,9 @@ set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, lo
 
 error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
 
-# To be evaluated: two panels side by side below one title; `left` is the room for the first panel's labels.
-two_panels(title, left) = sprintf(\
-    "set multiplot layout 1, 2 title '%s' offset 0, -0.4 margins %g, 0.985, 0.13, 0.87 spacing 0.1", title, left)
+# To be evaluated: two panels side by side below `figure_title`; `left` is the room for the first panel's labels.
+two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.13, 0.8\
+    spacing 0.1", left)
 
 # --- Output ----------------------------------------------------------------------------------------------------------
 # do for [kind in kinds] { eval begin_figure(kind, name, width, height); plot ...; eval end_figure(kind, name) }

@@ -12,8 +12,10 @@ do for [where in problems_of("convergence", "state_error")] {
   curves = curves_of("convergence", where, "state_error")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_work_precision", 1100, 560)
-    eval two_panels(title_text(\
-        problem_label(problem).": DMOC needs less time and fewer variables for the same accuracy", "", ""), 0.1)
+    figure_title = title_text(problem_label(problem).": state error over time and over free variables",\
+        timed_conditions("convergence").".",\
+        "Few iterations from a warm start make short times; counts of variables do not depend on the start.")
+    eval two_panels(0.1)
     set key top right
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
     do for [i = 1:2] {

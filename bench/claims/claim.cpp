@@ -19,7 +19,7 @@ std::vector<Claims> chapters() {
   return {joined({solution_claims(), grid_claims(), cost_claims()}),
           consistency_order_claims(),
           order_claims(),
-          minima_claims(),
+          joined({minima_claims(), cold_start_claims()}),
           joined({stage_control_claims(), coincidence_claims(), flow_claims()}),
           library_claims()};
 }

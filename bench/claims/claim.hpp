@@ -130,6 +130,7 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
 [[nodiscard]] Claims minima_claims();             ///< local minima
+[[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
 [[nodiscard]] Claims library_claims();            ///< the whole library
 
 // Shared by the predicates.

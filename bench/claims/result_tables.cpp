@@ -108,6 +108,7 @@ const std::vector<DeclaredTable>& declared_tables() {
        "local_minima",
        {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"}},
       {"local_minima_shares", "local_minima", solve},
+      {"cold_start_shares", "cold_start", solve},
       {"profile", "profile", solve, {"status", "success"}},
       {"slips", "slips", {"problem", "slip"}},
   };

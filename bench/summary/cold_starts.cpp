@@ -24,18 +24,19 @@ bool was_too_coarse(const Row& row) { return row.text("status") == "too coarse";
 
 /// The cost that tells which answers are the best.
 struct BestCost {
-  std::optional<double> cost;  ///< none if nothing is certified and nothing confirmed
+  std::optional<double> cost;  ///< none if nothing is confirmed
   const char* kind = "none";
 
-  explicit BestCost(const Selection& grid) : cost(grid.front().number("reference_objective")) {
+  BestCost(const Selection& grid, double tolerance) {
     const Selection confirmed = grid.where(was_confirmed);
-    if (cost) {
-      kind = "certified";
-    } else if (!confirmed.empty()) {
-      cost = confirmed.min("objective");
-      kind = "lowest confirmed";
-    }
+    if (confirmed.empty()) return;
+    const double lowest = confirmed.min("objective");
+    const auto certified = grid.front().number("reference_objective");
+    const bool is_reached = certified && lowest - *certified <= tolerance * std::abs(*certified);
+    cost = is_reached ? *certified : lowest;
+    kind = is_reached ? "certified" : "lowest confirmed";
   }
+  /// How far a cost is above, relative.
   [[nodiscard]] double excess(const Row& row) const {
     return (row.needed("objective") - cost.value_or(0.0)) / std::abs(cost.value_or(1.0));
   }
@@ -74,7 +75,7 @@ ColumnNames share_columns() {
     columns.insert(columns.end(), {what, what + "_share", what + "_lower", what + "_upper"});
   }
   columns.insert(columns.end(), {"elsewhere", "too_coarse", "lost", "failures", "below_reference",
-                                 "reference_objective", "reference_kind"});
+                                 "certified_objective", "reference_objective", "reference_kind"});
   for (const Effort& effort : efforts) {
     for (const auto& [suffix, share] : quartiles) columns.push_back(std::string(effort.name) + suffix);
   }
@@ -116,6 +117,7 @@ Row shares_of(const Selection& cell, const BestCost& reference, double tolerance
   row.set("lost", lost.size());
   row.set("failures", failures_in_words(lost));
   row.set("below_reference", below.size());
+  row.set("certified_objective", cell.front().number("reference_objective"));
   row.set("reference_objective", reference.cost);
   row.set("reference_kind", reference.kind);
   for (const Effort& effort : efforts) {
@@ -171,8 +173,8 @@ void append_profile(Table& table, const Row& cell, const std::string& measure, d
 }
 
 void append_profiles_of_problems(Table& table, const Selection& rows, const std::string& measure) {
-  for (const Selection& problem : rows.group_by({"problem"})) {
-    const std::vector<Curve> curves = curves_of(problem, measure);
+  for (const Selection& of_solver : rows.group_by({"problem", "solver"})) {
+    const std::vector<Curve> curves = curves_of(of_solver, measure);
     const std::vector<double> budgets = budgets_of(curves);
     for (const Curve& curve : curves) {
       for (const double budget : budgets)
@@ -204,7 +206,7 @@ void append_profiles_of_all(Table& table, const Selection& rows, const std::stri
 Table cold_start_shares(const Selection& rows, double tolerance) {
   Table table(share_columns());
   for (const Selection& grid : rows.group_by(grid_columns)) {
-    const BestCost reference(grid);
+    const BestCost reference(grid, tolerance);
     for (const Selection& cell : grid.group_by(cell_columns)) table.append(shares_of(cell, reference, tolerance));
   }
   return table;

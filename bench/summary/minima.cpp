@@ -35,6 +35,15 @@ bool is_confirmed(const Selection& minimum, double confirmed_replay) {
       minimum, [&](const Row& row) { return row.number("replay_error", confirmed_replay) < confirmed_replay; });
 }
 
+/// How many answers of a method are in minima that no replay confirms.
+std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method, double confirmed_replay) {
+  std::size_t count = 0;
+  for (const Selection& minimum : minima) {
+    if (!is_confirmed(minimum, confirmed_replay)) count += minimum.where("method", method).size();
+  }
+  return count;
+}
+
 /// The lowest confirmed minimum; the end if there is none.
 auto best_of(const std::vector<Selection>& minima, double confirmed_replay) {
   return std::ranges::find_if(minima,
@@ -67,7 +76,7 @@ Table distinct_minima(const Selection& rows, double separation, double confirmed
 
 Table best_minimum_shares(const Selection& rows, double separation, double confirmed_replay) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "starts", "solved",
-               "best", "share", "share_lower", "share_upper"});
+               "unsolved", "unconfirmed", "best", "share", "share_lower", "share_upper"});
   const std::vector<std::string> methods = rows.distinct("method");
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
@@ -82,6 +91,8 @@ Table best_minimum_shares(const Selection& rows, double separation, double confi
       row.set("method", method);
       row.set("starts", starts.size());
       row.set("solved", starts.where("status", "solved").size());
+      row.set("unsolved", starts.size() - starts.where("status", "solved").size());
+      row.set("unconfirmed", unconfirmed_of(minima, method, confirmed_replay));
       row.set("best", hits);
       row.set("share", count.share());
       row.set("share_lower", interval.lower);

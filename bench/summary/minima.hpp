@@ -14,9 +14,9 @@ namespace dmocbench {
 /// is. Rows that were not solved are in no minimum.
 [[nodiscard]] Table distinct_minima(const Selection& rows, double separation, double confirmed_replay);
 
-/// How often each method found the best minimum:
-/// problem,method,tableau,stages,solver,derivatives,intervals,starts,solved,best,share,share_lower,share_upper. The
-/// interval is Wilson's, 95 %.
+/// How often each method found the best minimum: problem,method,tableau,stages,solver,derivatives,intervals,starts,
+/// solved,unsolved,unconfirmed,best,share,share_lower,share_upper. `unconfirmed` counts answers in minima that no
+/// replay confirms. The interval is Wilson's, 95 %.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation, double confirmed_replay);
 
 }  // namespace dmocbench

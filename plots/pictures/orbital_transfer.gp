@@ -9,7 +9,7 @@ stats table(picture) using (sqrt(column("x_[km]")**2 + column("y_[km]")**2)) nam
 arrow_scale = 0.3 * R_max / largest_thrust
 
 eval begin_figure(kind, problem."_motion", 1100, 600)
-eval begin_panels(problem_label(problem).": thrust along the motion raises the orbit little by little")
+eval begin_panels(problem_label(problem).": the optimal motion".by_whom)
 
 # The plane, to scale: the Earth's radius is the distance from its centre less the altitude.
 eval left_square
@@ -19,7 +19,7 @@ set cbrange [T_min:T_max]
 set xlabel "x [km]"
 set ylabel "y [km]"
 set label 1 "Earth" at 0, 0.12 * R_max center front textcolor rgb "#52697A"
-set label 2 sprintf("arrows: thrust\nthe longest %.3g m/s^2", largest_thrust) at 0, -0.3 * R_max center front\
+set label 2 sprintf("arrows: thrust, across the radius\nthe longest %.3g m/s^2\ncolour: time, as on the right", largest_thrust) at 0, -0.3 * R_max center front\
     font ",12" textcolor rgb "#52697A"
 plot table(picture) every ::0::0\
      using (0):(0):(sqrt(column("x_[km]")**2 + column("y_[km]")**2) - column("altitude_[km]"))\
@@ -43,8 +43,8 @@ plot table(picture) using (column("t_[h]")):(column("altitude_[km]")):(column("t
      with lines linewidth 3 dashtype 1 linecolor palette
 eval right_panel(0.13, 0.475)
 set format x "%g"
-set xlabel "time t [h]"
-set ylabel "thrust [m/s^2]"
+set xlabel "time t [hours]"
+set ylabel "acceleration by the thrust [m/s^2]"
 plot table(picture) using (column("t_[h]")):(column("thrust_[m/s^2]")):(column("t_[h]"))\
      with lines linewidth 3 dashtype 1 linecolor palette
 unset multiplot

@@ -92,6 +92,17 @@ inline Rows share_rows() {
           row_of_texts(columns, {orbit, "tangent", "gauss", "1", "ipopt", "tape", "48", "40", "4", "0.05", "0.2"})};
 }
 
+inline Rows cold_start_rows() {
+  Rows rows;
+  for (const char* const method : {"dmoc", "hamiltonian", "tangent"}) {
+    rows.push_back(
+        row_of_texts({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "start_kind",
+                      "starts", "confirmed", "best"},
+                     {orbit, method, "gauss", "1", "interior_point", "tape", "64", "cold", "1000", "950", "900"}));
+  }
+  return rows;
+}
+
 inline Rows profile_rows() {
   Rows rows;
   for (const std::string method : {"dmoc", "hamiltonian"}) {
@@ -141,6 +152,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["structure_advantage_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();
   rows["local_minima_shares"] = share_rows();
+  rows["cold_start_shares"] = cold_start_rows();
   rows["profile"] = profile_rows();
   return rows;
 }

@@ -9,7 +9,7 @@
 namespace dmocbench {
 namespace {
 
-Row answer(const char* problem, const char* method, const char* status, double objective, double evaluations) {
+Row cold_answer(const char* problem, const char* method, const char* status, double objective, double evaluations) {
   Row row;
   row.set("problem", problem);
   row.set("method", method);
@@ -28,22 +28,22 @@ Row answer(const char* problem, const char* method, const char* status, double o
 
 /// DMOC: two on the best branch, one elsewhere, one too coarse, two lost; tangent: one lower than the tolerance
 /// explains.
-Table answers() {
+Table cold_answers() {
   Table table;
-  table.append(answer("p", "dmoc", "solved", 100.0, 50.0));
-  table.append(answer("p", "dmoc", "solved", 101.0, 100.0));
-  table.append(answer("p", "dmoc", "solved", 120.0, 60.0));
-  table.append(answer("p", "dmoc", "too coarse", 80.0, 70.0));
-  table.append(answer("p", "dmoc", "acceptable", 100.0, 300.0));
-  table.append(answer("p", "dmoc", "iteration limit", 99.0, 900.0));
-  table.append(answer("p", "tangent", "solved", 95.0, 80.0));
-  table.append(answer("p", "tangent", "solved", 100.5, 40.0));
+  table.append(cold_answer("p", "dmoc", "solved", 100.0, 50.0));
+  table.append(cold_answer("p", "dmoc", "solved", 101.0, 100.0));
+  table.append(cold_answer("p", "dmoc", "solved", 120.0, 60.0));
+  table.append(cold_answer("p", "dmoc", "too coarse", 80.0, 70.0));
+  table.append(cold_answer("p", "dmoc", "acceptable", 100.0, 300.0));
+  table.append(cold_answer("p", "dmoc", "iteration limit", 99.0, 900.0));
+  table.append(cold_answer("p", "tangent", "solved", 95.0, 80.0));
+  table.append(cold_answer("p", "tangent", "solved", 100.5, 40.0));
   return table;
 }
 
-Table with_reference(double reference) {
+Table cold_answers_with(double reference) {
   Table table;
-  const Table all = answers();
+  const Table all = cold_answers();
   for (Row row : all.rows()) {
     row.set("reference_objective", reference);
     table.append(std::move(row));
@@ -52,7 +52,7 @@ Table with_reference(double reference) {
 }
 
 TEST(ColdStartShares, CountEveryStartOnce) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
   ASSERT_EQ(shares.rows().size(), 2U);
   for (const Row& row : shares.rows()) {
     EXPECT_EQ(row.needed("best") + row.needed("elsewhere"), row.needed("confirmed"));
@@ -69,13 +69,13 @@ TEST(ColdStartShares, CountEveryStartOnce) {
 }
 
 TEST(ColdStartShares, CallNothingSolvedThatIsOnlyAcceptableAndNameEveryFailure) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
   EXPECT_EQ(shares.rows()[0].text("failures"), "acceptable 1, iteration limit 1");
   EXPECT_EQ(shares.rows()[1].text("failures"), "");
 }
 
 TEST(ColdStartShares, AreOfAllStartsWithWilsonsInterval) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
   const Row& row = shares.rows().front();
   const ShareInterval interval = wilson_interval({.hits = 2, .trials = 6});
   EXPECT_DOUBLE_EQ(row.needed("best_share"), 2.0 / 6.0);
@@ -84,14 +84,14 @@ TEST(ColdStartShares, AreOfAllStartsWithWilsonsInterval) {
 }
 
 TEST(ColdStartShares, TellWhatIsConfirmedBelowTheReference) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
   EXPECT_EQ(shares.rows()[0].needed("below_reference"), 0.0);
   EXPECT_EQ(shares.rows()[1].needed("below_reference"), 1.0);
   EXPECT_EQ(shares.rows()[1].needed("best"), 2.0);
 }
 
 TEST(ColdStartShares, TakeTheLowestConfirmedCostOfAnyMethodWhereNothingIsCertified) {
-  const Table shares = cold_start_shares(answers(), 0.02);
+  const Table shares = cold_start_shares(cold_answers(), 0.02);
   for (const Row& row : shares.rows()) {
     EXPECT_EQ(row.needed("reference_objective"), 95.0);
     EXPECT_EQ(row.text("reference_kind"), "lowest confirmed");
@@ -100,8 +100,17 @@ TEST(ColdStartShares, TakeTheLowestConfirmedCostOfAnyMethodWhereNothingIsCertifi
   EXPECT_EQ(shares.rows()[1].needed("best"), 1.0);
 }
 
+TEST(ColdStartShares, TakeTheLowestConfirmedCostWhereNoneReachesTheCertifiedOne) {
+  const Table shares = cold_start_shares(cold_answers_with(40.0), 0.02);
+  for (const Row& row : shares.rows()) {
+    EXPECT_EQ(row.needed("certified_objective"), 40.0);
+    EXPECT_EQ(row.needed("reference_objective"), 95.0);
+    EXPECT_EQ(row.text("reference_kind"), "lowest confirmed");
+  }
+}
+
 TEST(ColdStartShares, HaveQuartilesOfTheBestAnswersOnly) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
   const Row& dmoc = shares.rows().front();
   EXPECT_DOUBLE_EQ(dmoc.needed("evaluations_lower_quartile"), 62.5);
   EXPECT_DOUBLE_EQ(dmoc.needed("evaluations_median"), 75.0);
@@ -111,7 +120,7 @@ TEST(ColdStartShares, HaveQuartilesOfTheBestAnswersOnly) {
 
 TEST(ColdStartShares, LeaveQuartilesEmptyWhereNothingIsTheBest) {
   Table lost;
-  lost.append(answer("p", "dmoc", "step failed", 1.0, 5.0));
+  lost.append(cold_answer("p", "dmoc", "step failed", 1.0, 5.0));
   const Table shares = cold_start_shares(lost, 0.02);
   const Row& row = shares.rows().front();
   EXPECT_EQ(row.text("evaluations_median"), "");
@@ -120,8 +129,8 @@ TEST(ColdStartShares, LeaveQuartilesEmptyWhereNothingIsTheBest) {
 }
 
 TEST(ColdStartProfiles, RiseToTheShareThatIsConfirmed) {
-  const Table shares = cold_start_shares(with_reference(100.0), 0.02);
-  const Table profiles = cold_start_profiles(with_reference(100.0));
+  const Table shares = cold_start_shares(cold_answers_with(100.0), 0.02);
+  const Table profiles = cold_start_profiles(cold_answers_with(100.0));
   for (const std::string measure : {"evaluations", "seconds"}) {
     for (const Row& cell : shares.rows()) {
       const Selection curve = Selection(profiles).where("measure", measure).where("method", cell.text("method"));
@@ -141,8 +150,8 @@ TEST(ColdStartProfiles, RiseToTheShareThatIsConfirmed) {
 
 TEST(ColdStartProfiles, GiveEveryProblemTheSameWeight) {
   Table table;
-  for (int i = 0; i < 9; ++i) table.append(answer("hard", "dmoc", "step failed", 1.0, 5.0));
-  table.append(answer("easy", "dmoc", "solved", 1.0, 10.0));
+  for (int i = 0; i < 9; ++i) table.append(cold_answer("hard", "dmoc", "step failed", 1.0, 5.0));
+  table.append(cold_answer("easy", "dmoc", "solved", 1.0, 10.0));
   const Table profiles = cold_start_profiles(table);
   const Selection mean = Selection(profiles).where("problem", every_problem).where("measure", "evaluations");
   ASSERT_FALSE(mean.empty());
@@ -151,7 +160,7 @@ TEST(ColdStartProfiles, GiveEveryProblemTheSameWeight) {
 
 TEST(ColdStartProfiles, StayShortHoweverManyStartsThereAre) {
   Table table;
-  for (int i = 1; i <= 1000; ++i) table.append(answer("p", "dmoc", "solved", 1.0, i));
+  for (int i = 1; i <= 1000; ++i) table.append(cold_answer("p", "dmoc", "solved", 1.0, i));
   const Table profiles = cold_start_profiles(table);
   const Selection curve = Selection(profiles).where("measure", "evaluations");
   EXPECT_LE(curve.size(), 100U);

@@ -56,6 +56,10 @@ TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   EXPECT_EQ(shares.rows()[0].number("solved"), 2.0);
   EXPECT_EQ(shares.rows()[0].number("best"), 1.0);
   EXPECT_EQ(shares.rows()[1].number("best"), 2.0);
+  EXPECT_EQ(shares.rows()[0].number("unsolved"), 1.0);
+  EXPECT_EQ(shares.rows()[0].number("unconfirmed"), 0.0);
+  EXPECT_EQ(shares.rows()[1].number("unsolved"), 0.0);
+  EXPECT_EQ(shares.rows()[1].number("unconfirmed"), 1.0);
   EXPECT_LT(shares.rows()[0].number("share_lower").value_or(1.0), 1.0 / 3.0);
   EXPECT_GT(shares.rows()[0].number("share_upper").value_or(0.0), 1.0 / 3.0);
 }

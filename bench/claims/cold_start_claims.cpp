@@ -1,0 +1,86 @@
+// Cold starts: how often a method is solved from the problem's guess and near it, which no warm start tells.
+#include <algorithm>
+
+#include "bench/claims/claim.hpp"
+#include "bench/summary/share_interval.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Shares that differ by less are "as often".
+constexpr double same_share = 0.05;
+
+/// How many of the cold starts of a row are counted in a column. Throws `Error` if the row is not about cold starts,
+/// has none, or counts more than there were or parts of one.
+ShareCount count_of(const Row& row, const char* column) {
+  require(row.text("start_kind") == "cold", "{}, column start_kind: the claim is about cold starts", row.place());
+  const double starts = row.needed("starts");
+  const double hits = row.needed(column);
+  constexpr double most_starts = 1e9;
+  const bool are_counts = starts == std::floor(starts) && hits == std::floor(hits);
+  require(are_counts && starts >= 1.0 && starts <= most_starts && hits >= 0.0 && hits <= starts,
+          "{}: {} of {} starts in column {}", row.place(), hits, starts, column);
+  return {.hits = static_cast<std::size_t>(hits), .trials = static_cast<std::size_t>(starts)};
+}
+
+/// The verdict on "the first share is the second", by the interval of their difference.
+ClaimVerdict verdict_on_difference(const ShareInterval& difference) {
+  if (difference.lower > -same_share && difference.upper < same_share) return ClaimVerdict::reproduced;
+  if (difference.lower > same_share || difference.upper < -same_share) return ClaimVerdict::differs;
+  return ClaimVerdict::undecided;
+}
+
+/// Holds if against every kind of collocation, by interior_point, the interval of the difference lies within
+/// `same_share` of 0; differs if against one of them it lies outside.
+Finding as_often(const ResultTables& tables, const std::string& problem, const char* column) {
+  const Selection rows = tables.rows("cold_start_shares", problem).where("solver", "interior_point");
+  const Selection dmoc = midpoint(rows, "dmoc");
+  require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
+          problem);
+  const ShareCount own = count_of(dmoc.front(), column);
+  std::string words = fmt::format("dmoc {} of {} cold starts", own.hits, own.trials);
+  std::vector<ClaimVerdict> verdicts;
+  for (const std::string method : {"hamiltonian", "tangent"}) {
+    const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
+    require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} beside that of dmoc, not one",
+            others.size(), problem, method);
+    const ShareCount count = count_of(others.front(), column);
+    const ShareInterval difference = difference_interval(own, count);
+    verdicts.push_back(verdict_on_difference(difference));
+    words += fmt::format("; {} {} of {}, difference {:+.1f} to {:+.1f} %", method, count.hits, count.trials,
+                         100.0 * difference.lower, 100.0 * difference.upper);
+  }
+  const auto any = [&](ClaimVerdict verdict) { return std::ranges::count(verdicts, verdict) > 0; };
+  const ClaimVerdict verdict = any(ClaimVerdict::differs)     ? ClaimVerdict::differs
+                               : any(ClaimVerdict::undecided) ? ClaimVerdict::undecided
+                                                              : ClaimVerdict::reproduced;
+  return found(verdict, "{}; 95 % intervals", words);
+}
+
+Predicate as_often_in(const char* column) {
+  return [column](const ResultTables& tables, const std::string& problem) { return as_often(tables, problem, column); };
+}
+
+}  // namespace
+
+Claims cold_start_claims() {
+  return {{.id = "cold_starts_confirmed_as_often",
+           .problems = of_paper,
+           .where = "section 4.1, SQP Method",
+           .whose = Whose::ours,
+           .states = "from cold starts, the guess and near it, DMOC is solved and confirmed as often as collocation",
+           .judge = as_often_in("confirmed"),
+           .condition = "as often: shares of cold starts differ by less than 5 %; by interior_point",
+           .evidence = {"cold_start_shares.csv", "figures/{}_cold_start.svg"}},
+          {.id = "cold_starts_best_as_often",
+           .problems = of_paper,
+           .where = "section 5, Global Minima",
+           .whose = Whose::ours,
+           .states = "from cold starts, the guess and near it, DMOC ends on the best branch as often as collocation",
+           .judge = as_often_in("best"),
+           .condition = "as often: shares of cold starts differ by less than 5 %; by interior_point",
+           .evidence = {"cold_start_shares.csv", "figures/{}_cold_start.svg"}}};
+}
+
+}  // namespace dmocbench
