@@ -120,4 +120,50 @@ class Kepler final : public ExampleSystem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u[0] * x.q; }
 };
 
+/// A system in space under a force f = u of any direction.
+class SystemInSpace : public ExampleSystem {
+ public:
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_x", "u_y", "u_z"}; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+
+ protected:
+  explicit SystemInSpace(std::string name)
+      : ExampleSystem(std::move(name), {"x", "y", "z"},
+                      {Eigen::Vector3d(1.0, 0.2, -0.3), Eigen::Vector3d(0.1, 0.8, 0.4)}, 20.0) {}
+};
+
+/// A bob of unit mass on a spring of unit length, without weight: L = ½|q̇|² - 5(|q| - 1)².
+class ElasticPendulum final : public SystemInSpace {
+ public:
+  ElasticPendulum() : SystemInSpace("elastic_pendulum") {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression stretch = sqrt(x.q.dot(x.q)) - 1.0;
+    return 0.5 * x.v.dot(x.v) - 5.0 * stretch * stretch;
+  }
+};
+
+/// A particle on the three-sphere in stereographic coordinates: L = 2|q̇|²/(1 + |q|²)². L_vv moves with q.
+class ThreeSphere final : public SystemInSpace {
+ public:
+  ThreeSphere() : SystemInSpace("three_sphere") {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression scale = 1.0 + x.q.dot(x.q);
+    return 2.0 * x.v.dot(x.v) / (scale * scale);
+  }
+};
+
+/// A spherical pendulum without weight, q = (θ, φ), L = ½(θ̇² + sin²θ φ̇²), f = u.
+class WeightlessPendulum final : public ExampleSystem {
+ public:
+  WeightlessPendulum()
+      : ExampleSystem("weightless_pendulum", {"theta", "phi"}, {Eigen::Vector2d(1.2, 0.0), Eigen::Vector2d(0.2, 1.0)},
+                      20.0) {}
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_theta", "u_phi"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    const Expression sine = sin(x.q[0]);
+    return 0.5 * (x.v[0] * x.v[0] + sine * sine * x.v[1] * x.v[1]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+};
+
 }  // namespace dmocbench

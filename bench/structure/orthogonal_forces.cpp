@@ -25,7 +25,7 @@ struct KeptMomentum {
   double rounding = 0.0;
 };
 
-const Columns<KeptMomentum> columns =
+const Columns<KeptMomentum> kept_momentum_columns =
     scheme_columns<KeptMomentum>() +
     Columns<KeptMomentum>{
         {"intervals", "", "number of intervals N", &KeptMomentum::intervals},
@@ -83,7 +83,7 @@ Table orthogonal_forces_table(const SolverOptions& options) {
       }
     }
   }
-  return table_of(columns, rows);
+  return table_of(kept_momentum_columns, rows);
 }
 
 }  // namespace dmocbench
