@@ -1,4 +1,5 @@
 // Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -8,9 +9,13 @@
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/smoothness/restated_problem.hpp"
+#include "methods/diagnostics/exact_discrete_lagrangian.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/interpolation.hpp"
+#include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::programs {
@@ -83,6 +88,131 @@ Slip mayer_gradient(const Problem& problem, const Trajectory& motion) {
           .required = motion.p(last, 1) - motion.p(0, 1)};
 }
 
+/// The control at T of the two shaken masses when their final state costs ½w(|q|² + |q̇|²): H = -C + λ·f is largest at
+/// u = c λ_p₂ ẋ₂, and λ(T) = -∇Φ has p₂ part -w ẋ₂/m₂. As printed, λ(T) = +∇Φ, the sign would be the other one.
+Slip transversality(StartProvider& starts) {
+  constexpr double weight = 1e3;
+  const std::shared_ptr<const Problem> free = make_problem("double_oscillator");
+  const auto problem = std::make_shared<RestatedProblem>(free, RestatedProblem::Changes{.final_weight = weight});
+  const Trajectory motion = starts.solve({.problem = problem,
+                                          .method = "dmoc",
+                                          .tableau = "gauss",
+                                          .stages = 4,
+                                          .solver = "ipopt",
+                                          .grid = Grid::uniform(128)});
+  const double v = motion.v(motion.intervals(), 1);
+  const double control = weight * free->parameter("damping") * v * v / free->parameter("mass_2");
+  return {.problem = problem->name(),
+          .name = "transversality",
+          .where = "th:pontryagin",
+          .printed = "lambda(T) = grad Phi - grad r alpha",
+          .meant = "lambda(T) = -grad Phi - grad r alpha, as H = -C + lambda f is maximised",
+          .quantity = "control at T, final state free with the cost 500 (|q|^2 + |q'|^2)",
+          .as_printed = control,
+          .as_meant = -control,
+          .required = control_at(motion, motion.node_times[motion.intervals()])[0]};
+}
+
+/// L(η, λ*) - L(η*, λ*) of the double integrator, with q, v and u all moved, none of them at the ends. λ* = (λ_q, λ_p)
+/// with λ_p = u* and λ̇_q = 0.
+Slip saddle_point() {
+  const auto problem = make_problem("double_integrator");
+  const auto& closed = dynamic_cast<const ClosedForm&>(*problem);
+  constexpr int points = 2000;
+  constexpr double pi = std::numbers::pi;
+  double difference = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double t = (i + 0.5) / points;
+    const OptimalPoint at = closed.optimum(t).value();
+    const double u = at.motion.u[0];
+    const double lambda_q = -at.psi_q[0];  // λ = -ψ
+    const double lambda_p = -at.psi_p[0];
+    // δq = sin²(πt), δv = sin(2πt), δu = cos(3t); η* solves the equations of motion.
+    const double moved_u = u + std::cos(3.0 * t);
+    const double q_equation = pi * std::sin(2.0 * pi * t) - std::sin(2.0 * pi * t);
+    const double v_equation = 2.0 * pi * std::cos(2.0 * pi * t) - std::cos(3.0 * t);
+    difference += (0.5 * moved_u * moved_u - 0.5 * u * u + lambda_q * q_equation + lambda_p * v_equation) / points;
+  }
+  return {.problem = problem->name(),
+          .name = "saddle_point",
+          .where = "below eq:ocp_Jaug",
+          .printed = "L(eta, lambda*) <= L(eta*, lambda*) <= L(eta*, lambda)",
+          .meant = "L(eta*, lambda) <= L(eta*, lambda*) <= L(eta, lambda*), as J is minimised",
+          .quantity = "sign of L(eta, lambda*) - L(eta*, lambda*) for one eta near the optimum",
+          .as_printed = -1.0,
+          .as_meant = 1.0,
+          .required = std::copysign(1.0, difference)};
+}
+
+/// The Lemma's proof on an interval of the orbit: -D_1 L_d^E - f_d^{E-} = -∫ [L_q - d/dt L_v + f]·∂q/∂q_0 dt + L_v(0),
+/// where the bracket vanishes. As printed, with -f in it, the integral would be 2 f_d^{E-}.
+Slip force_in_lemma(const Problem& problem) {
+  constexpr long double h = 0.5L;
+  constexpr long double e = 1e-5L;
+  const ExactDiscreteLagrangian exact(
+      problem, [](const Expression& t) { return ExpressionVector::Constant(1, 0.1 + 0.1 * sin(t)); });
+  const BoundaryState first = problem.initial_state();
+  const LongVector q_0 = first.q.cast<long double>();
+  const LongVector v_0 = first.v.cast<long double>();
+  const ExactInterval interval = exact.along(q_0, v_0, h);
+  const LongVector moved = e * LongVector::Unit(2, 1);
+  const auto lagrangian = [&](const LongVector& left) {
+    return exact.between(left, interval.q_1, v_0, h).objects.lagrangian;
+  };
+  const long double slope = (lagrangian(q_0 + moved) - lagrangian(q_0 - moved)) / (2.0L * e);
+  LegendreTransform legendre{TracedProblem(problem)};
+  const double required = legendre.momentum(first.q, first.v, 0.0)[1];
+  const auto force = static_cast<double>(interval.objects.left_force[1]);
+  return {.problem = problem.name(),
+          .name = "force_in_lemma",
+          .where = "section 2.3, proof of the Lemma",
+          .printed = "-int [L_q - d/dt L_q' - f] dq/dq_0 dt",
+          .meant = "+f in the bracket, which then vanishes",
+          .quantity = "p_phi at the left end of an exact interval",
+          .as_printed = required + 2.0 * force,
+          .as_meant = static_cast<double>(-slope) - force,
+          .required = required};
+}
+
+/// (q^T, p^T) = 𝔽L(q^N, q̇^N) in a statement about continuous motions, which have no N. Read as the state of the last
+/// interval of a discrete one, q̇^N = (q_N - q_{N-1})/h, it misses the momentum that the final state has.
+Slip final_momentum(const Problem& problem, const Trajectory& motion) {
+  const Eigen::Index last = motion.intervals();
+  const BoundaryState end = problem.final_state();
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::VectorXd q = motion.q.row(last).transpose();
+  const Eigen::VectorXd v = (motion.q.row(last) - motion.q.row(last - 1)).transpose() / motion.step(last - 1);
+  return {.problem = problem.name(),
+          .name = "final_momentum",
+          .where = "section 3.2, the Proposition",
+          .printed = "(q^T, p^T) = FL(q^N, q'^N)",
+          .meant = "(q^T, p^T) = FL(q^T, q'^T)",
+          .quantity = "angular momentum at t = T on the optimal transfer, q'^N read as (q_N - q_N-1)/h",
+          .as_printed = legendre.momentum(q, v, 0.0)[1],
+          .as_meant = legendre.momentum(end.q, end.v, 0.0)[1],
+          .required = motion.p(last, 1)};
+}
+
+/// The ratio of free variables, collocation to DMOC, that the minor iterations of a figure reflect: of a long horizon
+/// it is (2n + m)/(n + m). The text gives 1.5.
+Slip figure_of_iterations() {
+  const auto ratio = [](const char* name) {
+    const auto problem = make_problem(name);
+    const auto n = static_cast<double>(problem->configuration_size());
+    const auto m = static_cast<double>(problem->control_size());
+    return (2.0 * n + m) / (n + m);
+  };
+  return {.problem = "two_link_manipulator",
+          .name = "figure_of_iterations",
+          .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations",
+          .printed = "the two-link's minor iterations are in fig:kepler_iterations",
+          .meant = "fig:twolink_iterations, whose caption says low thrust orbital transfer",
+          .quantity = "ratio of variables on the problem of that figure",
+          .as_printed = ratio("orbital_transfer"),
+          .as_meant = ratio("two_link_manipulator"),
+          .required = 1.5};
+}
+
 const Columns<Slip> columns{
     {"problem", "", "name of the problem", &Slip::problem},
     {"slip", "", "short name of the statement", &Slip::name},
@@ -104,12 +234,13 @@ int evaluate_slips(CommandLine& line) {
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
-  const Trajectory motion =
-      StartProvider({}, options)
-          .solve(
-              {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
-  const std::vector<Slip> slips{potential_without_sine(), swapped_momenta(*orbit, motion),
-                                mayer_gradient(*orbit, motion)};
+  StartProvider starts({}, options);
+  const Trajectory motion = starts.solve(
+      {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
+  const std::vector<Slip> slips{potential_without_sine(),       swapped_momenta(*orbit, motion),
+                                mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
+                                transversality(starts),         saddle_point(),
+                                final_momentum(*orbit, motion), figure_of_iterations()};
   const std::filesystem::path file = out / "slips.csv";
   write_file(file, table_of(columns, slips).csv());
   write_complete_run(out / "slips.json", command_line, {file});

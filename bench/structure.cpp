@@ -10,6 +10,8 @@
 #include "bench/structure/energy_tables.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
+#include "bench/structure/orthogonal_forces.hpp"
+#include "bench/structure/rotations.hpp"
 #include "bench/structure/simulated_tables.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/transcription/element.hpp"
@@ -120,6 +122,8 @@ int write_tables(CommandLine& line) {
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   const ModifiedEnergyTables modified = modified_energy_tables();
+  const Table rotations = rotations_table(steps);
+  const Table orthogonal = orthogonal_forces_table(options);
   const EnergyWorkTables work = energy_work_tables(options);
   std::vector<std::filesystem::path> files;
   const auto write = [&](const std::string& name, const Table& table) {
@@ -128,6 +132,8 @@ int write_tables(CommandLine& line) {
     fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
   };
   write("structure_momentum", momentum);
+  write("structure_orthogonal_forces", orthogonal);
+  write("structure_rotations", rotations);
   write("structure_symplecticity", symplecticity);
   write("structure_modified_energy", modified.drifts);
   write("structure_modified_energy_slopes", modified.slopes);
@@ -147,6 +153,10 @@ int main(int argc, char** argv) {
   return dmocbench::run_program(
       "structure",
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
+      "same for "
+      "rotations about three axes (structure_rotations.csv), the "
+      "momentum along optimal motions whose forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), "
+      "the "
       "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
       "(structure_energy.csv, structure_energy_behaviour.csv), the modified energy of the midpoint rule along free "
       "motions "

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cmath>
+
 #include "methods/mechanics/problem.hpp"
+#include "problems/closed_form.hpp"
 #include "problems/common_parameters.hpp"
 
 namespace dmocbench {
@@ -9,12 +12,16 @@ namespace dmocbench {
 ///
 /// L = ½q̇², f = u, C = ½u², from (0, 0) to (d, 0) in the time T. Optimal: q = d(3τ² - 2τ³) with τ = t/T,
 /// u = 6d/T²(1 - 2τ), J = 6d²/T³.
-class DoubleIntegrator final : public Problem {
+///
+/// A force of at most U < 6d/T² is a bound that is active: u = U until ½ - σ, -U from ½ + σ on and between them a line,
+/// with σ² = ¾ - 3d/(T²U), and J = TU²(½ - ⅔σ). Below 4d/T² no motion is left.
+class DoubleIntegrator final : public Problem, public ClosedForm {
  public:
   DoubleIntegrator()
       : Problem({
             {"distance", 1.0, "m", "distance d to travel", 1e-3, 1e3},
             horizon_parameter(1.0, "motion"),
+            {"largest_force", 1e9, "N", "bound U of the force; above 6 d / T^2 there is none", 1e-3, 1e9},
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_integrator"; }
@@ -37,6 +44,36 @@ class DoubleIntegrator final : public Problem {
     return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, parameter("distance")));
   }
   [[nodiscard]] double horizon() const override { return parameter("horizon"); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = Problem::bounds();
+    if (is_bounded()) bounds.u = Bounds::all(1, -parameter("largest_force"), parameter("largest_force"));
+    return bounds;
+  }
+
+  [[nodiscard]] std::optional<OptimalPoint> optimum(double t) const override {
+    if (!(half_ramp() > 0.0)) return std::nullopt;
+    const double duration = parameter("horizon");
+    const double peak = is_bounded() ? parameter("largest_force") : free_peak();
+    const double s = 0.5 - t / duration;  // antisymmetric about 0
+    const double sigma = half_ramp();
+    const double slope = peak / sigma;
+    // Behind the ramp, q and v of the constant force that ends at rest; on it the integrals of slope·s.
+    const double magnitude = std::abs(s);
+    const bool is_on_ramp = magnitude <= sigma;
+    const double rest = 0.5 - magnitude;
+    const double v = is_on_ramp ? peak * (0.5 - sigma) + 0.5 * slope * (sigma * sigma - s * s) : peak * rest;
+    // q of the second half falls short of d by what the first half has gone.
+    const double before_ramp = 0.5 - sigma;
+    const double along = sigma - magnitude;
+    const double gone =
+        is_on_ramp ? 0.5 * peak * before_ramp * before_ramp + peak * before_ramp * along +
+                         0.5 * slope *
+                             (sigma * sigma * along - (sigma * sigma * sigma - magnitude * magnitude * magnitude) / 3.0)
+                   : 0.5 * peak * rest * rest;
+    const double travelled = duration * duration * gone;
+    return scalar_point(s >= 0.0 ? travelled : parameter("distance") - travelled, duration * v,
+                        is_on_ramp ? slope * s : std::copysign(peak, s), -slope / duration, -slope * s);
+  }
 
   /// Translations; without a potential the momentum changes by the work of the control alone.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
@@ -48,10 +85,26 @@ class DoubleIntegrator final : public Problem {
   }
 
  private:
+  /// 6d/T², the largest force where none is too large.
+  [[nodiscard]] double free_peak() const {
+    return 6.0 * parameter("distance") / (parameter("horizon") * parameter("horizon"));
+  }
+  [[nodiscard]] bool is_bounded() const { return parameter("largest_force") < free_peak(); }
+  /// σ, half the duration of the ramp over T; not a number where the force is too small.
+  [[nodiscard]] double half_ramp() const {
+    return is_bounded() ? std::sqrt(0.75 - 0.5 * free_peak() / parameter("largest_force")) : 0.5;
+  }
   [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
     constexpr int double_precision = 16;
     const double d = parameter("distance");
     const double duration = parameter("horizon");
+    if (is_bounded()) {
+      if (!(half_ramp() > 0.0)) return std::nullopt;
+      const double force = parameter("largest_force");
+      return ReferenceOptimum{.objective = duration * force * force * (0.5 - 2.0 / 3.0 * half_ramp()),
+                              .digits = double_precision,
+                              .certificate = "closed form, T U^2 (1/2 - 2/3 sigma)"};
+    }
     ReferenceOptimum optimum{.objective = 6.0 * d * d / (duration * duration * duration),
                              .digits = double_precision,
                              .certificate = "closed form, 6 d^2 / T^3"};

@@ -4,6 +4,7 @@
 
 #include "methods/choose.hpp"
 #include "problems/acrobot.hpp"
+#include "problems/beam.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/container_crane.hpp"
@@ -35,12 +36,25 @@ using Maker = std::unique_ptr<Problem> (*)();
 
 // One line per problem.
 constexpr std::array registry{
-    Maker{make<OrbitalTransfer>},   Maker{make<TwoLinkManipulator>}, Maker{make<KeplerCartesian>},
-    Maker{make<LinkChain>},         Maker{make<DoubleIntegrator>},   Maker{make<ForcedOscillator>},
-    Maker{make<Brachistochrone>},   Maker{make<ParticleSteering>},   Maker{make<CartPole>},
-    Maker{make<Acrobot>},           Maker{make<PlanarQuadrotor>},    Maker{make<PlanarQuadrotorFlip>},
-    Maker{make<SphericalPendulum>}, Maker{make<Hovercraft>},         Maker{make<RobotArm>},
-    Maker{make<HangGlider>},        Maker{make<ContainerCrane>},     Maker{make<DoubleOscillator>},
+    Maker{make<OrbitalTransfer>},
+    Maker{make<TwoLinkManipulator>},
+    Maker{make<KeplerCartesian>},
+    Maker{make<LinkChain>},
+    Maker{make<DoubleIntegrator>},
+    Maker{make<ForcedOscillator>},
+    Maker{make<Brachistochrone>},
+    Maker{make<ParticleSteering>},
+    Maker{make<CartPole>},
+    Maker{make<Acrobot>},
+    Maker{make<PlanarQuadrotor>},
+    Maker{make<PlanarQuadrotorFlip>},
+    Maker{make<SphericalPendulum>},
+    Maker{make<Hovercraft>},
+    Maker{make<RobotArm>},
+    Maker{make<HangGlider>},
+    Maker{make<ContainerCrane>},
+    Maker{make<DoubleOscillator>},
+    Maker{make<Beam>},
 };
 
 constexpr auto problem_name = [](const Maker create) { return create()->name(); };

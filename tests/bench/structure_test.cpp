@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/structure/energy_tables.hpp"
 #include "bench/structure/long_time_energy.hpp"
+#include "bench/structure/orthogonal_forces.hpp"
 #include "bench/structure/simulated_tables.hpp"
 
 namespace dmocbench {
@@ -54,7 +56,31 @@ TEST(SymplecticityTable, OnlyTangentWithAMovingMassIsNotSymplectic) {
   }
 }
 
-TEST(LongTimeEnergy, OscillationFallsWithTheOrderAndOnlyExplicitMethodsLeaveIt) {
+TEST(OrthogonalForces, KeepTheMomentumOfOptimalMotionsUnlessTheyAreCollocatedInTangentSpace) {
+  const Table table = orthogonal_forces_table({});
+  ASSERT_FALSE(table.rows().empty());
+  for (const Row& row : table.rows()) {
+    const std::string label = row.text("problem") + " " + row.text("method") + " " + row.text("intervals");
+    EXPECT_GT(number(row, "largest_control"), 1e-2) << label;
+    if (row.text("method") == "tangent") {
+      EXPECT_GT(number(row, "momentum_deviation"), 1e-10) << label;
+    } else {
+      EXPECT_LT(number(row, "momentum_deviation"), 10.0 * number(row, "rounding")) << label;
+    }
+  }
+}
+
+TEST(ModifiedEnergyTables, DriftWithTheOrderOfTheirTruncationUnlessTangentSpaceHasAMovingMass) {
+  const Table slopes = modified_energy_tables().slopes;
+  ASSERT_FALSE(slopes.rows().empty());
+  for (const Row& row : slopes.rows()) {
+    const bool is_other_rule = row.text("method") == "tangent" && row.text("problem") != "pendulum";
+    const double order = is_other_rule ? 2.0 : std::stod(row.text("quantity").substr(6));  // behind "drift_"
+    EXPECT_NEAR(number(row, "slope"), order, 0.1) << row.text("problem") << row.text("method") << row.text("quantity");
+  }
+}
+
+TEST(LongTimeEnergy, OscillationFallsWithTheOrderAndOnlyMethodsThatAreNotSymplecticLeaveIt) {
   for (const LongTimeMethod& method : long_time_methods()) {
     const EnergyBehaviour coarse = energy_behaviour(long_time_energy(method, 64, 100));
     if (method.name != "dmoc") {

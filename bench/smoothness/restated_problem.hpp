@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// A problem with its control bounded, or with its final state free and the distance to it in the cost.
+class RestatedProblem final : public Problem {
+ public:
+  /// What differs from the problem.
+  struct Changes {
+    std::optional<Bounds> control = std::nullopt;
+    /// w: the final state is free and the cost has the further term ½w(|q(T) - q^T|² + |q̇(T) - q̇^T|²).
+    std::optional<double> final_weight = std::nullopt;
+  };
+  RestatedProblem(std::shared_ptr<const Problem> base, Changes changes)
+      : base_(std::move(base)), changes_(std::move(changes)) {}
+
+  [[nodiscard]] std::string name() const override { return base_->name(); }
+  [[nodiscard]] ProblemCard card() const override {
+    ProblemCard card = base_->card();
+    card.reference.reset();
+    return card;
+  }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return base_->configuration_names(); }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return base_->control_names(); }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return base_->lagrangian(x); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_->force(x); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_->running_cost(x); }
+  [[nodiscard]] BoundaryState initial_state() const override { return base_->initial_state(); }
+  [[nodiscard]] BoundaryState final_state() const override { return base_->final_state(); }
+  [[nodiscard]] double horizon() const override { return base_->horizon(); }
+  [[nodiscard]] ProblemBounds bounds() const override {
+    ProblemBounds bounds = base_->bounds();
+    if (changes_.control) bounds.u = *changes_.control;
+    if (changes_.final_weight) {
+      bounds.last = {.q = Bounds::none(configuration_size()), .v = Bounds::none(configuration_size())};
+    }
+    return bounds;
+  }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return base_->path_constraints(x);
+  }
+  [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& last) const override {
+    return base_->boundary_conditions(first, last);
+  }
+  [[nodiscard]] Expression final_cost(const State& last) const override {
+    Expression cost = base_->final_cost(last);
+    if (!changes_.final_weight) return cost;
+    const BoundaryState wanted = final_state();
+    for (Eigen::Index i = 0; i < wanted.q.size(); ++i) {
+      const Expression q = last.q[i] - wanted.q[i];
+      const Expression v = last.v[i] - wanted.v[i];
+      cost += 0.5 * *changes_.final_weight * (q * q + v * v);
+    }
+    return cost;
+  }
+  [[nodiscard]] double cost_scale() const override { return base_->cost_scale(); }
+  [[nodiscard]] MotionPoint guess(double t) const override { return base_->guess(t); }
+
+ private:
+  std::shared_ptr<const Problem> base_;
+  Changes changes_;
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "bench/smoothness/optimum_error.hpp"
+#include "bench/smoothness/restated_problem.hpp"
+#include "problems/closed_form.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+std::unique_ptr<Problem> bounded_integrator() {
+  auto problem = make_problem("double_integrator");
+  problem->set_parameter("largest_force", 5.0);
+  return problem;
+}
+
+/// A solve whose numbers are replaced by those of the closed form.
+Trajectory exact_on_eight_intervals(const Problem& problem) {
+  const auto& closed = dynamic_cast<const ClosedForm&>(problem);
+  Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(8), guessed_motion(problem)).trajectory;
+  for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
+    const OptimalPoint point = closed.optimum(motion.node_times[k]).value();
+    motion.q.row(k) = point.motion.q;
+    motion.v.row(k) = motion.p.row(k) = point.motion.v;  // unit mass
+    motion.psi_q.row(k) = point.psi_q;
+    motion.psi_p.row(k) = point.psi_p;
+  }
+  for (Eigen::Index i = 0; i < motion.stage_u.rows(); ++i) {
+    motion.stage_u.row(i) = closed.optimum(motion.stage_times[i])->motion.u;
+  }
+  motion.cost = problem.card().reference->objective;
+  return motion;
+}
+
+TEST(OptimumError, VanishesOnTheClosedFormAndFindsWhatIsMoved) {
+  const auto problem = bounded_integrator();
+  const KnownOptimum optimum(*problem, std::nullopt);
+  Trajectory motion = exact_on_eight_intervals(*problem);
+  const OptimumError none = optimum.error_of(motion);
+  for (const double error :
+       {none.state, none.costate_q, none.costate_p, none.node_control, none.control, none.objective}) {
+    EXPECT_LT(error, 1e-13);
+  }
+  motion.q(3, 0) += 0.03;
+  motion.p(3, 0) += 0.04;
+  motion.psi_p(4, 0) += 0.2;  // on the ramp, where the control follows the costate
+  motion.psi_p(0, 0) -= 0.1;  // beyond the bound, where it does not
+  motion.stage_u(5, 0) -= 0.7;
+  motion.cost += 0.5;
+  const OptimumError moved = optimum.error_of(motion);
+  EXPECT_NEAR(moved.state, 0.05, 1e-13);
+  EXPECT_NEAR(moved.costate_p, 0.2, 1e-13);
+  EXPECT_NEAR(moved.node_control, 0.2, 1e-13);
+  EXPECT_NEAR(moved.control, 0.7, 1e-13);
+  EXPECT_NEAR(moved.objective, 0.5, 1e-13);
+}
+
+TEST(OptimumError, NeedsAClosedFormOrAFinerMotion) {
+  const auto problem = make_problem("two_link_manipulator");
+  tests::expect_error_naming({"two_link_manipulator", "closed form"},
+                             [&] { static_cast<void>(KnownOptimum(*problem, std::nullopt)); });
+}
+
+TEST(OptimumError, AgainstAFinerMotionIsThatAgainstTheClosedForm) {
+  const auto problem = bounded_integrator();
+  const Trajectory coarse = tests::solve(*problem, {"dmoc", 1}, Grid::uniform(24), guessed_motion(*problem)).trajectory;
+  const Trajectory finer = tests::solve(*problem, {"dmoc", 2}, Grid::uniform(768), guessed_motion(*problem)).trajectory;
+  const OptimumError exact = KnownOptimum(*problem, std::nullopt).error_of(coarse);
+  const OptimumError measured = KnownOptimum(*problem, finer).error_of(coarse);
+  EXPECT_NEAR(measured.state, exact.state, 0.02 * exact.state);
+  EXPECT_NEAR(measured.costate_p, exact.costate_p, 0.02 * exact.costate_p);
+  EXPECT_NEAR(measured.node_control, exact.node_control, 0.02 * exact.node_control);
+}
+
+TEST(RestatedProblem, LeavesTheFinalStateFreeAtThePriceOfItsDistance) {
+  const std::shared_ptr<const Problem> base = make_problem("double_integrator");
+  const RestatedProblem problem(base, {.final_weight = 2.0});
+  // min ½∫u² + (q(1) - 1)² + v(1)²: with u = a - b(1 - t) stationary in a and b, a = -2 v(1), b = 2 (q(1) - 1).
+  // v(1) = a - b/2 and q(1) = a/2 - b/3 give 3a = b, b (1 + 2/3) - a = -2: a = -1/2, b = -3/2.
+  const Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(4), guessed_motion(problem)).trajectory;
+  EXPECT_NEAR(motion.q(4, 0), 0.25, 1e-9);
+  EXPECT_NEAR(motion.v(4, 0), 0.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace dmocbench
