@@ -2,6 +2,8 @@
 
 #include <boost/numeric/odeint.hpp>
 
+#include "methods/runtime/stop_scope.hpp"
+
 namespace dmocbench {
 
 template <class Scalar>
@@ -11,8 +13,13 @@ bool integrate(const Rate<std::type_identity_t<Scalar>>& rate, std::vector<Scala
   namespace odeint = boost::numeric::odeint;
   using State = std::vector<Scalar>;
   using Stepper = odeint::runge_kutta_fehlberg78<State, Scalar, State, Scalar>;
+  const auto rate_in_time = [&rate](const State& at, State& result, Scalar t) {
+    stop_if_requested();
+    rate(at, result, t);
+  };
   try {
-    odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), rate, x, from, to, first_step);
+    odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), rate_in_time, x, from, to,
+                               first_step);
   } catch (const odeint::odeint_error&) {
     return false;
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/runtime/stop_scope.hpp"
+
 namespace dmocbench {
 namespace {
 
@@ -25,6 +27,16 @@ TEST(AdaptiveIntegration, FollowsATurnOfGrowingSpeed) {
   expect_that_a_turn_of_growing_speed_is_followed<double>(1e-12);
   expect_that_a_turn_of_growing_speed_is_followed<double>(1e-6);
   expect_that_a_turn_of_growing_speed_is_followed<long double>(1e-17L);
+}
+
+TEST(AdaptiveIntegration, EndsWithItsStopScope) {
+  const auto spin = [](const std::vector<double>& x, std::vector<double>& rate, double) {
+    rate[0] = 1e9 * x[1];
+    rate[1] = -1e9 * x[0];
+  };
+  std::vector<double> x{1.0, 0.0};
+  const StopScope scope(nullptr, 1e-3);
+  EXPECT_THROW(static_cast<void>(integrate(spin, x, 0.0, 1.0, 1.0, 1e-12)), Stopped);
 }
 
 }  // namespace
