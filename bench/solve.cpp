@@ -100,6 +100,7 @@ class Solve final : public Experiment {
                                      {"tableau", the_case.tableau},
                                      {"stages", the_case.stages},
                                      {"solver", the_case.solver},
+                                     {"answered_by", solved.solution.solver},
                                      {"intervals", the_case.intervals()},
                                      {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
       fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);

@@ -20,6 +20,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/written_tables.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -219,10 +220,13 @@ class Run {
     return unsolved;
   }
 
-  /// The row of a solved case, with what the experiment measures; without memory for that its message says so.
+  /// The row of a solved case, with what the experiment measures; without memory or time for that its message says so.
   Row completed(SolvedCase& solved) {
     try {
+      const StopScope scope(interrupt_requested, solved.seconds_left);
       experiment_.complete(solved);
+    } catch (const Stopped&) {
+      note_stop(solved, "What is measured of the answer is missing");
     } catch (const Error&) {
       throw;
     } catch (const std::exception& error) {

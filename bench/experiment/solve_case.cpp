@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -23,13 +24,33 @@ namespace dmocbench {
 
 namespace {
 
-/// Solves several times from the same start; the answer is the first one's, the times are medians.
-void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
-  std::vector<Solution> solutions{solver.solve(*solved.program, solved.start)};
-  solved.solution = solutions.front();
-  for (int i = 1; i < repeats && is_solved(solved.solution.status); ++i) {
+/// The time that a case may take.
+class TimeOfCase {
+ public:
+  explicit TimeOfCase(const SolverOptions& options) : options_(options) {}
+
+  /// Infinite without a limit, at least a moment with one, since 0 would be none.
+  [[nodiscard]] double left() const {
+    constexpr double moment = 1e-9;
+    return options_.most_seconds > 0.0 ? std::max(options_.most_seconds - seconds_since(begin_), moment) : unbounded;
+  }
+  /// For a part of the work; it ends with the time or an interrupt.
+  [[nodiscard]] StopScope scope() const { return {options_.stop_requested, left()}; }
+  [[nodiscard]] Status reason() const {
+    return options_.stop_requested && options_.stop_requested() ? Status::interrupted : Status::time_limit;
+  }
+
+ private:
+  const SolverOptions& options_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// Solves again from the same start; the times become medians of all.
+void repeat(SolvedCase& solved, const Solver& solver, const Solution& first, int repeats) {
+  std::vector<Solution> solutions{first};
+  for (int i = 1; i < repeats && is_solved(first.status); ++i) {
     const Solution again = solver.solve(*solved.program, solved.start);
-    if (again.status == Status::interrupted) break;
+    if (!is_solved(again.status)) break;
     solutions.push_back(again);
   }
   set_median_times(solved, solutions);
@@ -68,6 +89,32 @@ void note_cost_scale(SolvedCase& solved) {
   if (!is_solved(solved.solution.status) || !std::isnormal(seen) || (seen < far && seen > 1.0 / far)) return;
   solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", solved.trajectory->cost,
                           std::pow(10.0, -std::round(std::log10(cost))), scale));
+}
+
+/// Judges a solved case as far as the time goes; one whose time is up is not solved.
+void judge_in_time(SolvedCase& solved, const TimeOfCase& time) {
+  try {
+    const StopScope scope = time.scope();
+    judge_accuracy(solved);
+    note_cost_scale(solved);
+  } catch (const Stopped&) {
+    solved.solution.status = time.reason();
+    solved.solution.message =
+        fmt::format("{} Whether its answer is a motion is not known.", sentence_of(solved.solution.status));
+  }
+}
+
+/// Tells who gave the answer where that was left open, and who may give one where there is none.
+void note_solver(SolvedCase& solved) {
+  const std::string& asked = solved.the_case.solver;
+  const std::string& answered = solved.solution.solver;
+  if (asked == "auto" && answered == "ipopt")
+    solved.note("interior_point failed; this is what ipopt made of its point.");
+  const Status status = solved.solution.status;
+  const bool has_failed = status == Status::step_failed || status == Status::iteration_limit ||
+                          status == Status::evaluation_failed || status == Status::not_confirmed ||
+                          status == Status::diverged;
+  if (asked == "interior_point" && has_failed) solved.note("--solver auto goes on from here with ipopt.");
 }
 
 /// A column's getter: a number of the program's.
@@ -145,6 +192,8 @@ const Columns<SolvedCase>& core_columns() {
       {"relative_jump", "", "the same of q or of v, whichever is larger relative to its range",
        from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
       {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
+      {"answered_by", "", "whose answer it is: the solver itself, or the one that auto ended with",
+       from(&SolvedCase::solution, &Solution::solver)},
       {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
   };
   return columns;
@@ -167,22 +216,29 @@ void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) 
 SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
                       bool polishes) {
   SolvedCase result{.the_case = the_case};
-  const auto setup_start = Clock::now();
+  const TimeOfCase time(solver.options());
   try {
-    const StopScope scope(solver.options().stop_requested, solver.options().most_seconds);
+    const StopScope scope = time.scope();
+    const Clock::time_point begin = Clock::now();
     result.program = the_case.transcribe();
-  } catch (const Stopped& stopped) {
-    result.solution.status = Status::time_limit;
-    result.solution.message = std::string(stopped.what()) + ".";
+    result.setup_seconds = seconds_since(begin);
+  } catch (const Stopped&) {
+    result.solution.status = time.reason();
+    result.solution.message =
+        "The set-up took longer than the time given: its formulas are too long to be traced and differentiated in it.";
     return result;
   }
-  result.setup_seconds = seconds_since(setup_start);
   Transcription& program = *result.program;
   result.start = sample(program, start.motion);
-  solve_repeatedly(result, solver, repeats);
   Solution& solution = result.solution;
-  const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
-  if (polishes) result.polish_steps = settling_steps + polish(program, solution);
+  Solution first;
+  {
+    const StopScope scope = time.scope();
+    first = solver.solve(program, result.start);
+    solution = first;
+    const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
+    if (polishes) result.polish_steps = settling_steps + polish(program, solution);
+  }
 
   if (solution.primal.allFinite() && solution.primal.size() > 0) {
     try {
@@ -192,16 +248,16 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
-  if (result.trajectory && is_solved(solution.status)) {
-    judge_accuracy(result);
-    note_cost_scale(result);
-  }
+  if (result.trajectory && is_solved(solution.status)) judge_in_time(result, time);
+  note_solver(result);
   if (!start.note.empty()) {
     result.branch = "unknown";
     result.note(start.note);
   }
   const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
   if (!missed.empty()) result.note(missed);
+  result.seconds_left = time.left();
+  repeat(result, solver, first, repeats);
   return result;
 }
 
@@ -227,9 +283,16 @@ bool is_discrete_optimum(const SolvedCase& solved) {
 
 bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
 
+void note_stop(SolvedCase& solved, const std::string& what) {
+  if (is_solved(solved.solution.status)) solved.note(what + ", for the time given was up.");
+}
+
 std::optional<ReplayError> replay(SolvedCase& solved) {
   try {
     return replay_error(*solved.the_case.problem, *solved.trajectory);
+  } catch (const Stopped&) {
+    note_stop(solved, "Its replay is missing");
+    return std::nullopt;
   } catch (const Error& error) {
     solved.note(error.what());
     return std::nullopt;

@@ -55,6 +55,7 @@ struct SolvedCase {
   std::optional<double> setup_seconds = std::nullopt;
   std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
   std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
+  double seconds_left = unbounded;                        ///< of the solver's limit, for what is measured of the answer
 
   /// Adds a sentence to the message of the row.
   void note(const std::string& sentence) { solution.message += " " + sentence; }
@@ -72,7 +73,8 @@ struct Start {
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
-/// part of the result; its message names what the point violates most. The solver sees the case's derivatives;
+/// part of the result; its message names what the point violates most. The solver's limit of time holds for the set-up,
+/// the first solve and all that judges its answer, together. The solver sees the case's derivatives;
 /// residuals and status are those of the exact ones, so that wrong derivatives cannot confirm themselves. Throws
 /// `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
@@ -97,6 +99,9 @@ struct IndependentChecks {
   std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
   std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
 };
+
+/// Says of a solved case what the end of its time left out.
+void note_stop(SolvedCase& solved, const std::string& what);
 
 /// The controls of the case's trajectory replayed; none, with the reason in the row's message, if that fails.
 [[nodiscard]] std::optional<ReplayError> replay(SolvedCase& solved);

@@ -13,6 +13,7 @@
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/interpolation.hpp"
 
 namespace dmocbench {
@@ -37,6 +38,8 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
   const double right = trajectory.node_times[k + 1];
   try {
     if (!integrate(equations, state, left, right, right - left, tolerance)) return {};
+  } catch (const Stopped&) {
+    throw;
   } catch (const Error&) {  // L_vv is singular where it leads
     return {};
   }
@@ -74,13 +77,16 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
   };
 
   const auto intervals = static_cast<std::size_t>(trajectory.intervals());
+  constexpr double shortest = 1e-9;      // 0 would be no limit
   constexpr std::size_t per_part = 256;  // takes some ten milliseconds
   const std::size_t parts = part_count(intervals, per_part);
   const TracedProblem traced(problem);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
   for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
   std::vector<Accuracy> found(parts);
+  const double left = std::max(seconds_left(), shortest);
   for_each_part(parts, [&](std::size_t part) {
+    const StopScope scope(nullptr, left);  // the thread of a part has none
     found[part] = worst_of(*motions[part], static_cast<Eigen::Index>(begin_of_part(part, parts, intervals)),
                            static_cast<Eigen::Index>(begin_of_part(part + 1, parts, intervals)));
   });

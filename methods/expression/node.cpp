@@ -6,6 +6,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/expression.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::detail {
 
@@ -59,6 +60,8 @@ Node* NodeTable::find_or_create(const NodeKey& key) {
   for (Node* node = chain_of(key); node != nullptr; node = node->next_) {
     if (node->key_.equals(key)) return node;
   }
+  constexpr std::uint64_t nodes_between_questions = 4096;  // a fraction of a millisecond
+  if (next_serial_ % nodes_between_questions == nodes_between_questions - 1) stop_if_requested();
   if (size_ == chains_.size()) lengthen();
   Node* node = unused_;
   if (node == nullptr) {

@@ -78,7 +78,7 @@ class NodeTable {
   [[nodiscard]] static NodeTable& of_this_thread();
 
   /// The node with this key, which is created if there is none. Throws `Error` if an operand belongs to another
-  /// thread's table.
+  /// thread's table; throws `Stopped` where a `StopScope` of the thread says so.
   [[nodiscard]] Node* find_or_create(const NodeKey& key);
   /// The constant 0, which stays, because every new `Expression` and empty vector reads it.
   [[nodiscard]] Node* zero() const noexcept { return zero_; }

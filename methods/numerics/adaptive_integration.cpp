@@ -2,6 +2,8 @@
 
 #include <boost/numeric/odeint.hpp>
 
+#include "methods/runtime/stop_scope.hpp"
+
 namespace dmocbench {
 
 template <class Scalar>
@@ -13,6 +15,7 @@ bool integrate(const Rate<std::type_identity_t<Scalar>>& rate, std::vector<Scala
   using Stepper = odeint::runge_kutta_fehlberg78<State, Scalar, State, Scalar>;
   long evaluations = 0;
   const auto counted = [&](const State& at, State& rate_there, Scalar t) {
+    stop_if_requested();
     if (++evaluations > most_evaluations) throw odeint::step_adjustment_error("too many evaluations");
     rate(at, rate_there, t);
   };

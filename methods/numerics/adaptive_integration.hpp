@@ -16,7 +16,8 @@ inline constexpr long most_evaluations = 50'000;
 /// Integrates dx/dt = f(x, t) from time `from` to `to`, in place, by the Runge-Kutta-Fehlberg method of order 7(8).
 /// Each step keeps its absolute and relative error below `tolerance`; the first step tried is `first_step`. Returns
 /// false if the step size vanishes or f is asked more than `most_evaluations` times, as happens beside a singularity.
-/// Exceptions of `rate` pass through. `Scalar` is double or long double.
+/// Exceptions of `rate` pass through; throws `Stopped` where a `StopScope` of the thread says so. `Scalar` is double or
+/// long double.
 template <class Scalar>
 [[nodiscard]] bool integrate(const Rate<std::type_identity_t<Scalar>>& rate, std::vector<Scalar>& x,
                              std::type_identity_t<Scalar> from, std::type_identity_t<Scalar> to,

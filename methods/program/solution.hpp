@@ -30,6 +30,7 @@ struct EvaluationCounts {
 struct Solution {
   Status status = Status::not_run;
   std::string message;          ///< one sentence: what happened
+  std::string solver;           ///< whose answer it is: the solver that was asked, or that which it asked (`auto`)
   Eigen::VectorXd primal;       ///< ξ, variable_count() entries; empty if the solver never started
   Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if there is no point to have them at
   /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).

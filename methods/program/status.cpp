@@ -29,7 +29,7 @@ constexpr auto entries = std::to_array<Entry>({
     {Status::interrupted, "interrupted", "The solve was stopped from outside."},
     {Status::too_large, "too large", "The solver refuses a program of this size."},
     {Status::invalid_program, "invalid program", "The solver refuses the program or one of its options."},
-    {Status::out_of_memory, "out of memory", "The solver could not allocate what it needs."},
+    {Status::out_of_memory, "out of memory", "There is not enough memory for what the solver needs."},
     {Status::solver_error, "solver error", "The solver reported an internal error."},
     {Status::too_coarse, "too coarse",
      "The discrete program is solved, but its answer is no motion: the grid is too coarse for it."},

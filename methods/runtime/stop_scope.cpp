@@ -1,34 +1,39 @@
 #include "methods/runtime/stop_scope.hpp"
 
+#include <limits>
 #include <utility>
-
-#include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// What the innermost scope of a thread asks; null outside of all scopes.
-const std::function<bool()>*& innermost() {
-  thread_local const std::function<bool()>* question = nullptr;
-  return question;
+/// The innermost scope of a thread; null outside of all scopes.
+const StopScope*& innermost() {
+  thread_local const StopScope* scope = nullptr;
+  return scope;
 }
 
 }  // namespace
 
 StopScope::StopScope(std::function<bool()> stop_requested, double most_seconds)
-    : must_stop_([stop = std::move(stop_requested), most_seconds, begin = Clock::now()] {
-        return (stop && stop()) || (most_seconds > 0.0 && seconds_since(begin) > most_seconds);
-      }),
-      outer_(std::exchange(innermost(), &must_stop_)) {}
+    : stop_requested_(std::move(stop_requested)),
+      most_seconds_(most_seconds > 0.0 ? most_seconds : std::numeric_limits<double>::infinity()),
+      outer_(std::exchange(innermost(), this)) {}
 
 StopScope::~StopScope() { innermost() = outer_; }
 
+double StopScope::seconds_left() const { return most_seconds_ - seconds_since(begin_); }
+
+bool StopScope::must_stop() const { return (stop_requested_ && stop_requested_()) || seconds_left() < 0.0; }
+
+bool must_stop() { return innermost() != nullptr && innermost()->must_stop(); }
+
+double seconds_left() {
+  return innermost() != nullptr ? innermost()->seconds_left() : std::numeric_limits<double>::infinity();
+}
+
 void stop_if_requested() {
-  if (innermost() != nullptr && (*innermost())()) {
-    throw Stopped(
-        "the set-up was stopped: its formulas are too long to be traced and differentiated in the time given");
-  }
+  if (must_stop()) throw Stopped("it was stopped, or took longer than the time given");
 }
 
 }  // namespace dmocbench

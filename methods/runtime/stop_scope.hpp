@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
@@ -12,9 +13,9 @@ class Stopped : public Error {
   using Error::Error;
 };
 
-/// As long as it exists, what this thread computes without iterations that could be counted (tracing and
-/// differentiating formulas) ends with `Stopped` once `stop_requested` is true or more than `most_seconds` have passed
-/// (0: no limit). The innermost scope counts.
+/// As long as it exists, what this thread computes without counted iterations (tracing and differentiating formulas,
+/// integrating, Newton steps behind a solver) ends once `stop_requested` is true or more than `most_seconds` have
+/// passed (0: no limit), and solvers take no longer than that. The innermost scope counts.
 class StopScope {
  public:
   StopScope(std::function<bool()> stop_requested, double most_seconds);
@@ -24,11 +25,20 @@ class StopScope {
   StopScope(StopScope&&) = delete;
   StopScope& operator=(StopScope&&) = delete;
 
+  [[nodiscard]] bool must_stop() const;
+  [[nodiscard]] double seconds_left() const;
+
  private:
-  std::function<bool()> must_stop_;
-  const std::function<bool()>* outer_;
+  std::function<bool()> stop_requested_;
+  double most_seconds_;
+  Clock::time_point begin_ = Clock::now();
+  const StopScope* outer_;
 };
 
+/// Whether the scope of this thread says that it must stop; false outside of all scopes.
+[[nodiscard]] bool must_stop();
+/// What is left of the time of this thread's scope: infinity without a limit, negative where it is over.
+[[nodiscard]] double seconds_left();
 /// Throws `Stopped` if the scope of this thread says so; for loops whose rounds take microseconds or more.
 void stop_if_requested();
 

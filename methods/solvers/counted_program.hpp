@@ -6,13 +6,14 @@
 
 namespace dmocbench {
 
-/// A program as a solver sees it: forwards everything, and counts and times every evaluation.
+/// A program as a solver sees it: forwards everything, counts and times every evaluation, and holds the clock.
 ///
-/// `Solver::solve` hands it to every solver alike, so that their counts mean the same.
+/// `Solver::solve` hands it to every solver alike, so that their counts and their limits of time mean the same.
 class CountedProgram final : public NonlinearProgram {
  public:
-  /// `program` must outlive it.
-  explicit CountedProgram(NonlinearProgram& program) : program_(program) {}
+  /// `program` must outlive it. The solve may take so many seconds of wall clock, 0 for no limit.
+  explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0)
+      : program_(program), most_seconds_(most_seconds > 0.0 ? most_seconds : unbounded) {}
 
   /// The program itself, for judging a point: what is asked of it is not counted.
   [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return program_; }
@@ -20,11 +21,14 @@ class CountedProgram final : public NonlinearProgram {
   /// Time spent in the evaluations that are counted.
   [[nodiscard]] double evaluation_seconds() const noexcept { return seconds_; }
 
-  /// Time since the solve began.
-  [[nodiscard]] double elapsed_seconds() const { return seconds_since(begin_); }
-  /// Lets the solve begin now: a vendor's library sets itself up before it looks at the program, and that time says
-  /// nothing about its method.
-  void restart_clock() { begin_ = Clock::now(); }
+  /// Time since the solve began, without what was left out.
+  [[nodiscard]] double elapsed_seconds() const { return seconds_since(begin_) - left_out_; }
+  /// Does not count a time just spent: a vendor's library sets itself up before it looks at the program, which says
+  /// nothing about its method. The limit of time does count it.
+  void leave_out(double seconds) { left_out_ += seconds; }
+  /// What is left of the time that the solve may take; infinity without a limit.
+  [[nodiscard]] double seconds_left() const { return most_seconds_ - seconds_since(begin_); }
+  [[nodiscard]] bool is_out_of_time() const { return seconds_left() < 0.0; }
 
   [[nodiscard]] std::size_t variable_count() const override { return program_.variable_count(); }
   [[nodiscard]] std::size_t constraint_count() const override { return program_.constraint_count(); }
@@ -67,6 +71,8 @@ class CountedProgram final : public NonlinearProgram {
   NonlinearProgram& program_;
   EvaluationCounts counts_;
   double seconds_ = 0.0;
+  double most_seconds_;
+  double left_out_ = 0.0;
   Clock::time_point begin_ = Clock::now();
 };
 

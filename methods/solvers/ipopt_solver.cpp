@@ -4,23 +4,30 @@
 #include <coin-or/IpIpoptApplication.hpp>
 #include <coin-or/IpIpoptCalculatedQuantities.hpp>
 #include <coin-or/IpIpoptData.hpp>
+#include <coin-or/IpJournalist.hpp>
 #include <coin-or/IpTNLP.hpp>
 #else
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
 #include <IpIpoptData.hpp>
+#include <IpJournalist.hpp>
 #include <IpTNLP.hpp>
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <initializer_list>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -63,7 +70,7 @@ bool meets(const StopRule& tolerances, const Ipopt::IteratesVector& at, Ipopt::I
 /// Ipopt's view of a program; it collects the answer.
 class ProgramForIpopt final : public Ipopt::TNLP {
  public:
-  ProgramForIpopt(NonlinearProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+  ProgramForIpopt(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
                   Solution& solution)
       : program_(program),
         start_(start),
@@ -74,6 +81,8 @@ class ProgramForIpopt final : public Ipopt::TNLP {
 
   /// Whether Ipopt was told to stop because its point meets our rule.
   [[nodiscard]] bool has_converged() const { return has_converged_; }
+  /// Whether it was told to stop because the time was up.
+  [[nodiscard]] bool is_late() const { return is_late_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
     n = static_cast<Index>(program_.variable_count());
@@ -100,16 +109,19 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
   bool eval_f(Index n, const Number* x, bool /*new_x*/, Number& value) override {
+    if (must_end()) return false;
     value = program_.objective(point(x, n));
     return std::isfinite(value);
   }
 
   bool eval_grad_f(Index n, const Number* x, bool /*new_x*/, Number* values) override {
+    if (must_end()) return false;
     program_.gradient(point(x, n), array(values, n));
     return true;
   }
 
   bool eval_g(Index n, const Number* x, bool /*new_x*/, Index m, Number* values) override {
+    if (must_end()) return false;
     program_.constraints(point(x, n), array(values, m));
     return true;
   }
@@ -117,6 +129,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool eval_jac_g(Index n, const Number* x, bool /*new_x*/, Index /*m*/, Index nonzeros, Index* rows, Index* columns,
                   Number* values) override {
     if (values == nullptr) return copy(program_.jacobian_structure(), rows, columns);
+    if (must_end()) return false;
     program_.jacobian(point(x, n), array(values, nonzeros));
     return true;
   }
@@ -124,6 +137,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool eval_h(Index n, const Number* x, bool /*new_x*/, Number objective_factor, Index m, const Number* lambda,
               bool /*new_lambda*/, Index nonzeros, Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) return copy(program_.hessian_structure(), rows, columns);
+    if (must_end()) return false;
     program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros));
     return true;
   }
@@ -134,7 +148,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
     solution_.major_iterations = static_cast<int>(iteration);
     has_converged_ = !has_rule_of_its_own_ && mode == Ipopt::RegularMode && data != nullptr && quantities != nullptr &&
                      meets(tolerances_, *data->curr(), *quantities);
-    if (has_converged_) return false;
+    if (has_converged_ || must_end()) return false;
     return !(options_.stop_requested && options_.stop_requested());
   }
 
@@ -146,6 +160,12 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
  private:
+  /// Ipopt looks at CPU time, and between iterations only. An evaluation that fails ends a long line search too.
+  [[nodiscard]] bool must_end() {
+    is_late_ = is_late_ || program_.is_out_of_time();
+    return is_late_;
+  }
+
   static Eigen::Map<const Eigen::VectorXd> point(const Number* values, Index size) { return {values, size}; }
   static Eigen::Map<Eigen::VectorXd> array(Number* values, Index size) { return {values, size}; }
 
@@ -157,13 +177,40 @@ class ProgramForIpopt final : public Ipopt::TNLP {
     return true;
   }
 
-  NonlinearProgram& program_;
+  CountedProgram& program_;
   const Eigen::VectorXd& start_;
   const SolverOptions& options_;
   Solution& solution_;
   StopRule tolerances_;
   bool has_rule_of_its_own_;
   bool has_converged_ = false;
+  bool is_late_ = false;
+};
+
+/// Listens to Ipopt's reports on its linear systems: where these fail for want of memory, Ipopt's status says only that
+/// a step could not be computed.
+class MemoryReports final : public Ipopt::Journal {
+ public:
+  MemoryReports() : Journal("memory", Ipopt::J_NONE) { SetPrintLevel(Ipopt::J_LINEAR_ALGEBRA, Ipopt::J_WARNING); }
+
+  [[nodiscard]] bool tell_of_failure() const { return tell_of_failure_; }
+
+ private:
+  void PrintImpl(Ipopt::EJournalCategory /*category*/, Ipopt::EJournalLevel /*level*/, const char* text) override {
+    const std::string_view report(text);
+    for (const std::string_view words : {"out of memory", "not able to obtain enough memory", "INFO(1) = -7"}) {
+      tell_of_failure_ = tell_of_failure_ || report.find(words) != std::string_view::npos;
+    }
+  }
+  void PrintfImpl(Ipopt::EJournalCategory category, Ipopt::EJournalLevel level, const char* format,
+                  va_list arguments) override {
+    std::array<char, 512> text{};
+    static_cast<void>(std::vsnprintf(text.data(), text.size(), format, arguments));
+    PrintImpl(category, level, text.data());
+  }
+  void FlushBufferImpl() override {}
+
+  bool tell_of_failure_ = false;
 };
 
 Status status_of(Ipopt::ApplicationReturnStatus status) {
@@ -207,7 +254,6 @@ void set_options(Ipopt::IpoptApplication& application, const SolverOptions& opti
   // Ipopt stops by its unscaled defaults (dual 1, violation 1e-4) too; ours are the tolerance itself.
   list.SetNumericValue("constr_viol_tol", options.tolerance);
   list.SetIntegerValue("max_iter", options.most_iterations);
-  if (options.most_seconds > 0.0) list.SetNumericValue("max_cpu_time", options.most_seconds);
   list.SetStringValue("nlp_scaling_method", "none");
   list.SetNumericValue("bound_relax_factor", 0.0);
   list.SetStringValue("check_derivatives_for_naninf", "yes");  // else a NaN ends as a failed step
@@ -237,11 +283,19 @@ std::string IpoptSolver::description() const {
 
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   Solution solution;
+  const Clock::time_point begin = Clock::now();
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = application_with(options());
-  program.restart_clock();
+  const Ipopt::SmartPtr<MemoryReports> memory = new MemoryReports;
+  application->Jnlst()->AddJournal(Ipopt::GetRawPtr(memory));
+  program.leave_out(seconds_since(begin));
   const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options(), solution);
   const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
-  solution.status = for_ipopt->has_converged() ? Status::solved : status_of(status);
+  solution.status = for_ipopt->has_converged() ? Status::solved
+                    : for_ipopt->is_late()     ? Status::time_limit
+                                               : status_of(status);
+  const bool has_failed = solution.status == Status::step_failed || solution.status == Status::solver_error;
+  if (has_failed && memory->tell_of_failure()) solution.status = Status::out_of_memory;
+  if (solution.status == Status::time_limit && solution.primal.size() == 0) solution.primal = start;
   return solution;
 }
 

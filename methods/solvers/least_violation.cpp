@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "methods/program/kkt_residual.hpp"
-#include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
@@ -199,13 +198,11 @@ namespace {
 constexpr int most_steps = 200;
 
 /// Descends from the solution's point; whether that ends at a point of least violation.
-bool moves_to_least_violation(NonlinearProgram& program, const SolverOptions& options, double elapsed_seconds,
-                              Solution& solution) {
-  const Clock::time_point begin = Clock::now();
-  ViolationDescent descent(program, solution.primal);
+bool moves_to_least_violation(const CountedProgram& program, const SolverOptions& options, Solution& solution) {
+  ViolationDescent descent(program.uncounted(), solution.primal);
   for (int i = 0; i < most_steps; ++i) {
     if (options.stop_requested && options.stop_requested()) return false;
-    if (options.most_seconds > 0.0 && elapsed_seconds + seconds_since(begin) > options.most_seconds) return false;
+    if (program.is_out_of_time()) return false;
     const bool is_over = !descent.step();
     if (descent.violation() <= options.tolerance) return false;
     if (descent.is_at_least_violation()) {
@@ -219,17 +216,16 @@ bool moves_to_least_violation(NonlinearProgram& program, const SolverOptions& op
 
 }  // namespace
 
-void judge_infeasibility(NonlinearProgram& program, const SolverOptions& options, double elapsed_seconds,
-                         Solution& solution) {
+void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, Solution& solution) {
   const bool claims = solution.status == Status::infeasible;
   const bool has_failed = solution.status == Status::step_failed;
   if (!claims && !has_failed && solution.status != Status::iteration_limit) return;
   const bool is_outside = static_cast<std::size_t>(solution.primal.size()) == program.variable_count() &&
                           solution.primal.allFinite() &&
-                          constraint_violation(program, solution.primal) > options.tolerance;
+                          constraint_violation(program.uncounted(), solution.primal) > options.tolerance;
   const bool is_least =
-      is_outside && (is_point_of_least_violation(program, solution.primal) ||
-                     ((claims || has_failed) && moves_to_least_violation(program, options, elapsed_seconds, solution)));
+      is_outside && (is_point_of_least_violation(program.uncounted(), solution.primal) ||
+                     ((claims || has_failed) && moves_to_least_violation(program, options, solution)));
   if (is_least == claims) return;
   solution.status = is_least ? Status::infeasible : Status::step_failed;
   solution.message = is_least ? "" : "The solver calls it infeasible, but its point is none of least violation.";

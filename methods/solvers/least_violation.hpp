@@ -5,6 +5,7 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/kkt/linearisation.hpp"
 #include "methods/solvers/kkt/symmetric_factorisation.hpp"
 #include "methods/solvers/solver.hpp"
@@ -65,8 +66,7 @@ class ViolationDescent {
 /// where its last point is one of least violation (`is_point_of_least_violation`), or where descent from it ends at
 /// one, to which `solution.primal` then moves; "step failed" where the solver says
 /// infeasible and this is not so. For `solution`s that claim to be infeasible, whose step failed or whose iterations
-/// ran out; these last ones are judged where they are. `elapsed_seconds`: of the time limit in `options`.
-void judge_infeasibility(NonlinearProgram& program, const SolverOptions& options, double elapsed_seconds,
-                         Solution& solution);
+/// ran out; these last ones are judged where they are. It ends with the time of the solve, and counts no evaluation.
+void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, Solution& solution);
 
 }  // namespace dmocbench

@@ -152,7 +152,6 @@ class SlsqpRun {
   void set_options() {
     nlopt_set_xtol_rel(handle_.get(), std::numeric_limits<double>::epsilon());
     nlopt_set_maxeval(handle_.get(), options_.most_iterations);
-    if (options_.most_seconds > 0.0) nlopt_set_maxtime(handle_.get(), options_.most_seconds);
     for (const auto& [name, text] : options_.passed_on) {
       const auto [setting, value] = read_option(name, text);
       setting.set(handle_.get(), value);
@@ -220,6 +219,7 @@ class SlsqpRun {
   /// The objective; infinity, from which SLSQP's line search turns back, where it or a constraint is not a number.
   double visit(const double* x, double* gradient) {
     if (options_.stop_requested && options_.stop_requested()) return stop(Status::interrupted);
+    if (program_.is_out_of_time()) return stop(Status::time_limit);
     const bool is_start = visits_++ == 0;
     const auto size = static_cast<Eigen::Index>(free_.size());
     Eigen::VectorXd point = nearest_point_;  // fixed variables keep their values

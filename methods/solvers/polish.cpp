@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/newton_correction.hpp"
 
@@ -54,7 +55,7 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps) {
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   int steps = 0;
   bool is_better = true;
-  while (is_better && steps < most_steps) {
+  while (is_better && steps < most_steps && !must_stop()) {
     const auto correction = corrections.at(solution.primal, solution.multipliers);
     if (!correction) break;
     Solution next = stepped(program, *correction, solution);
@@ -70,7 +71,7 @@ int settle(NonlinearProgram& program, double tolerance, Solution& solution, int 
   if (!is_unsettled(solution) || !has_own_multipliers(program, solution)) return 0;
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   Solution next = solution;
-  for (int steps = 0; steps <= most_steps; ++steps) {
+  for (int steps = 0; steps <= most_steps && !must_stop(); ++steps) {
     next.status = Status::solved;
     confirm(program, tolerance, next);
     if (is_solved(next.status)) {

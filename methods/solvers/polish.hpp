@@ -11,12 +11,13 @@ namespace dmocbench {
 /// as `most_steps` do; it is still kept if all that it leaves is rounding (`rounding_floor`), because residuals of the
 /// same size may hide a smooth error far larger than what rounding leaves of the multipliers. Objective, residuals and
 /// multipliers of `solution` become those of the polished point. Returns the number of steps kept; 0 if the solution is
-/// not solved, has no multipliers of its own, or its Newton step cannot be computed.
+/// not solved, has no multipliers of its own, or its Newton step cannot be computed. It ends with its `StopScope`.
 int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
 
 /// Gives an answer that was not confirmed because a Newton step would still move it (`confirm`) the steps that it
 /// lacks. It becomes solved if a further step would not move it and its residuals are confirmed at this tolerance, and
-/// its message says how many steps it took; otherwise `solution` stays as it is. Returns the number of steps kept.
+/// its message says how many steps it took; otherwise `solution` stays as it is. Returns the number of steps kept. It
+/// ends with its `StopScope`.
 int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps = 10);
 
 }  // namespace dmocbench

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "methods/choose.hpp"
+#include "methods/solvers/auto/auto_solver.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/solvers/ipopt_solver.hpp"
 #include "methods/solvers/nlopt_solver.hpp"
@@ -23,10 +24,9 @@ std::unique_ptr<Solver> make(const SolverOptions& options) {
 
 // One line per solver, the default first.
 constexpr std::array registry{
-    Entry{"ipopt", make<IpoptSolver>},
-    Entry{"interior_point", make<InteriorPointSolver>},
-    Entry{"sqp", make<SqpSolver>},
-    Entry{"nlopt", make<NloptSolver>},
+    Entry{"ipopt", make<IpoptSolver>}, Entry{"interior_point", make<InteriorPointSolver>},
+    Entry{"sqp", make<SqpSolver>},     Entry{"nlopt", make<NloptSolver>},
+    Entry{"auto", make<AutoSolver>},
 };
 
 }  // namespace

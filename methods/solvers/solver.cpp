@@ -1,11 +1,13 @@
 #include "methods/solvers/solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/least_violation.hpp"
@@ -26,17 +28,25 @@ void SolverOptions::validate() const {
 
 Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
 
+Solution Solver::run_of(const Solver& other, CountedProgram& program, const Eigen::VectorXd& start) {
+  return other.run(program, start);
+}
+
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
   if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
     throw Error(
         fmt::format("the start has {} entries, the program {} variables", start.size(), program.variable_count()));
   }
-  CountedProgram counted(program);
+  constexpr double shortest = 1e-9;  // 0 is no limit
+  const double in_scope = std::max(seconds_left(), shortest);
+  const double most_seconds = options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
+  CountedProgram counted(program, most_seconds);
   Solution solution = run(counted, start);
+  if (solution.solver.empty()) solution.solver = name();
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
-  judge_infeasibility(program, options_, counted.elapsed_seconds(), solution);
+  judge_infeasibility(counted, options_, solution);
   confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   return solution;

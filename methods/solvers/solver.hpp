@@ -23,7 +23,7 @@ struct SolverOptions {
   /// For the KKT residual of the program as the solver sees it (scaled cost).
   double tolerance = 1e-10;
   int most_iterations = 500;
-  /// Wall clock; 0 for no limit.
+  /// Wall clock; 0 for no limit. The time of the innermost `StopScope` is a limit too.
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.
   bool verbose = false;
@@ -72,6 +72,9 @@ class Solver {
   /// The method itself. Returns its own word for the status, the last point (none if it refuses the program), the
   /// multipliers if it has them, and its counts of iterations; a message only where it can say more than the status.
   [[nodiscard]] virtual Solution run(CountedProgram& program, const Eigen::VectorXd& start) const = 0;
+
+  /// What `run` of another solver returns, for a solver that is made of others.
+  [[nodiscard]] static Solution run_of(const Solver& other, CountedProgram& program, const Eigen::VectorXd& start);
 
  private:
   SolverOptions options_;

@@ -14,6 +14,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/expression/tape.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 namespace {
@@ -22,6 +23,17 @@ constexpr int million = 1'000'000;
 
 double value_of_schedule(const Schedule& schedule, const std::vector<double>& point) {
   return replay<double>(schedule, std::span<const double>(point))[0];
+}
+
+TEST(Lifetime, TracingEndsWithItsStopScopeAndLeavesNothing) {
+  const std::size_t before = live_nodes();
+  {
+    const StopScope scope(nullptr, 1e-9);
+    const Expression x = Expression::input(0);
+    Expression sum;
+    EXPECT_THROW(for (int i = 0; i < million; ++i) sum += i * sin(i * x), Stopped);
+  }
+  EXPECT_EQ(live_nodes(), before);
 }
 
 TEST(Lifetime, NodesGoWithTheLastExpressionThatReadsThem) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/runtime/stop_scope.hpp"
+
 namespace dmocbench {
 namespace {
 
@@ -37,6 +39,16 @@ TEST(AdaptiveIntegration, GivesUpAfterTheMostEvaluations) {
   std::vector<double> x{1.0, 0.0};
   EXPECT_FALSE(integrate(turn, x, 0.0, 1e5, 1.0, 1e-12));
   EXPECT_EQ(evaluations, most_evaluations);
+}
+
+TEST(AdaptiveIntegration, EndsWithItsStopScope) {
+  const auto spin = [](const std::vector<double>& x, std::vector<double>& rate, double) {
+    rate[0] = 1e9 * x[1];
+    rate[1] = -1e9 * x[0];
+  };
+  std::vector<double> x{1.0, 0.0};
+  const StopScope scope(nullptr, 1e-5);
+  EXPECT_THROW(static_cast<void>(integrate(spin, x, 0.0, 1.0, 1.0, 1e-12)), Stopped);
 }
 
 }  // namespace

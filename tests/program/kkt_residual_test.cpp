@@ -25,53 +25,54 @@ KktResidual at(SmallProgram program, const Eigen::VectorXd& x, double multiplier
 }
 
 TEST(KktResidual, VanishesAtAnOptimumWhereABoundIsActive) {
-  // Row inactive: x = (2, 1), the slope -1 in x₁ pushes against its upper bound.
+  // Row inactive: x = (2, 1), the gradient -1 in x₁ pushes against its upper bound.
   const KktResidual residual = at(box(-10.0, 10.0), vector({2.0, 1.0}), 0.0);
   EXPECT_EQ(residual.stationarity, 0.0);
   EXPECT_EQ(residual.constraint_violation, 0.0);
 }
 
 TEST(KktResidual, VanishesAtAnOptimumWhereAnInequalityIsActive) {
-  // x₁ + x₂ <= 2: x = (2, 0), slopes -1 + λ and -1 + λ with λ = 1; both bounds are met with slope 0.
+  // x₁ + x₂ <= 2: x = (2, 0), gradients -1 + λ and -1 + λ with λ = 1; both bounds are met with gradient 0.
   EXPECT_EQ(at(box(-10.0, 2.0), vector({2.0, 0.0}), 1.0).stationarity, 0.0);
-  // x₁ + x₂ >= 3.5: x = (2, 1.5), slope of x₂ is ½ + λ, λ = -½.
+  // x₁ + x₂ >= 3.5: x = (2, 1.5), gradient of x₂ is ½ + λ, λ = -½.
   EXPECT_EQ(at(box(3.5, 10.0), vector({2.0, 1.5}), -0.5).stationarity, 0.0);
 }
 
 TEST(KktResidual, VanishesAtAnEqualityWhateverTheSignOfItsMultiplier) {
   EXPECT_EQ(at(box(3.5, 3.5), vector({2.0, 1.5}), -0.5).stationarity, 0.0);
-  EXPECT_EQ(at(box(1.0, 1.0), vector({1.0, 0.0}), 2.0).stationarity, 0.0);    // slopes 0 and 1
-  EXPECT_EQ(at(box(1.0, 1.0), vector({1.0, 0.0}), 1.25).stationarity, 0.75);  // slope of x₁: -2 + 1.25
+  EXPECT_EQ(at(box(1.0, 1.0), vector({1.0, 0.0}), 2.0).stationarity, 0.0);    // gradients 0 and 1
+  EXPECT_EQ(at(box(1.0, 1.0), vector({1.0, 0.0}), 1.25).stationarity, 0.75);  // gradient of x₁: -2 + 1.25
 }
 
-TEST(KktResidual, IsTheSlopeInAFreeDirection) {
+TEST(KktResidual, IsTheDerivativeInAFreeDirection) {
   EXPECT_DOUBLE_EQ(at(box(-10.0, 10.0), vector({2.0, 1.25}), 0.0).stationarity, 0.25);
 }
 
-TEST(KktResidual, CountsASlopeThatPullsAwayFromItsBound) {
-  // At x₁ = 0 the slope -3 wants x₁ to grow, and the bound on that side is far.
+TEST(KktResidual, CountsAGradientThatPullsAwayFromItsBound) {
+  // At x₁ = 0 the gradient -3 wants x₁ to grow, and the bound on that side is far.
   EXPECT_DOUBLE_EQ(at(box(-10.0, 10.0), vector({0.0, 1.0}), 0.0).stationarity, 3.0);
 }
 
 TEST(KktResidual, CountsAMultiplierOfTheWrongSign) {
-  // Same slopes as at the optimum of x₁ + x₂ <= 2, but the row is told to hold from below: λ = 1 pulls the wrong way.
+  // Same gradients as at the optimum of x₁ + x₂ <= 2, but the row is told to hold from below: λ = 1 pulls the wrong
+  // way.
   EXPECT_DOUBLE_EQ(at(box(2.0, 10.0), vector({2.0, 0.0}), 1.0).stationarity, 1.0);
 }
 
 TEST(KktResidual, CountsTheMultiplierOfAnInactiveRow) {
-  // (2, 1) with λ = ¼ at a row far from both its sides: x₂ has slope ¼, the row is 7 away from its bound.
+  // (2, 1) with λ = ¼ at a row far from both its sides: x₂ has gradient ¼, the row is 7 away from its bound.
   EXPECT_DOUBLE_EQ(at(box(-10.0, 10.0), vector({2.0, 0.75}), 0.25).stationarity, 0.25);
 }
 
-TEST(KktResidual, DoesNotLookAtTheSlopeOfFixedVariables) {
+TEST(KktResidual, DoesNotLookAtTheGradientOfFixedVariables) {
   SmallProgram program({[](const HyperVector& x) { return 5.0 * x[0] + x[1] * x[1]; },
                         [](const HyperVector&) { return HyperVector(); }, vector({1.0, -unbounded}),
                         vector({1.0, unbounded}), Eigen::VectorXd(0), Eigen::VectorXd(0)});
   EXPECT_EQ(kkt_residual(program, vector({1.0, 0.0}), Eigen::VectorXd(0)).stationarity, 0.0);
 }
 
-TEST(KktResidual, DoesNotLoseASmallSlopeAtALargeVariable) {
-  // x - (x - slope) would be 0 here.
+TEST(KktResidual, DoesNotLoseASmallGradientAtALargeVariable) {
+  // x - (x - gradient) would be 0 here.
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return 1e-9 * x[0]; },
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));

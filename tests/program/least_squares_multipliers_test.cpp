@@ -18,7 +18,7 @@ using tests::vector;
 
 TEST(LeastSquaresMultipliers, AreTheMultipliersAtTheKnownOptima) {
   // HS 7: λ = 1/(2√3). HS 39: ∇φ = (-1, 0, 0, 0) and rows (-3, 1, 0, 0), (2, -1, 0, 0) give λ = (-1, -1).
-  // HS 40: by hand from the first three slopes.
+  // HS 40: by hand from the first three gradients.
   const auto known = tests::hock_schittkowski();
   SmallProgram seventh(known[1].statement);
   EXPECT_NEAR(least_squares_multipliers(seventh, known[1].optimum)[0], 0.5 / std::sqrt(3.0), 1e-14);
@@ -33,19 +33,19 @@ TEST(LeastSquaresMultipliers, AreTheMultipliersAtTheKnownOptima) {
 }
 
 TEST(LeastSquaresMultipliers, LookAtFreeVariablesAwayFromTheirBoundsOnly) {
-  // HS 71: x₁ = 1 is at its bound, where the slope need not vanish.
+  // HS 71: x₁ = 1 is at its bound, where the gradient need not vanish.
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   SmallProgram program(known.statement);
   const Eigen::VectorXd multipliers = least_squares_multipliers(program, known.optimum);
   EXPECT_NEAR(multipliers[0], -0.5522936596, 1e-7);
   EXPECT_NEAR(multipliers[1], 0.1614685642, 1e-7);
-  // x₁ + x₂ = 3.5 at (2, 1.5): slopes -1 + λ at the bound of x₁, ½ + λ at x₂.
+  // x₁ + x₂ = 3.5 at (2, 1.5): gradients -1 + λ at the bound of x₁, ½ + λ at x₂.
   SmallProgram held = box(3.5, 3.5);
   EXPECT_NEAR(least_squares_multipliers(held, vector({2.0, 1.5}))[0], -0.5, 1e-15);
 }
 
-TEST(LeastSquaresMultipliers, MinimiseTheSlopeWhereThePointIsNotStationary) {
-  // x₁ + x₂ = 2 at (1, 1): slopes -2 + λ and λ; the least of |(λ - 2, λ)| is at 1.
+TEST(LeastSquaresMultipliers, MinimiseTheGradientWhereThePointIsNotStationary) {
+  // x₁ + x₂ = 2 at (1, 1): gradients -2 + λ and λ; the least of |(λ - 2, λ)| is at 1.
   SmallProgram program = box(2.0, 2.0);
   EXPECT_NEAR(least_squares_multipliers(program, vector({1.0, 1.0}))[0], 1.0, 1e-15);
 }

@@ -90,7 +90,7 @@ TEST(Confirm, TakesSolvedBackWhereAPointWithoutMultipliersIsOnlyFeasible) {
   const Solution solution = claimed(Status::solved, vector({1.5, 0.5}), Eigen::VectorXd());
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_EQ(solution.constraint_violation, 0.0);
-  EXPECT_NEAR(solution.kkt_residual.value_or(unbounded), 1.0, 1e-15);  // slopes 3 and 1, λ = -2
+  EXPECT_NEAR(solution.kkt_residual.value_or(unbounded), 1.0, 1e-15);  // gradients 3 and 1, λ = -2
 }
 
 TEST(Confirm, DoesNotMarkMultipliersThatTheSolverGave) {

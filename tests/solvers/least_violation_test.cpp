@@ -13,6 +13,10 @@
 #include "methods/program/kkt_residual.hpp"
 #include "methods/transcription/describe_violation.hpp"
 #include "problems/cart_pole.hpp"
+#include "problems/hovercraft.hpp"
+#include "problems/orbital_transfer.hpp"
+#include "problems/planar_quadrotor.hpp"
+#include "problems/spherical_pendulum.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/small_programs.hpp"
@@ -84,7 +88,7 @@ Solution ended(Status status, const Eigen::VectorXd& point) {
 TEST(Infeasibility, IsNotBelievedWhereTheViolationCanBeReducedToNothing) {
   SmallProgram program = bounded_rows(1.0, 2.0);
   Solution solution = ended(Status::infeasible, vector({-1.0, 1.0}));
-  judge_infeasibility(program, {}, 0.0, solution);
+  judge_infeasibility(CountedProgram(program), {}, solution);
   EXPECT_EQ(solution.status, Status::step_failed);
   EXPECT_EQ(solution.primal, vector({-1.0, 1.0}));
   EXPECT_NE(solution.message, "");
@@ -93,7 +97,7 @@ TEST(Infeasibility, IsNotBelievedWhereTheViolationCanBeReducedToNothing) {
 TEST(Infeasibility, IsSaidAtThePointWhereAFailedStepLeadsToLeastViolation) {
   SmallProgram program = bounded_rows(12.0, 1.0);
   Solution solution = ended(Status::step_failed, vector({0.0, 0.0}));
-  judge_infeasibility(program, {}, 0.0, solution);
+  judge_infeasibility(CountedProgram(program), {}, solution);
   EXPECT_EQ(solution.status, Status::infeasible);
   EXPECT_TRUE(is_point_of_least_violation(program, solution.primal));
 }
@@ -101,13 +105,13 @@ TEST(Infeasibility, IsSaidAtThePointWhereAFailedStepLeadsToLeastViolation) {
 TEST(Infeasibility, IsNeverSaidWhereRowsHoldOrALimitEndedTheSolve) {
   SmallProgram reachable = bounded_rows(1.0, 2.0);
   Solution failed = ended(Status::step_failed, vector({1.0, 0.0}));  // violated by 1
-  judge_infeasibility(reachable, {}, 0.0, failed);
+  judge_infeasibility(CountedProgram(reachable), {}, failed);
   EXPECT_EQ(failed.status, Status::step_failed);
 
   SmallProgram program = bounded_rows(12.0, 1.0);
   for (const Status limit : {Status::iteration_limit, Status::time_limit, Status::interrupted}) {
     Solution solution = ended(limit, vector({0.0, 0.0}));
-    judge_infeasibility(program, {}, 0.0, solution);
+    judge_infeasibility(CountedProgram(program), {}, solution);
     EXPECT_EQ(solution.status, limit);
   }
 }
@@ -122,9 +126,19 @@ struct Unreachable {
 const tests::DoubleIntegrator double_integrator;
 const tests::Pendulum pendulum;
 const TwoLinkManipulator manipulator;
+const SphericalPendulum spherical_pendulum;
+const Hovercraft hovercraft;
+const OrbitalTransfer orbit;
 
 std::function<std::unique_ptr<Problem>()> restated(const Problem& base, std::function<void(Statement&)> state) {
   return [&base, state] { return std::make_unique<Restated>(base, state); };
+}
+
+std::unique_ptr<Problem> hurried_quadrotor() {
+  auto problem = std::make_unique<PlanarQuadrotor>();
+  problem->set_parameter("bounded", 1.0);
+  problem->set_parameter("horizon", 0.2);
+  return problem;
 }
 
 std::unique_ptr<Problem> hurried_cart_pole() {
@@ -155,6 +169,12 @@ const std::vector<Unreachable>& unreachable_problems() {
       {"manipulator_with_weak_torques", restated(manipulator, [](Statement& s) { s.u = all_between(2, -1e-2, 1e-2); }),
        "q["},
       {"manipulator_with_contradicting_rows", restated(manipulator, contradict), "path_constraints["},
+      {"quadrotor_in_too_little_time", hurried_quadrotor, "q["},
+      {"spherical_pendulum_with_weak_forces",
+       restated(spherical_pendulum, [](Statement& s) { s.u = all_between(2, -0.1, 0.1); }), "q["},
+      {"hovercraft_with_weak_forces", restated(hovercraft, [](Statement& s) { s.u = all_between(2, -0.01, 0.01); }),
+       "q["},
+      {"orbit_with_a_weak_thrust", restated(orbit, [](Statement& s) { s.u = all_between(1, -1e-4, 1e-4); }), "q["},
   };
   return problems;
 }
@@ -163,7 +183,7 @@ class UnreachableProblems : public testing::TestWithParam<Unreachable> {};
 
 TEST_P(UnreachableProblems, EndAsInfeasibleWithTheRowNamedWhateverTheSolver) {
   const std::unique_ptr<Problem> problem = GetParam().problem();
-  for (const char* solver : {"ipopt", "interior_point"}) {
+  for (const char* solver : {"ipopt", "interior_point", "auto"}) {
     for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
       SCOPED_TRACE(std::string(solver) + " " + method);
       Transcription program(*problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(24));

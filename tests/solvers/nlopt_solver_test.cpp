@@ -81,7 +81,7 @@ TEST(Nlopt, TakesAFeasiblePointOfAProgramWithoutFreedom) {
 }
 
 TEST(Nlopt, TurnsBackWhereAStepLeavesTheDomain) {
-  // From 3 the slope is 20/3, so the first step goes to 3 - 20/3, where the logarithm is not a number.
+  // From 3 the gradient is 20/3, so the first step goes to 3 - 20/3, where the logarithm is not a number.
   SmallProgram program =
       tests::equality_program([](const HyperVector& x) { return 10.0 * (x[0] - log(x[0])); },
                               [](const HyperVector&) { return HyperVector(); }, 1, Eigen::VectorXd(0));

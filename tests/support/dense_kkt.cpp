@@ -34,7 +34,7 @@ DenseKkt::DenseKkt(const NonlinearProgram& program, const KktNumbers& numbers)
   matrix_.diagonal().head(n_) += numbers.diagonal;
   matrix_.diagonal().tail(m_) -= numbers.compliance;
   right_hand_side_.resize(n_ + m_);
-  right_hand_side_ << -numbers.slope, -numbers.rows;
+  right_hand_side_ << -numbers.gradient, -numbers.rows;
   for (Eigen::Index i = 0; i < n_; ++i) {
     if (program.variable_lower()[i] == program.variable_upper()[i]) {
       matrix_.row(i).setZero();
@@ -93,10 +93,10 @@ double DenseKkt::condition() const {
   return sizes.maxCoeff() / sizes.minCoeff();
 }
 
-void DenseKkt::residual_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, Eigen::VectorXd& slope,
+void DenseKkt::residual_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, Eigen::VectorXd& gradient,
                            Eigen::VectorXd& rows) const {
   const Eigen::VectorXd left = residual(joined(primal, multipliers)).cast<double>();
-  slope = -left.head(n_);
+  gradient = -left.head(n_);
   rows = -left.tail(m_);
 }
 

@@ -15,7 +15,7 @@ struct KktNumbers {
   Eigen::VectorXd jacobian;
   Eigen::VectorXd diagonal;
   Eigen::VectorXd compliance;
-  Eigen::VectorXd slope;
+  Eigen::VectorXd gradient;
   Eigen::VectorXd rows;
 
   [[nodiscard]] kkt::KktMatrix matrix() const { return {hessian, jacobian, diagonal, compliance}; }
@@ -45,8 +45,8 @@ class DenseKkt {
   /// Of the matrix, in the Euclidean norm: the largest over the smallest magnitude of an eigenvalue.
   [[nodiscard]] double condition() const;
 
-  /// The slope and the rows that the steps leave, so that a system with them has the correction as its solution.
-  void residual_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, Eigen::VectorXd& slope,
+  /// The gradient and the rows that the steps leave, so that a system with them has the correction as its solution.
+  void residual_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, Eigen::VectorXd& gradient,
                    Eigen::VectorXd& rows) const;
 
   /// What the steps leave of the right-hand side, relative to the sizes of matrix, steps and right-hand side: the least

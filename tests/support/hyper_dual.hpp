@@ -15,7 +15,7 @@ struct HyperDual {
   HyperDual(double value, double first = 0.0, double second = 0.0, double mixed = 0.0)
       : x(value), e1(first), e2(second), e12(mixed) {}
 
-  /// f(a) for a function with value f, slope f1 and curvature f2 at a.x.
+  /// f(a) for a function with value f, derivative f1 and curvature f2 at a.x.
   static HyperDual chain(const HyperDual& a, double f, double f1, double f2) {
     return {f, f1 * a.e1, f1 * a.e2, f1 * a.e12 + f2 * a.e1 * a.e2};
   }

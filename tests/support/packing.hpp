@@ -8,8 +8,8 @@
 
 namespace dmocbench::tests {
 
-/// The vector of another method's program that stands for the same discrete motion: q, slopes Q̇_j and controls as they
-/// are, p or v as nodes carry them, slopes Ṗ_j = L_q + f (or V̇_j = L_vv⁻¹(L_q + f), for constant L_vv) at the stages.
+/// The vector of another method's program that stands for the same discrete motion: q, rates Q̇_j and controls as they
+/// are, p or v as nodes carry them, rates Ṗ_j = L_q + f (or V̇_j = L_vv⁻¹(L_q + f), for constant L_vv) at the stages.
 inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motion) {
   const Layout& layout = target.layout();
   const TracedProblem& problem = target.traced_problem();
@@ -29,7 +29,7 @@ inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motio
       if (has_second) set(layout.second_column(i), k, second(k, i));
     }
   }
-  Eigen::VectorXd slope(n);
+  Eigen::VectorXd rate(n);
   for (Eigen::Index k = 0; k < motion.intervals(); ++k) {
     for (Eigen::Index j = 0; j < s; ++j) {
       const Eigen::Index row = k * s + j;
@@ -38,10 +38,10 @@ inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motio
       }
       if (j + 1 == s) continue;
       force.evaluate(motion.stage_q.row(row).transpose(), motion.stage_v.row(row).transpose(),
-                     motion.stage_u.row(row).transpose(), motion.stage_times[row], slope);
+                     motion.stage_u.row(row).transpose(), motion.stage_times[row], rate);
       for (Eigen::Index i = 0; i < n; ++i) {
         set(layout.rate_column(j, i), k, motion.stage_v(row, i));
-        if (has_second) set(layout.second_rate_column(j, i), k, slope[i]);
+        if (has_second) set(layout.second_rate_column(j, i), k, rate[i]);
       }
     }
   }

@@ -23,7 +23,7 @@ struct RandomShape {
   std::size_t intervals = 1;
   Eigen::Index node = 1;       ///< unknowns of a node
   bool rows_at_nodes = false;  ///< as many rows at nodes (DMOC), or in intervals (collocation)
-  Eigen::Index slopes = 0;     ///< further unknowns of an interval with as many rows
+  Eigen::Index rates = 0;      ///< further unknowns of an interval with as many rows
   Eigen::Index controls = 1;
   Eigen::Index inequalities = 0;        ///< inequalities of an interval
   bool horizon = false;                 ///< one unknown of the border, which all intervals read
@@ -32,7 +32,7 @@ struct RandomShape {
   Eigen::Index conditions = 0;          ///< rows of the border, which read both ends
   bool condition_is_inequality = false;
   bool fixes_control = false;
-  bool slopes_cost_nothing = false;  ///< as where the dynamics are linear and the cost reads states and controls only
+  bool rates_cost_nothing = false;  ///< as where the dynamics are linear and the cost reads states and controls only
   bool drops_entries = false;
   bool nearly_dependent = false;  ///< one interval's equalities nearly depend on each other
   double roughness = 0.0;         ///< how much intervals differ
@@ -42,11 +42,11 @@ struct RandomShape {
   [[nodiscard]] std::string label() const {
     const auto text = [](auto number) { return std::to_string(number); };
     return "N " + text(intervals) + ", node " + text(node) + (rows_at_nodes ? " rows at nodes" : " rows in intervals") +
-           ", slopes " + text(slopes) + ", controls " + text(controls) + ", inequalities " + text(inequalities) +
+           ", rates " + text(rates) + ", controls " + text(controls) + ", inequalities " + text(inequalities) +
            ", horizon " + text(horizon) + ", velocities " + text(velocity[0]) + text(velocity[1]) + ", fixed " +
            text(fixed[0]) + ' ' + text(fixed[1]) + ", conditions " + text(conditions) +
            (condition_is_inequality ? " inequality" : "") + (fixes_control ? ", fixed control" : "") +
-           (slopes_cost_nothing ? ", slopes cost nothing" : "") + (drops_entries ? ", dropped entries" : "") +
+           (rates_cost_nothing ? ", rates cost nothing" : "") + (drops_entries ? ", dropped entries" : "") +
            (nearly_dependent ? ", nearly dependent" : "") + ", roughness " + text(roughness) + ", coupling " +
            text(coupling) + ", Hessian " + text(static_cast<int>(hessian));
   }
@@ -76,9 +76,9 @@ class RandomStructuredProgram final : public NonlinearProgram {
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return &structure_; }
 
   [[nodiscard]] double objective(const VectorIn& x) override {
-    Eigen::VectorXd slope(x.size());
-    gradient(x, slope);
-    return 0.5 * (slope + gradient_).dot(x);
+    Eigen::VectorXd gradient_at_x(x.size());
+    gradient(x, gradient_at_x);
+    return 0.5 * (gradient_at_x + gradient_).dot(x);
   }
   void gradient(const VectorIn& x, VectorOut result) override {
     result = gradient_;
@@ -114,7 +114,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     for (const std::size_t right : {0U, 1U}) {
       for (const std::size_t first : nodes_) local_unknowns_.emplace_back(first + right);
     }
-    for (Eigen::Index i = 0; i < shape_.slopes + shape_.controls; ++i) {
+    for (Eigen::Index i = 0; i < shape_.rates + shape_.controls; ++i) {
       inner_.push_back(column(Place::Kind::interval, N));
       local_unknowns_.emplace_back(inner_.back());
     }
@@ -139,7 +139,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
       local_rows_.push_back({ColumnPlace(node_rows_.back() + 1), i});
     }
     for (std::size_t i = 0; !shape_.rows_at_nodes && i < node; ++i) append_own_row(i + node, column);
-    for (std::size_t i = 0; i < size(shape_.slopes); ++i) append_own_row(2 * node + i, column);
+    for (std::size_t i = 0; i < size(shape_.rates); ++i) append_own_row(2 * node + i, column);
     first_inequality_ = places.size();
     for (Eigen::Index i = 0; i < shape_.inequalities; ++i) append_own_row(none, column);
     single_rows_ = places.size();
@@ -187,7 +187,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     if (shape_.nearly_dependent) make_nearly_dependent();
   }
 
-  /// Rows of dynamics are about x_{k+1} - x_k, at both nodes where they are rows of nodes; those of slopes about them.
+  /// Rows of dynamics are about x_{k+1} - x_k, at both nodes where they are rows of nodes; those of rates about them.
   [[nodiscard]] double increment_of(const Local& row, std::size_t unknown) const {
     const std::size_t node = size(shape_.node);
     if (row.pivot == none) return 0.0;
@@ -303,7 +303,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
   [[nodiscard]] Eigen::MatrixXd quadratic_form(const Eigen::MatrixXd& base, std::size_t interval) {
     const Eigen::Index n = base.rows();
     Eigen::MatrixXd factor = base + shape_.roughness * random_matrix(n);
-    if (shape_.slopes_cost_nothing) factor.middleCols(2 * shape_.node, shape_.slopes).setZero();
+    if (shape_.rates_cost_nothing) factor.middleCols(2 * shape_.node, shape_.rates).setZero();
     using Hessian = RandomShape::Hessian;
     if (shape_.hessian == Hessian::indefinite) return 0.5 * (factor + factor.transpose());
     const Eigen::Index squares = shape_.hessian == Hessian::nearly_singular ? std::max<Eigen::Index>(1, n / 3) : n;

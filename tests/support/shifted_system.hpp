@@ -23,7 +23,7 @@ inline KktNumbers shifted_system(Transcription& program, const Eigen::VectorXd& 
   for (Eigen::Index i = 0; i < m; ++i) {
     if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.compliance[i] = 0.0;
   }
-  numbers.slope = random.vector(start.size());
+  numbers.gradient = random.vector(start.size());
   numbers.rows = random.vector(m);
   return numbers;
 }

@@ -20,7 +20,7 @@ class SystemChoice {
     RandomShape shape;
     shape.node = whole(1, 4);
     shape.rows_at_nodes = chance(0.5);
-    shape.slopes = chance(0.5) ? 0 : whole(1, 4);
+    shape.rates = chance(0.5) ? 0 : whole(1, 4);
     shape.controls = whole(1, 3);
     shape.inequalities = chance(0.6) ? 0 : whole(1, 3);
     shape.horizon = chance(0.3);
@@ -31,7 +31,7 @@ class SystemChoice {
     shape.conditions = chance(0.7) ? 0 : whole(1, 2);
     shape.condition_is_inequality = chance(0.3);
     shape.fixes_control = shape.controls > 1 && chance(0.1);
-    shape.slopes_cost_nothing = shape.slopes > 0 && chance(0.5);
+    shape.rates_cost_nothing = shape.rates > 0 && chance(0.5);
     shape.drops_entries = chance(0.3);
     shape.nearly_dependent = chance(0.05);
     shape.roughness = roughnesses.at(static_cast<std::size_t>(whole(0, 3)));
@@ -55,7 +55,7 @@ class SystemChoice {
       if (program.constraint_lower()[i] == program.constraint_upper()[i]) continue;
       numbers.compliance[i] = magnitude(1e-3, 10.0);
     }
-    numbers.slope = random_.vector(n);
+    numbers.gradient = random_.vector(n);
     numbers.rows = random_.vector(m);
     return numbers;
   }
@@ -75,7 +75,7 @@ class SystemChoice {
   /// 1 .. 40, fewer where intervals are large, so that dense linear algebra stays fast; often fewer than lanes. Where
   /// both ends have further unknowns a grid of one interval cannot tell them from a column of nodes.
   std::size_t intervals(const RandomShape& shape) {
-    const Eigen::Index of_interval = 2 * (shape.node + shape.slopes) + shape.controls + shape.inequalities;
+    const Eigen::Index of_interval = 2 * (shape.node + shape.rates) + shape.controls + shape.inequalities;
     const Eigen::Index most = chance(0.3) ? 8 : std::min<Eigen::Index>(40, 240 / of_interval);
     return static_cast<std::size_t>(whole(shape.velocity[0] && shape.velocity[1] ? 2 : 1, most));
   }

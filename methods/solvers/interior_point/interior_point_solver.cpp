@@ -11,7 +11,6 @@
 #include <tl/expected.hpp>
 
 #include "methods/error.hpp"
-#include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
@@ -147,7 +146,7 @@ class InteriorPointRun {
  private:
   [[nodiscard]] std::optional<Status> reason_to_stop() const {
     if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
-    if (options_.most_seconds > 0.0 && seconds_since(begin_) > options_.most_seconds) return Status::time_limit;
+    if (counted_.is_out_of_time()) return Status::time_limit;
     if (iterations_ >= options_.most_iterations) return Status::iteration_limit;
     return std::nullopt;
   }
@@ -320,7 +319,7 @@ class InteriorPointRun {
         program_.bounds().complementarity(at_, 0.0), mu_, newton_.shift(), length_);
   }
 
-  NonlinearProgram& counted_;
+  CountedProgram& counted_;
   const SolverOptions& options_;
   BarrierProgram program_;
   NewtonStep newton_;
@@ -340,7 +339,6 @@ class InteriorPointRun {
   int iterations_ = 0;
   int descents_ = 0;
   std::string message_;
-  Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace

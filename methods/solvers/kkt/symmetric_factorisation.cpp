@@ -1,5 +1,6 @@
 #include "methods/solvers/kkt/symmetric_factorisation.hpp"
 
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@ constexpr int control(int number) { return number - 1; }
 
 bool is_singular(int code) { return code == -10 || code == -6; }
 bool lacks_workspace(int code) { return code == -8 || code == -9; }
+bool lacks_memory(int code) { return code == -7 || code == -13; }
 
 }  // namespace
 
@@ -57,7 +59,8 @@ struct SymmetricFactorisation::Mumps {
   Mumps(Mumps&&) = delete;
   Mumps& operator=(Mumps&&) = delete;
 
-  /// False if the matrix is singular. Where workspace is lacking, tries again with more. Throws `Error` otherwise.
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more. Throws `std::bad_alloc` where
+  /// memory is, `Error` otherwise.
   bool run(int job) {
     constexpr int most_workspace_percent = 10'000;
     while (true) {
@@ -66,6 +69,7 @@ struct SymmetricFactorisation::Mumps {
       const int code = data.infog[control(1)];
       if (code >= 0) return true;
       if (is_singular(code)) return false;
+      if (lacks_memory(code)) throw std::bad_alloc();
       if (!lacks_workspace(code) || data.icntl[control(14)] >= most_workspace_percent) {
         throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
       }

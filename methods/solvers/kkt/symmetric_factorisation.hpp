@@ -20,8 +20,8 @@ class SymmetricFactorisation {
 
   /// Factorises the matrix whose lower triangle is given. False if it is singular, or an entry is not finite or above
   /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if
-  /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `Error` if MUMPS
-  /// fails (out of memory).
+  /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `std::bad_alloc` if
+  /// there is not enough memory, `Error` if MUMPS fails otherwise.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
   /// Number of negative eigenvalues of the matrix factorised last.
   [[nodiscard]] Eigen::Index negative_eigenvalues() const;

@@ -65,7 +65,7 @@ class SequentialRun {
  private:
   [[nodiscard]] std::optional<Status> reason_to_stop() const {
     if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
-    if (options_.most_seconds > 0.0 && program_.elapsed_seconds() > options_.most_seconds) return Status::time_limit;
+    if (program_.is_out_of_time()) return Status::time_limit;
     return std::nullopt;
   }
 

@@ -90,8 +90,8 @@ TEST(InteriorPoint, AgreesWithIpoptOnTheTwoLinkManipulator) {
 }
 
 /// Newton's method needs one system for linear rows and a quadratic cost; where the start has controls, whose cost has
-/// a slope, its multipliers take another one.
-TEST(InteriorPoint, SolvesALinearQuadraticProblemByOneSystemAndOneForMultipliersWhereTheCostHasASlope) {
+/// a gradient, its multipliers take another one.
+TEST(InteriorPoint, SolvesALinearQuadraticProblemByOneSystemAndOneForMultipliersWhereTheCostHasAGradient) {
   const ForcedOscillator problem;
   for (const tests::Scheme& scheme : gauss_schemes_up_to(2)) {
     SCOPED_TRACE(scheme.label());
@@ -192,7 +192,7 @@ TEST(InteriorPoint, ReachesTheOptimumThoughMultipliersRunAwayOnTheWay) {
 }
 
 /// Terminal weights that are too small see conjugate points everywhere: every Hessian was shifted, and 114 to 500
-/// iterations were needed, when the compliance of slopes, which cost nothing, was taken for that of the controls.
+/// iterations were needed, when the compliance of rates, which cost nothing, was taken for that of the controls.
 TEST(InteriorPoint, NeedsWithSeveralStagesAsManyIterationsAsWithAnExactInertia) {
   const CartPole cart_pole;
   const ContainerCrane crane;

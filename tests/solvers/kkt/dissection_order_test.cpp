@@ -72,15 +72,16 @@ TEST(DissectionOrder, ChangesNeitherInertiaNorStep) {
     tests::RandomStructuredProgram program(shape, seed);
     const tests::KktNumbers numbers = choice.numbers(program, shape.hessian);
     if (tests::DenseKkt(program, numbers).inertia().rank < 1e-6) continue;  // either order may call it singular
-    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd primal(numbers.gradient.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    Eigen::VectorXd other_primal(numbers.slope.size());
+    Eigen::VectorXd other_primal(numbers.gradient.size());
     Eigen::VectorXd other_multipliers(numbers.rows.size());
     SparseKkt found(program);
     SparseKkt along(program, SparseKkt::Order::along_the_horizon);
     const FactorisationStatus verdict =
-        found.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
-    ASSERT_EQ(along.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {other_primal, other_multipliers}), verdict);
+        found.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
+    ASSERT_EQ(along.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {other_primal, other_multipliers}),
+              verdict);
     if (verdict != FactorisationStatus::solved) continue;
     ++minima;
     EXPECT_LT((primal - other_primal).norm(), 1e-7 * primal.norm());

@@ -39,7 +39,7 @@ KktNumbers numbers_at(NonlinearProgram& program, const Eigen::VectorXd& x, doubl
   for (Eigen::Index i = 0; i < numbers.compliance.size(); ++i) {
     if (program.constraint_lower()[i] == program.constraint_upper()[i]) numbers.compliance[i] = 0.0;
   }
-  numbers.slope = random_vector(program.variable_count(), 1.0, generator);
+  numbers.gradient = random_vector(program.variable_count(), 1.0, generator);
   numbers.rows = random_vector(program.constraint_count(), 1.0, generator);
   return numbers;
 }
@@ -64,7 +64,7 @@ void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   Eigen::VectorXd primal(n);
   Eigen::VectorXd multipliers(m);
   const FactorisationStatus verdict =
-      kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+      kkt->solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
   EXPECT_EQ(verdict == FactorisationStatus::solved, is_minimum) << static_cast<int>(verdict);
   if (verdict != FactorisationStatus::solved) return;
   const Eigen::VectorXd wanted = dense.solution();

@@ -31,11 +31,11 @@ using tests::KktNumbers;
 
 struct Steps {
   explicit Steps(const KktNumbers& numbers)
-      : primal(Eigen::VectorXd::Constant(numbers.slope.size(), 1e300)),
+      : primal(Eigen::VectorXd::Constant(numbers.gradient.size(), 1e300)),
         multipliers(Eigen::VectorXd::Constant(numbers.rows.size(), 1e300)) {}
 
   [[nodiscard]] FactorisationStatus solve_with(KktSystem& kkt, const KktNumbers& numbers) {
-    return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+    return kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
   }
   /// Every bit.
   [[nodiscard]] bool operator==(const Steps& other) const {
@@ -56,27 +56,28 @@ std::unique_ptr<Transcription> long_program(const Problem& problem, const tests:
   return tests::transcribe(problem, scheme, tests::graded_grid(intervals));
 }
 
-/// The slope and the rows that steps leave of a system, with sums in long double.
+/// The gradient and the rows that steps leave of a system, with sums in long double.
 KktNumbers left_by(const Steps& steps, const NonlinearProgram& program, const KktNumbers& numbers) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
   const LongVector primal = steps.primal.cast<long double>();
   const LongVector multipliers = steps.multipliers.cast<long double>();
-  LongVector slope = numbers.diagonal.cast<long double>().cwiseProduct(primal) + numbers.slope.cast<long double>();
+  LongVector gradient =
+      numbers.diagonal.cast<long double>().cwiseProduct(primal) + numbers.gradient.cast<long double>();
   LongVector rows = numbers.rows.cast<long double>() - numbers.compliance.cast<long double>().cwiseProduct(multipliers);
   const SparsityPattern hessian = program.hessian_structure().expand();
   for (std::size_t e = 0; e < hessian.size(); ++e) {
     const auto value = static_cast<long double>(numbers.hessian[static_cast<Eigen::Index>(e)]);
-    slope[hessian.rows[e]] += value * primal[hessian.columns[e]];
-    if (hessian.rows[e] != hessian.columns[e]) slope[hessian.columns[e]] += value * primal[hessian.rows[e]];
+    gradient[hessian.rows[e]] += value * primal[hessian.columns[e]];
+    if (hessian.rows[e] != hessian.columns[e]) gradient[hessian.columns[e]] += value * primal[hessian.rows[e]];
   }
   const SparsityPattern jacobian = program.jacobian_structure().expand();
   for (std::size_t e = 0; e < jacobian.size(); ++e) {
     const auto value = static_cast<long double>(numbers.jacobian[static_cast<Eigen::Index>(e)]);
     rows[jacobian.rows[e]] += value * primal[jacobian.columns[e]];
-    slope[jacobian.columns[e]] += value * multipliers[jacobian.rows[e]];
+    gradient[jacobian.columns[e]] += value * multipliers[jacobian.rows[e]];
   }
   KktNumbers left = numbers;
-  left.slope = slope.cast<double>();
+  left.gradient = gradient.cast<double>();
   left.rows = rows.cast<double>();
   return left;
 }
@@ -141,7 +142,7 @@ class GroupSweeps {
     give(Source::hessian, numbers_.hessian);
     give(Source::diagonal, numbers_.diagonal);
     give(Source::compliance, numbers_.compliance);
-    give(Source::gradient, numbers_.slope);
+    give(Source::gradient, numbers_.gradient);
     give(Source::rows, numbers_.rows);
     give(Source::padded, padded_);
     for (const PaddedRun& run : entries_.padded) {
@@ -235,7 +236,7 @@ KktNumbers system_at_guess(Transcription& program, const Eigen::VectorXd& guess)
   numbers.diagonal.setConstant(1e-2);
   program.hessian(guess, 1.0, Eigen::VectorXd::Zero(numbers.rows.size()), numbers.hessian);
   program.jacobian(guess, numbers.jacobian);
-  program.gradient(guess, numbers.slope);
+  program.gradient(guess, numbers.gradient);
   program.constraints(guess, numbers.rows);
   numbers.rows -= program.constraint_lower();
   return numbers;
@@ -247,7 +248,7 @@ double relative_rest_of_gradient(Transcription& program, const KktNumbers& numbe
   Steps found(numbers);
   EXPECT_EQ(found.solve_with(*kkt, numbers), FactorisationStatus::solved);
   NewtonResidual residual(program);
-  residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {found.primal, found.multipliers});
+  residual.compute(numbers.matrix(), {numbers.gradient, numbers.rows}, {found.primal, found.multipliers});
   return residual.value().gradient.lpNorm<Eigen::Infinity>() /
          (numbers.jacobian.lpNorm<Eigen::Infinity>() * found.multipliers.lpNorm<Eigen::Infinity>());
 }

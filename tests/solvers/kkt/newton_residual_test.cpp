@@ -103,13 +103,13 @@ struct DenseResidual {
     const auto m = static_cast<Eigen::Index>(program.constraint_count());
     const Eigen::MatrixXd H = written_as_dense(program.hessian_structure(), numbers.hessian, n, n, true);
     const Eigen::MatrixXd J = written_as_dense(program.jacobian_structure(), numbers.jacobian, m, n, false);
-    slope = numbers.slope + H * primal + numbers.diagonal.cwiseProduct(primal) + J.transpose() * multipliers;
+    gradient = numbers.gradient + H * primal + numbers.diagonal.cwiseProduct(primal) + J.transpose() * multipliers;
     rows = numbers.rows + J * primal - numbers.compliance.cwiseProduct(multipliers);
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (program.variable_lower()[i] == program.variable_upper()[i]) slope[i] = 0.0;
+      if (program.variable_lower()[i] == program.variable_upper()[i]) gradient[i] = 0.0;
     }
   }
-  Eigen::VectorXd slope;
+  Eigen::VectorXd gradient;
   Eigen::VectorXd rows;
 };
 
@@ -125,14 +125,14 @@ TEST(NewtonResidual, IsThatOfDenseMatrices) {
     RandomStructuredProgram program(shape, seed);
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     RandomPoints random(seed);
-    Eigen::VectorXd primal = random.vector(numbers.slope.size());
+    Eigen::VectorXd primal = random.vector(numbers.gradient.size());
     Eigen::VectorXd multipliers = random.vector(numbers.rows.size());
     NewtonResidual residual(program);
     for (int repetition = 0; repetition < 2; ++repetition) {
-      residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+      residual.compute(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
       const DenseResidual wanted(program, numbers, primal, multipliers);
-      ASSERT_LT((residual.value().gradient - wanted.slope).lpNorm<Eigen::Infinity>(),
-                1e-13 * (1.0 + wanted.slope.lpNorm<Eigen::Infinity>()));
+      ASSERT_LT((residual.value().gradient - wanted.gradient).lpNorm<Eigen::Infinity>(),
+                1e-13 * (1.0 + wanted.gradient.lpNorm<Eigen::Infinity>()));
       ASSERT_LT((residual.value().constraints - wanted.rows).lpNorm<Eigen::Infinity>(),
                 1e-13 * (1.0 + wanted.rows.lpNorm<Eigen::Infinity>()));
     }
@@ -149,23 +149,23 @@ TEST(NewtonResidual, ExceedsByHowMuchMoreItIsThanItMayBe) {
   shape.intervals = 4;
   RandomStructuredProgram program(shape, 3);
   KktNumbers numbers = choice.numbers(program, shape.hessian);
-  Eigen::VectorXd primal = Eigen::VectorXd::Zero(numbers.slope.size());
+  Eigen::VectorXd primal = Eigen::VectorXd::Zero(numbers.gradient.size());
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(numbers.rows.size());
   NewtonResidual residual(program);
   const auto excess = [&](double accuracy) {
-    residual.compute(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+    residual.compute(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
     return residual.excess(numbers.matrix(), {primal, multipliers}, accuracy);
   };
   // No step leaves all of the right-hand side.
   EXPECT_NEAR(excess(1e-3), 1e3, 1e-6);
   EXPECT_NEAR(excess(1.0), 1.0, 1e-12);
-  // Slopes and rows count by their own sizes.
-  numbers.slope *= 1e-8;
+  // Gradients and rows count by their own sizes.
+  numbers.gradient *= 1e-8;
   EXPECT_NEAR(excess(1e-3), 1e3, 1e-6);
   numbers.rows *= 1e-12;
   EXPECT_NEAR(excess(1e-3), 1e3, 1e-6);
   numbers.rows.setZero();
-  numbers.slope.setZero();
+  numbers.gradient.setZero();
   EXPECT_EQ(excess(1e-3), 0.0);
   primal[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(excess(1e-3), std::numeric_limits<double>::infinity());
@@ -185,13 +185,13 @@ TEST(NewtonResidual, MayBeAsLargeAsTheRoundingOfTheProgram) {
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.jacobian_structure().size()));
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(variables);
   const Eigen::VectorXd compliance = Eigen::VectorXd::Zero(rows);
-  const Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables);
+  const Eigen::VectorXd gradient = Eigen::VectorXd::Zero(variables);
   Eigen::VectorXd no_step = Eigen::VectorXd::Zero(variables);
   Eigen::VectorXd no_multipliers = Eigen::VectorXd::Zero(rows);
   NewtonResidual residual(program);
   const KktMatrix matrix{hessian, jacobian, diagonal, compliance};
   for (const double left : {0.5 * floor, 2.0 * floor}) {
-    residual.compute(matrix, {slope, Eigen::VectorXd::Constant(rows, left)}, {no_step, no_multipliers});
+    residual.compute(matrix, {gradient, Eigen::VectorXd::Constant(rows, left)}, {no_step, no_multipliers});
     EXPECT_NEAR(residual.excess(matrix, {no_step, no_multipliers}, 1e-9), left / floor, 1e-6);
   }
 }

@@ -54,7 +54,7 @@ double relative_error(const Eigen::VectorXd& found, const Eigen::VectorXd& wante
 int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseKkt& dense, int most) {
   constexpr double promise = 1e-10;
   constexpr double backward_promise = 1e-14;
-  const Eigen::Index n = numbers.slope.size();
+  const Eigen::Index n = numbers.gradient.size();
   const Eigen::VectorXd wanted = dense.solution();
   KktNumbers left = numbers;
   Eigen::VectorXd primal = Eigen::VectorXd::Zero(n);
@@ -62,7 +62,7 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
   Eigen::VectorXd primal_step(primal.size());
   Eigen::VectorXd multiplier_step(multipliers.size());
   for (int corrections = 0; corrections <= most; ++corrections) {
-    if (kkt.solve(left.matrix(), {left.slope, left.rows}, {primal_step, multiplier_step}) !=
+    if (kkt.solve(left.matrix(), {left.gradient, left.rows}, {primal_step, multiplier_step}) !=
         FactorisationStatus::solved)
       return -1;
     primal += primal_step;
@@ -71,15 +71,15 @@ int corrections_needed(IntervalKkt& kkt, const KktNumbers& numbers, const DenseK
     found << primal, multipliers;
     if (relative_error(found, wanted, n) <= promise) return corrections;
     if (dense.backward_error(primal, multipliers) <= backward_promise) return corrections;
-    dense.residual_of(primal, multipliers, left.slope, left.rows);
+    dense.residual_of(primal, multipliers, left.gradient, left.rows);
   }
   return -1;
 }
 
 FactorisationStatus verdict_of(IntervalKkt& kkt, const KktNumbers& numbers) {
-  Eigen::VectorXd primal(numbers.slope.size());
+  Eigen::VectorXd primal(numbers.gradient.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
-  return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+  return kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
 }
 
 TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
@@ -138,10 +138,10 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
     const DenseKkt dense(program, numbers);
     const DenseVerdict wanted = dense_verdict(dense, 1e-9);
     if (wanted == DenseVerdict::in_between) continue;
-    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd primal(numbers.gradient.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     const FactorisationStatus verdict =
-        kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+        kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
     if (wanted != DenseVerdict::minimum) {
       EXPECT_TRUE(verdict == FactorisationStatus::wrong_inertia || verdict == FactorisationStatus::singular)
           << static_cast<int>(verdict);

@@ -81,9 +81,9 @@ Found found_with(System& system, const SpoiltKkt::Spoil& spoil, double accuracy)
   const DenseKkt dense(system.program, numbers);
   const Eigen::VectorXd wanted = dense.solution();
   const auto error_of = [&](KktSystem& any, FactorisationStatus& verdict) {
-    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd primal(numbers.gradient.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    verdict = any.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+    verdict = any.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
     Eigen::VectorXd steps(wanted.size());
     steps << primal, multipliers;
     return (steps - wanted).lpNorm<Eigen::Infinity>() / wanted.lpNorm<Eigen::Infinity>();
@@ -212,9 +212,9 @@ TEST(RefinedKkt, RefusesRowsThatDependOnEachOtherWhereTheSparseFactorisationDoes
     const KktNumbers numbers = choice.numbers(program, shape.hessian);
     ASSERT_LT(DenseKkt(program, numbers).inertia().rank, 1e-15);
     const auto verdict_of = [&](KktSystem& kkt) {
-      Eigen::VectorXd primal(numbers.slope.size());
+      Eigen::VectorXd primal(numbers.gradient.size());
       Eigen::VectorXd multipliers(numbers.rows.size());
-      return kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+      return kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
     };
     for (const auto order : {SparseKkt::Order::found, SparseKkt::Order::along_the_horizon}) {
       SparseKkt sparse(program, order);

@@ -147,13 +147,13 @@ TEST(SegmentChain, OfManySegmentsOfAnyLengthIsTheWholeHorizon) {
           values[s].Phi.transpose() * states.col(column) + values[s].gamma - values[s].Gamma * multipliers.col(column);
       EXPECT_LT((reached - states.col(column + 1)).lpNorm<Eigen::Infinity>(), 1e-10) << "segment " << s;
     }
-    // The multiplier of a segment's end is the slope of all that follows, less that of the weights.
+    // The multiplier of a segment's end is the gradient of all that follows, less that of the weights.
     for (std::size_t s = 0; s + 1 < values.size(); ++s) {
       const auto column = static_cast<Eigen::Index>(s);
       const SegmentValue rest = dense_minimum(steps, cuts[s + 1], 12, weights);
-      const Eigen::VectorXd slope = rest.P * states.col(column + 1) + rest.p + rest.Phi * multiplier -
-                                    weights.cwiseProduct(states.col(column + 1));
-      EXPECT_LT((slope - multipliers.col(column)).lpNorm<Eigen::Infinity>(), 1e-10) << "segment " << s;
+      const Eigen::VectorXd gradient = rest.P * states.col(column + 1) + rest.p + rest.Phi * multiplier -
+                                       weights.cwiseProduct(states.col(column + 1));
+      EXPECT_LT((gradient - multipliers.col(column)).lpNorm<Eigen::Infinity>(), 1e-10) << "segment " << s;
     }
   }
 }

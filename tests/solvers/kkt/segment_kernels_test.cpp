@@ -21,9 +21,9 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
   Eigen::VectorXd baseline;
   for (const InstructionSet set : available_instruction_sets()) {
     const auto kkt = IntervalKkt::make(program, segment_kernels_of(set)).value();
-    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd primal(numbers.gradient.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
-    ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
+    ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers}),
               FactorisationStatus::solved);
     Eigen::VectorXd steps(primal.size() + multipliers.size());
     steps << primal, multipliers;

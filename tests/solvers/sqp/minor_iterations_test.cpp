@@ -89,12 +89,12 @@ class Replay {
     direction[entering] = 1.0;
     const Eigen::MatrixXd basis = columns_(Eigen::all, others);
     direction(others) = -basis.fullPivLu().solve(columns_.col(entering));
-    double slope = 0.0;
+    double derivative = 0.0;
     for (const Eigen::Index j : others) {
-      if (point_[j] < program_.lower[j] - 1e-8) slope -= direction[j];
-      if (point_[j] > program_.upper[j] + 1e-8) slope += direction[j];
+      if (point_[j] < program_.lower[j] - 1e-8) derivative -= direction[j];
+      if (point_[j] > program_.upper[j] + 1e-8) derivative += direction[j];
     }
-    return slope > 0.0 ? Eigen::VectorXd(-direction) : direction;
+    return derivative > 0.0 ? Eigen::VectorXd(-direction) : direction;
   }
 
   /// From the point to the minimiser of the objective over the moving columns, by a dense system for all conditions.
@@ -105,14 +105,14 @@ class Replay {
     const Eigen::Index n = program_.variable_count();
     Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(point_.size(), point_.size());
     curvature.topLeftCorner(n, n) = hessian_;
-    Eigen::VectorXd slope = curvature * point_;
-    slope.head(n) += program_.gradient;
+    Eigen::VectorXd gradient = curvature * point_;
+    gradient.head(n) += program_.gradient;
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size + m, size + m);
     system.topLeftCorner(size, size) = curvature(free, free);
     system.bottomLeftCorner(m, size) = columns_(Eigen::all, free);
     system.topRightCorner(size, m) = system.bottomLeftCorner(m, size).transpose();
     Eigen::VectorXd right_hand_side = Eigen::VectorXd::Zero(size + m);
-    right_hand_side.head(size) = -slope(free);
+    right_hand_side.head(size) = -gradient(free);
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(point_.size());
     direction(free) = system.fullPivLu().solve(right_hand_side).head(size);
     return direction;

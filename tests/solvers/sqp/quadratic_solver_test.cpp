@@ -25,16 +25,16 @@ void expect_optimal(const OwnedQuadraticProgram& problem, const QuadraticSolutio
   ASSERT_EQ(solution.status, QuadraticSolution::Status::optimal) << solution.message;
   const Eigen::Index n = program.variable_count();
   const Eigen::MatrixXd dense_rows = Eigen::MatrixXd(program.columns).leftCols(n);
-  const Eigen::VectorXd slope =
+  const Eigen::VectorXd gradient =
       program.gradient + problem.dense_hessian * solution.step + dense_rows.transpose() * solution.multipliers;
   const Eigen::VectorXd rows = dense_rows * solution.step;
   for (Eigen::Index j = 0; j < n; ++j) {
     EXPECT_GE(solution.step[j], program.lower[j] - fine);
     EXPECT_LE(solution.step[j], program.upper[j] + fine);
-    if (slope[j] > fine) {
+    if (gradient[j] > fine) {
       EXPECT_NEAR(solution.step[j], program.lower[j], fine);
     }
-    if (slope[j] < -fine) {
+    if (gradient[j] < -fine) {
       EXPECT_NEAR(solution.step[j], program.upper[j], fine);
     }
   }

@@ -28,7 +28,9 @@ Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays
   return matrix;
 }
 
-/// `columns_in_order`: the columns are taken as they stand, the first of them dependent.
+/// The order of rows and columns that complete pivoting chooses; none if the matrix is singular to rounding. With
+/// `columns_in_order` only rows are exchanged: the columns keep their order, and the first ones become the dependent
+/// unknowns.
 std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
     return Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1);
@@ -37,7 +39,7 @@ std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
   if (!left.allFinite()) return std::nullopt;
   Eigen::VectorXd row_scale = left.cwiseAbs().rowwise().maxCoeff();
   if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
-  constexpr double smallest = 1e-12;  // of a row's largest entry: beyond it a pivot is rounding
+  constexpr double smallest = 1e-12;  // of a row's largest entry: below it a pivot is rounding
   for (Eigen::Index p = 0; p < left.rows(); ++p) {
     // The largest remaining entry, with every row measured by its own largest entry.
     const Eigen::Index height = left.rows() - p;
@@ -123,7 +125,8 @@ void append_gathers(const IntervalEntries& entries, const Slots& slots, Eliminat
   }
 }
 
-/// The constants: s_k stands in the rows of its node as it is; a fixed unknown has a Hessian of its own.
+/// The entries that are 1 in every interval: s_k enters the equalities of its node with the factor 1, and the Hessian
+/// of a fixed unknown is 1.
 void append_unit_entries(const IntervalEntries& entries, const Slots& slots, EliminationPlan& plan) {
   const Shape& shape = entries.shape;
   for (int i = 0; i < shape.node_sums; ++i) {
@@ -148,7 +151,8 @@ void append_scatters(const IntervalEntries& entries, const Slots& slots, Elimina
       plan.scatters.push_back({index_of(column), false, entries.unknown_in(column)});
   }
   for (int i = 0; const Eigen::Index first : entries.equality_rows) {
-    // Without rows of its own an interval's multipliers come as the derivative with respect to s, in natural order.
+    // Where an interval has no equalities of its own, the kernel returns the multipliers of the node's equalities as
+    // the derivative of the cost-to-go with respect to s, in the order of the program.
     plan.scatters.push_back({results.multipliers()(has_own_rows(shape) ? slots.row(i) : i, 0), true, first});
     ++i;
   }

@@ -6,13 +6,13 @@
 // A step is inlined into its sweep so that its blocks can live in registers.
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
 
-// Compiled once per instruction set. A namespace of its own keeps what is not inlined apart: a linker may take either
-// of two functions of the same name.
+// Compiled once per instruction set, each time in a namespace of its own: of two functions of the same name, which were
+// compiled for different sets, a linker would keep either.
 namespace dmocbench::kkt {
 namespace DMOCBENCH_SEGMENT_NAMESPACE {
 
 #include "methods/runtime/lanes.inc"
-//
+// A comment between the two keeps the formatter from sorting them: the second needs the first.
 #include "methods/solvers/kkt/intervals/segment_kernel.inc"
 
 }  // namespace DMOCBENCH_SEGMENT_NAMESPACE

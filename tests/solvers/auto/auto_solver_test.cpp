@@ -1,0 +1,86 @@
+#include "methods/solvers/auto/auto_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/transcription.hpp"
+#include "problems/cart_pole.hpp"
+#include "tests/support/small_programs.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// A program that both solve in some iterations.
+class AutoSolverTest : public testing::Test {
+ protected:
+  [[nodiscard]] Solution solve(const Solver& solver, const Eigen::VectorXd& start) {
+    return solver.solve(program_, start);
+  }
+  static SolverOptions at_most(int iterations) {
+    SolverOptions options;
+    options.most_iterations = iterations;
+    return options;
+  }
+
+  CartPole problem_;
+  Transcription program_{problem_, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16)};
+  Eigen::VectorXd start_ = sample(program_, guessed_motion(problem_));
+  Solution alone_ = solve(InteriorPointSolver(), start_);
+};
+
+TEST_F(AutoSolverTest, GivesTheAnswerOfInteriorPointWhereThatSolves) {
+  const Solution solution = solve(AutoSolver(SolverOptions{}), start_);
+  ASSERT_EQ(alone_.status, Status::solved);
+  EXPECT_EQ(alone_.solver, "interior_point");
+  EXPECT_EQ(solution.solver, "interior_point");
+  EXPECT_EQ(solution.status, Status::solved);
+  EXPECT_EQ(solution.primal, alone_.primal);
+  EXPECT_EQ(solution.major_iterations, alone_.major_iterations);
+  EXPECT_EQ(solution.linear_systems, alone_.linear_systems);
+  EXPECT_EQ(solution.total_evaluations(), alone_.total_evaluations());
+}
+
+TEST_F(AutoSolverTest, GoesOnByIpoptFromTheLastPointAndCountsTheWorkOfBoth) {
+  // One iteration less than it needs: the first fails near the solution, and the second finds it from there.
+  const SolverOptions options = at_most(alone_.major_iterations.value() - 1);
+  const Solution first = solve(InteriorPointSolver(options), start_);
+  const Solution second = solve(IpoptSolver(options), first.primal);
+  ASSERT_EQ(first.status, Status::iteration_limit);
+  ASSERT_EQ(second.status, Status::solved);
+  const Solution both = solve(AutoSolver(options), start_);
+  EXPECT_EQ(both.solver, "ipopt");
+  EXPECT_EQ(both.status, Status::solved);
+  EXPECT_EQ(both.primal, second.primal);
+  EXPECT_EQ(both.major_iterations.value(), first.major_iterations.value() + second.major_iterations.value());
+  EXPECT_EQ(both.total_evaluations().value(), first.total_evaluations().value() + second.total_evaluations().value());
+  EXPECT_EQ(both.linear_systems, std::nullopt);
+}
+
+TEST_F(AutoSolverTest, AsksIpoptAtOnceWhereInteriorPointRefusesTheProgram) {
+  tests::SmallProgram program = tests::rosenbrock();
+  const Solution solution = AutoSolver(SolverOptions{}).solve(program, tests::vector({-1.2, 1.0}));
+  EXPECT_EQ(solution.solver, "ipopt");
+  EXPECT_EQ(solution.primal, IpoptSolver(SolverOptions{}).solve(program, tests::vector({-1.2, 1.0})).primal);
+}
+
+TEST_F(AutoSolverTest, DoesNotGoOnWhereTheSolveWasStopped) {
+  SolverOptions options;
+  options.stop_requested = [] { return true; };
+  const Solution solution = solve(AutoSolver(options), start_);
+  EXPECT_EQ(solution.status, Status::interrupted);
+  EXPECT_EQ(solution.solver, "interior_point");
+}
+
+TEST_F(AutoSolverTest, PassesOptionsOnToTheSolverThatHasThem) {
+  SolverOptions options;
+  options.passed_on = {{"factorisation", "sparse"}, {"mu_strategy", "adaptive"}};
+  EXPECT_EQ(solve(AutoSolver(options), start_).status, Status::solved);
+  options.passed_on = {{"no_such_option", "1"}};
+  EXPECT_THROW(AutoSolver{options}, Error);
+  options.passed_on = {{"factorisation", "banded"}};
+  EXPECT_THROW(AutoSolver{options}, Error);
+}
+
+}  // namespace
+}  // namespace dmocbench
