@@ -6,7 +6,7 @@ plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 minima = "local_minima_minima"
 shares = "local_minima_shares"
-eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,replay_confirmed")
+eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,is_motion")
 eval require(shares,\
     "problem,method,tableau,stages,intervals,starts,solved,best,share,share_lower,share_upper")
 
@@ -18,10 +18,10 @@ two_lines(label) = strstrt(label, " ") > 0\
     ? label[1:strstrt(label, " ") - 1]."\n".label[strstrt(label, " ") + 1:*] : label."\n"
 method_tic(where, method) = sprintf("%s\n%s of %s", two_lines(method_label(method)),\
     share_field(where.",method=".method, "solved"), share_field(where.",method=".method, "starts"))
-# What no replay confirms is no motion, or one that the grid is too coarse for.
+# An answer whose intervals do not join is no motion, or one that the grid is too coarse for.
 minimum_tic(where, number, best) = system("printf %.4g ".entry(distinct(minima, "objective", where, ""), "objective"))\
     .(number == best ? "\n{/:Bold best}"\
-      : entry(distinct(minima, "replay_confirmed", where, ""), "replay_confirmed") eq "no" ? "\nunconfirmed" : "\n")
+      : entry(distinct(minima, "is_motion", where, ""), "is_motion") eq "no" ? "\nno motion" : "\n")
 
 do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   problem = entry(group, "problem")
