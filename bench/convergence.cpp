@@ -35,7 +35,9 @@ class Convergence final : public Experiment {
             {.name = "convergence",
              .description =
                  "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
-                 "indirect solution (NAME_reference.csv, where stage values have errors too), with fitted slopes "
+                 "indirect solution (NAME_reference.csv, where stage values have errors too; NAME_jumps.csv holds the "
+                 "worst "
+                 "interval against the true error), with fitted slopes "
                  "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).",
              .options = {.intervals = "16:1024"},
              .polishes = true}) {}
@@ -117,7 +119,7 @@ class Convergence final : public Experiment {
   }
 
   [[nodiscard]] std::vector<std::string> further_files() const override {
-    return {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv"};
+    return {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"};
   }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     FittedOrders orders = fit_orders(table, fit_range_, reference_);
@@ -128,6 +130,7 @@ class Convergence final : public Experiment {
                                                           : "the finest grid of the same method";
     if (indirect_) {
       write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
+      write_file(prefix.string() + "_jumps.csv", fit_jumps(table).csv());
       metadata["references"] = indirect_->metadata();
       const std::vector<std::string> notes = indirect_->notes();
       orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());

@@ -40,7 +40,8 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
   const double last_weight = program->tableau().b[program->tableau().stages() - 1];
   const Eigen::VectorXd embedded = embed(*other.problem, *program, trajectory);
   const double divisor = has_constraints_of_force ? last_weight * program->steps(embedded).minCoeff() : 1.0;
-  return {.violation = constraint_violation(*program, embedded), .rounding = program->rounding_floor() / divisor};
+  return {.violation = constraint_violation(*program, embedded),
+          .rounding = program->rounding_floors().largest / divisor};
 }
 
 class Equivalence final : public Experiment {

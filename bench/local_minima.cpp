@@ -53,8 +53,8 @@ class LocalMinima final : public Experiment {
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_minima.csv", "_shares.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    const Table minima = distinct_minima(table, separation, confirmed_replay);
-    const Table shares = best_minimum_shares(table, separation, confirmed_replay);
+    const Table minima = distinct_minima(table, separation);
+    const Table shares = best_minimum_shares(table, separation);
     write_file(prefix.string() + "_minima.csv", minima.csv());
     write_file(prefix.string() + "_shares.csv", shares.csv());
     metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
@@ -68,8 +68,6 @@ class LocalMinima final : public Experiment {
  private:
   // Costs of one minimum by different methods differ by less than this share, those of different minima by more.
   static constexpr double separation = 0.01;
-  // A spurious minimum of the grid is no motion: a replay ends far away.
-  static constexpr double confirmed_replay = 0.3;
 
   long long starts_ = 20;
   std::uint64_t seed_ = 1;

@@ -6,7 +6,7 @@ plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 minima = "local_minima_minima"
 shares = "local_minima_shares"
-eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,replay_confirmed")
+eval require(minima, "problem,tableau,stages,intervals,minimum,objective,is_best,is_motion")
 eval require(shares,\
     "problem,method,tableau,stages,intervals,starts,solved,unsolved,unconfirmed,best,share,share_lower,share_upper")
 
@@ -30,15 +30,15 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   methods = ""
   do for [method_word in distinct(shares, "method", group, "")] { methods = methods." ".entry(method_word, "method") }
   count = words(methods)
-  # Confirmed minima by their cost, the best first; then the answers that no replay confirms, and the unsolved starts.
-  numbers = values_of(distinct(minima, "minimum", group.",replay_confirmed=yes", ""), "minimum")
+  # Confirmed minima by their cost, the best first; then the answers that are no motion, and the unsolved starts.
+  numbers = values_of(distinct(minima, "minimum", group.",is_motion=yes", ""), "minimum")
   found = words(numbers)
   drawn = found < most_minima ? found : most_minima
   highest = 0
   do for [method in methods] {
     unset logscale; set autoscale
     if (drawn > 0) {
-      stats rows(minima, group.",replay_confirmed=yes", "") using (column("minimum") <= int(word(numbers, drawn))\
+      stats rows(minima, group.",is_motion=yes", "") using (column("minimum") <= int(word(numbers, drawn))\
           ? column(method) : NaN) name 'S' nooutput
       if (S_max > highest) { highest = S_max }
     }
@@ -57,7 +57,7 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set multiplot title title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
         sprintf("%s; N = %s.%s", conditions("local_minima"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
-        "Unconfirmed: the continuous system, replayed under the control, ends far from the final state.")\
+        "Unconfirmed: replayed one by one, the intervals do not join; the answer is no motion.")\
         offset 0, -0.4
 
     set lmargin at screen 0.065; set rmargin at screen 0.64; set tmargin at screen 0.77; set bmargin at screen 0.19

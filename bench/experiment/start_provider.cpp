@@ -1,5 +1,6 @@
 #include "bench/experiment/start_provider.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -14,7 +15,7 @@
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/written_tables.hpp"
-#include "methods/diagnostics/replay_error.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -80,20 +81,21 @@ std::string origin_of(const std::filesystem::path& nodes_file) {
   return {};
 }
 
-/// The error of a replay; infinity if it leaves the set where the equations make sense.
-double replayed(const Problem& problem, const Trajectory& trajectory) {
-  try {
-    return replay_error(problem, trajectory).norm();
-  } catch (const Error&) {
-    return std::numeric_limits<double>::infinity();
-  }
+/// The least order of the jumps of an answer (`accuracy`): one more than that of the nodes, or of the stage controls.
+int order_of_jumps(const Tableau& tableau) {
+  return std::min(tableau.order + 1, static_cast<int>(tableau.stages()) + 2);
 }
 
-/// A true motion's replay error falls by 2^order when the grid is halved (half an order is granted to the asymptotics);
-/// that of a spurious minimum of a coarse grid does not. Errors near the solver's tolerance fall no further.
-bool falls_as_predicted(double coarse, double fine, int order) {
+/// True if two answers, the second on twice as many intervals, are one motion: they are on one branch, their intervals,
+/// replayed alone, join, and join better by 2^order on the finer grid (half an order is granted to the asymptotics).
+/// The jumps of a spurious minimum of a coarse grid do not fall like this. Those near the solver's tolerance fall no
+/// further.
+bool are_one_motion(const Problem& problem, const Trajectory& coarse, const Trajectory& fine) {
   constexpr double solver_floor = 1e-8;
-  return fine < solver_floor || fine <= coarse * std::pow(2.0, 0.5 - order);
+  if (!is_on_branch(fine, smooth_motion(coarse))) return false;
+  const double before = accuracy(problem, coarse).relative_jump;
+  const double after = accuracy(problem, fine).relative_jump;
+  return after < solver_floor || after <= before * std::pow(2.0, 0.5 - order_of_jumps(fine.tableau));
 }
 
 /// Evenly distributed between -1 and 1, the same numbers with every standard library.
@@ -135,13 +137,18 @@ class StartProvider::Search {
   [[nodiscard]] FoundStart run() {
     std::vector<Candidate> candidates = solved_from_guess();
     std::ranges::sort(candidates, {}, [](const Candidate& candidate) { return candidate.trajectory.cost; });
-    for (const Candidate& candidate : candidates) {
-      if (must_stop()) break;
-      Motion motion = smooth_motion(candidate.trajectory);
-      const auto finer = solve_on(candidate.method, 2 * final_intervals, motion);
-      if (finer && falls_as_predicted(replayed(*case_.problem, candidate.trajectory), replayed(*case_.problem, *finer),
-                                      candidate.trajectory.tableau.order)) {
-        return CommonStart{candidate.method, std::move(motion), smooth_motion(*finer)};
+    for (const long long intervals : {final_intervals, 2 * final_intervals}) {
+      for (Candidate& candidate : candidates) {
+        if (must_stop()) return tl::unexpected(reason());
+        if (candidate.trajectory.intervals() < intervals && !refine(candidate)) continue;
+        if (!is_motion(candidate.trajectory)) continue;
+        Candidate finer = candidate;
+        if (!refine(finer)) continue;
+        if (are_one_motion(*case_.problem, candidate.trajectory, finer.trajectory)) {
+          return CommonStart{candidate.method, static_cast<std::size_t>(intervals), smooth_motion(candidate.trajectory),
+                             smooth_motion(finer.trajectory)};
+        }
+        candidate = std::move(finer);
       }
     }
     return tl::unexpected(reason());
@@ -152,6 +159,18 @@ class StartProvider::Search {
     std::string method;
     Trajectory trajectory;
   };
+
+  [[nodiscard]] bool is_motion(const Trajectory& trajectory) const {
+    return accuracy(*case_.problem, trajectory).relative_jump <= largest_jump_of_a_motion;
+  }
+
+  /// Solves it again on twice as many intervals; false, and the candidate as it was, if that fails.
+  [[nodiscard]] bool refine(Candidate& candidate) {
+    const long long intervals = 2 * static_cast<long long>(candidate.trajectory.intervals());
+    auto finer = solve_on(candidate.method, intervals, smooth_motion(candidate.trajectory));
+    if (finer) candidate.trajectory = *std::move(finer);
+    return finer.has_value();
+  }
 
   [[nodiscard]] bool is_interrupted() const {
     return provider_.options_.stop_requested && provider_.options_.stop_requested();
@@ -176,9 +195,10 @@ class StartProvider::Search {
                          name, provider_.rules_.most_seconds);
     }
     return fmt::format(
-        "It began at the guess: {} has no common start, since from its guess no method finds a motion on {} intervals "
-        "that a replay confirms.",
-        name, final_intervals);
+        "It began at the guess: {} has no common start, since from its guess no method finds a motion on {} or {} "
+        "intervals "
+        "whose intervals, replayed alone, join, and join better on twice as many.",
+        name, final_intervals, 2 * final_intervals);
   }
 
   [[nodiscard]] std::vector<Candidate> solved_from_guess() {
@@ -266,7 +286,7 @@ Start StartProvider::start_for(const Case& the_case) {
     start.note = found.error();
     return start;
   }
-  const bool own = found->method == the_case.method && the_case.intervals() == final_intervals;
+  const bool own = found->method == the_case.method && the_case.intervals() == found->intervals;
   if (!from_guess) start.motion = own ? found->finer : found->motion;
   if (rules_.tells_branch) start.branch = from_guess ? found->motion : start.motion;
   return start;

@@ -27,9 +27,12 @@ class NoStart : public Error {
 ///
 /// From the same guess the methods fall into different local minima, and coarse grids have spurious ones. The common
 /// start of a problem and tableau is one motion for all methods and grids: each method solves from the guess at N = 48,
-/// 96 and 144, each answer is solved again at 144 and at 288, and of those that converge and whose replay error falls
-/// from 144 to 288 as the order predicts the one with the lowest objective is taken. Each solve is one by
-/// `interior_point`, and where that fails one by Ipopt; neither takes more iterations or seconds than a row's may.
+/// 96 and 144, each answer is solved again at 144 and at 288, and of those that are a motion the one with the lowest
+/// objective is taken: on one branch on both grids, its intervals, replayed one by one (`accuracy`), join, and at 288
+/// better than at 144, as the order predicts. Where none is, the same is tried at 288 and 576, the answers that were
+/// cheapest at 144 first. This judges unstable systems too, which a replay of the whole horizon cannot. Each solve is
+/// one by `interior_point`, and where that fails one by Ipopt; neither takes more iterations or seconds than a row's
+/// may.
 class StartProvider {
  public:
   struct Rules {
@@ -61,7 +64,8 @@ class StartProvider {
  private:
   struct CommonStart {
     std::string method;
-    Motion motion;  // solved on coarse_intervals
+    std::size_t intervals = 0;
+    Motion motion;  // solved on them
     Motion finer;   // the same branch on twice as many
   };
   using FoundStart = tl::expected<CommonStart, std::string>;  // or the reason why there is none

@@ -172,6 +172,43 @@ FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRan
   return result;
 }
 
+Table fit_jumps(const Selection& convergence) {
+  const std::string jump = "largest_jump";
+  const std::string error = "state_error";
+  Table table({"problem", "method", "tableau", "stages", "jump_slope", "jump_standard_error", "error_slope",
+               "error_standard_error", "orders_apart", "error_of_jumps_coarsest", "error_of_jumps_finest", "coarsest",
+               "finest", "points", "verdict"});
+  for (const Selection& curve : convergence.group_by(curve_columns)) {
+    const auto of_the_method = convergence.matching(curve.front(), {"problem", "method"}).group_by(curve_columns);
+    const Fit jumps = above_the_floor(curve, jump, smallest_floor(of_the_method, jump));
+    if (jumps.grids.empty()) continue;
+    const Fit both = above_the_floor(jumps.grids, error, smallest_floor(of_the_method, error));
+    Row row = fields_of(curve.front(), {"problem", "method", "tableau", "stages"});
+    row.set("points", both.grids.size());
+    row.set("verdict", both.grids.size() < fewest_grids && jumps.verdict != "slope" ? jumps.verdict : both.verdict);
+    const auto jump_order = fit_order(errors_of(both.grids, jump));
+    const auto error_order = fit_order(errors_of(both.grids, error));
+    if (jump_order && error_order) {
+      const auto error_of_jumps = [&](const Row& grid) {
+        return grid.number(error, 0.0) / (grid.number("intervals", 0.0) * grid.number(jump, 0.0));
+      };
+      row.set("jump_slope", jump_order->order);
+      row.set("error_slope", error_order->order);
+      if (jump_order->points > 2) {
+        row.set("jump_standard_error", jump_order->standard_error);
+        row.set("error_standard_error", error_order->standard_error);
+      }
+      row.set("orders_apart", jump_order->order - error_order->order);
+      row.set("error_of_jumps_coarsest", error_of_jumps(both.grids.front()));
+      row.set("error_of_jumps_finest", error_of_jumps(both.grids.back()));
+      row.set("coarsest", both.grids.front().text("intervals"));
+      row.set("finest", both.grids.back().text("intervals"));
+    }
+    table.append(std::move(row));
+  }
+  return table;
+}
+
 Table fit_differences(const Selection& equivalence, const std::string& column) {
   Table table(table_columns);
   for (const Selection& curve : equivalence.where("method", "tangent").group_by(curve_columns)) {

@@ -41,6 +41,19 @@ struct FittedOrders {
 [[nodiscard]] FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range,
                                       long long reference);
 
+/// How the worst interval (`accuracy`, which needs no other solution) tells the true error: a row per curve of a
+/// convergence table against an exact reference,
+/// problem,method,tableau,stages,jump_slope,jump_standard_error,error_slope,error_standard_error,orders_apart,
+/// error_of_jumps_coarsest,error_of_jumps_finest,coarsest,finest,points,verdict.
+///
+/// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids: those where both are above
+/// their floors by the rules of `fit_orders`.
+/// `orders_apart` is the first slope minus the second. `error_of_jumps` is the state error divided by N times the jump:
+/// it does not depend on N where the slopes are one order apart, because an error is the sum of N jumps that the motion
+/// carries on. With one stage they are. With s > 1 the order of the error is 2s and that of the jumps lies between
+/// s + 2, of the stage controls, and 2s + 1.
+[[nodiscard]] Table fit_jumps(const Selection& convergence);
+
 /// Orders of a column of differences from DMOC (a table of `equivalence`) for every curve of
 /// tangent-space collocation, in the columns and by the rules of an exact reference. The floor is the largest such
 /// difference of Hamiltonian collocation on the same problem, which by (th:equi) is rounding.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/summary/share_interval.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 
 namespace dmocbench {
 
@@ -30,43 +31,44 @@ std::vector<Selection> minima_of(const Selection& rows, double separation) {
   return minima;
 }
 
-bool is_confirmed(const Selection& minimum, double confirmed_replay) {
-  return std::ranges::any_of(
-      minimum, [&](const Row& row) { return row.number("replay_error", confirmed_replay) < confirmed_replay; });
+/// True if some answer has that number and it is at most the limit.
+bool has_at_most(const Selection& minimum, const std::string& column, double limit) {
+  return std::ranges::any_of(minimum.with_number(column),
+                             [&](const Row& row) { return row.number(column, limit) <= limit; });
 }
 
-/// How many answers of a method are in minima that no replay confirms.
-std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method, double confirmed_replay) {
+bool is_motion(const Selection& minimum) { return has_at_most(minimum, "relative_jump", largest_jump_of_a_motion); }
+
+/// How many answers of a method are in minima that are no motion.
+std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method) {
   std::size_t count = 0;
   for (const Selection& minimum : minima) {
-    if (!is_confirmed(minimum, confirmed_replay)) count += minimum.where("method", method).size();
+    if (!is_motion(minimum)) count += minimum.where("method", method).size();
   }
   return count;
 }
 
-/// The lowest confirmed minimum; the end if there is none.
-auto best_of(const std::vector<Selection>& minima, double confirmed_replay) {
-  return std::ranges::find_if(minima,
-                              [&](const Selection& minimum) { return is_confirmed(minimum, confirmed_replay); });
-}
+/// The lowest minimum that is a motion; the end if there is none.
+auto best_of(const std::vector<Selection>& minima) { return std::ranges::find_if(minima, is_motion); }
 
 }  // namespace
 
-Table distinct_minima(const Selection& rows, double separation, double confirmed_replay) {
+Table distinct_minima(const Selection& rows, double separation) {
   ColumnNames columns = group_columns;
-  columns.insert(columns.end(), {"minimum", "objective", "is_best", "replay_confirmed"});
+  columns.insert(columns.end(), {"minimum", "objective", "is_best", "is_motion", "replay_confirmed"});
   const std::vector<std::string> methods = rows.distinct("method");
   columns.insert(columns.end(), methods.begin(), methods.end());
   Table table(columns);
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
-    const auto best = best_of(minima, confirmed_replay);
+    const auto best = best_of(minima);
     for (auto minimum = minima.begin(); minimum != minima.end(); ++minimum) {
       Row row = fields_of(group.front(), group_columns);
       row.set("minimum", minimum - minima.begin() + 1);
       row.set("objective", minimum->front().number("objective"));
       row.set("is_best", minimum == best ? "yes" : "no");
-      row.set("replay_confirmed", is_confirmed(*minimum, confirmed_replay) ? "yes" : "no");
+      row.set("is_motion", is_motion(*minimum) ? "yes" : "no");
+      row.set("replay_confirmed", has_at_most(*minimum, "replay_error", confirmed_replay) ? "yes" : "no");
       for (const std::string& method : methods) row.set(method, minimum->where("method", method).size());
       table.append(std::move(row));
     }
@@ -74,13 +76,13 @@ Table distinct_minima(const Selection& rows, double separation, double confirmed
   return table;
 }
 
-Table best_minimum_shares(const Selection& rows, double separation, double confirmed_replay) {
+Table best_minimum_shares(const Selection& rows, double separation) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "starts", "solved",
                "unsolved", "unconfirmed", "best", "share", "share_lower", "share_upper"});
   const std::vector<std::string> methods = rows.distinct("method");
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
-    const auto best = best_of(minima, confirmed_replay);
+    const auto best = best_of(minima);
     for (const std::string& method : methods) {
       const Selection starts = group.where("method", method);
       if (starts.empty()) continue;
@@ -92,7 +94,7 @@ Table best_minimum_shares(const Selection& rows, double separation, double confi
       row.set("starts", starts.size());
       row.set("solved", starts.where("status", "solved").size());
       row.set("unsolved", starts.size() - starts.where("status", "solved").size());
-      row.set("unconfirmed", unconfirmed_of(minima, method, confirmed_replay));
+      row.set("unconfirmed", unconfirmed_of(minima, method));
       row.set("best", hits);
       row.set("share", count.share());
       row.set("share_lower", interval.lower);

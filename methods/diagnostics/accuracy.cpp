@@ -20,9 +20,10 @@ namespace dmocbench {
 
 namespace {
 
-/// The norm of the ranges of all components over the nodes.
+/// The norm of the ranges of all components over the nodes; 0 where it is no more than rounding.
 double range_of(const Eigen::MatrixXd& nodes) {
-  return (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
+  const double range = (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();
+  return range > smallest_range * std::max(1.0, nodes.lpNorm<Eigen::Infinity>()) ? range : 0.0;
 }
 
 /// Where (q, v) of node k is carried by the controls of interval k; nothing where that fails.

@@ -20,13 +20,17 @@ struct Accuracy {
 ///
 /// Norms are Euclidean. The range of q is the norm of the differences between the largest and the smallest value of
 /// each component over the nodes, that of v likewise. If one of the two is constant the range of the other is taken,
-/// and 1 if both are.
+/// and 1 if both are. A range of at most `smallest_range` times max(1, |q|), or max(1, |v|), counts as constant: what a
+/// body at rest moves by is rounding, and so are its jumps.
 ///
 /// The intervals are shared out to `thread_count()` threads; the result does not depend on their number.
 ///
 /// With one stage the jump is O(h³) on smooth optima, one order more than the error at the nodes. With s > 1 it is
 /// between O(h^(s+2)) and O(h^(2s+1)): stage controls have order s + 1 (methods/README.md, "Where the order is").
 [[nodiscard]] Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
+
+/// See `accuracy`.
+inline constexpr double smallest_range = 1e-8;
 
 /// The largest `Accuracy::relative_jump` of an answer that is a motion. Beyond it the discrete program is solved, but
 /// its answer lives on errors of the grid: it is `Status::too_coarse`.

@@ -1,6 +1,7 @@
 #include "methods/diagnostics/replay_error.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -37,51 +38,89 @@ double final_cost(const Problem& problem, const BoundaryState& last, double hori
   return value[0];
 }
 
+/// The continuous system with its running cost, under a trajectory's controls.
+class Replay {
+ public:
+  Replay(const Problem& problem, const Trajectory& trajectory, double tolerance)
+      : trajectory_(trajectory),
+        tolerance_(tolerance),
+        n_(problem.configuration_size()),
+        traced_(problem),
+        motion_(traced_),
+        running_cost_(traced_.configuration_size(), traced_.control_size(), [&](const ControlledState& x) {
+          return ExpressionVector::Constant(1, traced_.at(x).running_cost);
+        }) {}
+
+  /// q, v and a cost so far of 0.
+  [[nodiscard]] static std::vector<double> begin_at(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    std::vector<double> state(q.begin(), q.end());
+    state.insert(state.end(), v.begin(), v.end());
+    state.push_back(0.0);
+    return state;
+  }
+
+  /// Carries q, v and the cost so far through interval k.
+  void carry(std::vector<double>& state, Eigen::Index k) {
+    const auto equations = [&](const std::vector<double>& x, std::vector<double>& derivative, double t) {
+      const Eigen::Map<const Eigen::VectorXd> q(x.data(), n_);
+      const Eigen::Map<const Eigen::VectorXd> v(x.data() + n_, n_);
+      const Eigen::VectorXd u = control_on_interval(trajectory_, k, t);
+      motion_.write_rate(x, u, t, derivative);
+      running_cost_.evaluate(q, v, u, t, cost_rate_);
+      derivative.back() = cost_rate_[0];
+    };
+    const double left = trajectory_.node_times[k];
+    const double right = trajectory_.node_times[k + 1];
+    if (!integrate(equations, state, left, right, right - left, tolerance_)) {
+      throw Error(fmt::format("the replay's step size vanished in interval {}", k));
+    }
+    if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n_ + 1).allFinite()) {
+      throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
+    }
+  }
+
+ private:
+  const Trajectory& trajectory_;
+  double tolerance_;
+  Eigen::Index n_;
+  TracedProblem traced_;
+  EquationsOfMotion motion_;
+  PointFunction running_cost_;
+  Eigen::VectorXd cost_rate_ = Eigen::VectorXd(1);
+};
+
 }  // namespace
 
 double ReplayError::norm() const { return std::hypot(configuration, velocity); }
 
 ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance) {
-  using PhaseVector = std::vector<double>;
-  const TracedProblem traced(problem);
-  EquationsOfMotion motion(traced);
-  PointFunction running_cost(traced.configuration_size(), traced.control_size(), [&](const ControlledState& x) {
-    return ExpressionVector::Constant(1, traced.at(x).running_cost);
-  });
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index intervals = trajectory.intervals();
   const ProblemBounds bounds = problem.bounds();
   const BoundaryState first = end_state(problem.initial_state(), bounds.first, trajectory, 0);
   const BoundaryState last = end_state(problem.final_state(), bounds.last, trajectory, intervals);
-
-  PhaseVector state(first.q.begin(), first.q.end());  // q, v, cost so far
-  state.insert(state.end(), first.v.begin(), first.v.end());
-  state.push_back(0.0);
-  Eigen::VectorXd cost_rate(1);
+  Replay replay(problem, trajectory, tolerance);
+  std::vector<double> state = Replay::begin_at(first.q, first.v);
   // Interval by interval: controls jump at the nodes, and a step across a jump has order 1.
-  for (Eigen::Index k = 0; k < intervals; ++k) {
-    const auto equations = [&](const PhaseVector& x, PhaseVector& derivative, double t) {
-      const Eigen::Map<const Eigen::VectorXd> q(x.data(), n);
-      const Eigen::Map<const Eigen::VectorXd> v(x.data() + n, n);
-      const Eigen::VectorXd u = control_on_interval(trajectory, k, t);
-      motion.write_rate(x, u, t, derivative);
-      running_cost.evaluate(q, v, u, t, cost_rate);
-      derivative.back() = cost_rate[0];
-    };
-    const double left = trajectory.node_times[k];
-    const double right = trajectory.node_times[k + 1];
-    if (!integrate(equations, state, left, right, right - left, tolerance)) {
-      throw Error(fmt::format("the replay's step size vanished in interval {}", k));
-    }
-    if (!Eigen::Map<const Eigen::VectorXd>(state.data(), 2 * n + 1).allFinite()) {
-      throw Error(fmt::format("the replay left the set where the equations of motion make sense in interval {}", k));
-    }
-  }
+  for (Eigen::Index k = 0; k < intervals; ++k) replay.carry(state, k);
   const Eigen::Map<const Eigen::VectorXd> q(state.data(), n);
   const Eigen::Map<const Eigen::VectorXd> v(state.data() + n, n);
   return {.configuration = (q - last.q).norm(),
           .velocity = (v - last.v).norm(),
           .cost = state.back() + final_cost(problem, {q, v}, trajectory.node_times[intervals])};
+}
+
+double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  const Eigen::Index intervals = trajectory.intervals();
+  Replay replay(problem, trajectory, tolerance);
+  double cost = 0.0;
+  for (Eigen::Index k = 0; k < intervals; ++k) {
+    std::vector<double> state = Replay::begin_at(trajectory.q.row(k), trajectory.v.row(k));
+    replay.carry(state, k);
+    cost += state.back();
+  }
+  const BoundaryState last{trajectory.q.row(intervals), trajectory.v.row(intervals)};
+  return cost + final_cost(problem, last, trajectory.node_times[intervals]);
 }
 
 }  // namespace dmocbench

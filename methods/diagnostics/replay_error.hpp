@@ -21,4 +21,9 @@ struct ReplayError {
 /// the integration fails: the motion leaves the domain of the equations, or the steps vanish.
 [[nodiscard]] ReplayError replay_error(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
 
+/// The cost of a motion whose intervals are replayed one by one, each from its first node, as `accuracy` does, plus Φ
+/// at the last node. It exists of unstable motions too. Differs from the cost of the discrete motion to first order in
+/// the jumps. Throws `Error` if the integration of an interval fails.
+[[nodiscard]] double cost_by_intervals(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
+
 }  // namespace dmocbench

@@ -6,12 +6,12 @@
 
 namespace dmocbench {
 
-FormulaCheck::FormulaCheck(const Problem& problem)
+FormulaCheck::FormulaCheck(const Problem& problem, Derivatives up_to)
     : formulas_(problem.configuration_size(), problem.control_size(),
-                [&](const ControlledState& x) { return trace(problem, x); }),
+                [&](const ControlledState& x) { return trace(problem, x, up_to); }),
       values_(formulas_.output_count()) {}
 
-ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledState& x) {
+ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledState& x, Derivatives up_to) {
   ExpressionVector inputs(x.q.size() + x.v.size() + x.u.size());
   inputs << x.q, x.v, x.u;
   std::vector<Expression> outputs;
@@ -25,6 +25,8 @@ ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledSta
       add(formula.segment(i, 1), entry);
       add(gradient(formula[i], inputs), "a derivative of " + entry);
     }
+    if (up_to == Derivatives::first || formula.size() == 0) return;
+    add(gradient(gradient(formula.sum(), inputs).sum(), inputs), std::string("a second derivative of ") + name);
   };
   add_formula("lagrangian", ExpressionVector::Constant(1, problem.lagrangian(x.state())));
   add_formula("force", problem.force(x));

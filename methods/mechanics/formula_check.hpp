@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,18 +9,22 @@
 
 namespace dmocbench {
 
-/// Tells where L, f, C or h of a problem, or one of their first derivatives, is not a finite number.
+/// Tells where L, f, C or h of a problem, or one of their derivatives, is not a finite number.
 ///
 /// A formula may be undefined where its derivatives are not, as log(q - 1) is below its singularity: no equation of
 /// motion contains the Lagrangian itself, so that a solver cannot notice.
 class FormulaCheck {
  public:
-  explicit FormulaCheck(const Problem& problem);
-  /// The first that is not a number, "lagrangian" or "a derivative of running_cost"; empty if all are.
+  enum class Derivatives : std::uint8_t { first, second };
+  /// Second derivatives, which Newton's method asks for, are looked at as sums over the second variable, and over the
+  /// entries of a formula: a sum is not a number where one of its terms is not.
+  explicit FormulaCheck(const Problem& problem, Derivatives up_to = Derivatives::first);
+  /// The first that is not a number, "lagrangian", "a derivative of running_cost" or "a second derivative of force";
+  /// empty if all are.
   [[nodiscard]] std::string undefined_at(const MotionPoint& point, double t);
 
  private:
-  [[nodiscard]] ExpressionVector trace(const Problem& problem, const ControlledState& x);
+  [[nodiscard]] ExpressionVector trace(const Problem& problem, const ControlledState& x, Derivatives up_to);
 
   std::vector<std::string> names_;  // per output; before the function, which fills them
   PointFunction formulas_;

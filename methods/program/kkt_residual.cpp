@@ -46,35 +46,52 @@ Eigen::VectorXd jacobian_at(NonlinearProgram& program, const Eigen::VectorXd& pr
 /// The larger of both; NaN wins, so that it cannot hide.
 double largest(double a, double b) { return std::isnan(b) ? b : std::max(a, b); }
 
-double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+/// How far a value is outside its bounds; NaN if it is.
+double outside(double x, double lower, double upper) {
+  return std::isnan(x) ? x : std::max({0.0, lower - x, x - upper});
+}
+
+double largest_outside(const Eigen::VectorXd& x, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    worst = largest(worst, std::max(lower[i] - x[i], x[i] - upper[i]));
-    if (std::isnan(x[i])) return x[i];
+    worst = largest(worst, outside(x[i], lower[i], upper[i]));
+    if (std::isnan(worst)) return worst;
   }
   return worst;
 }
 
-/// The largest part of a gradient that its entries' bounds cannot take up; fixed entries count nothing. A bound at the
-/// distance d, on the side where the objective falls, may take up an entry g with its multiplier: without the
-/// multiplier |g| of stationarity are left, with it |g| d of complementarity. Without a bound there it is |g|, at the
-/// bound 0.
-double stationarity(const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, const Eigen::VectorXd& lower,
-                    const Eigen::VectorXd& upper) {
+/// The part of an entry of a gradient that its bounds cannot take up; nothing of a fixed one. A bound at the distance
+/// d, on the side where the objective falls, may take up an entry g with its multiplier: without the multiplier |g| of
+/// stationarity are left, with it |g| d of complementarity. Without a bound there it is |g|, at the bound 0.
+double stationarity(double gradient, double x, double lower, double upper) {
+  if (lower == upper) return 0.0;
+  const double inside = std::clamp(x, lower, upper);
+  const double distance = gradient > 0.0 ? inside - lower : upper - inside;
+  return std::abs(gradient) * std::min(1.0, distance);
+}
+
+double largest_stationarity(const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, const Eigen::VectorXd& lower,
+                            const Eigen::VectorXd& upper) {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (lower[i] == upper[i]) continue;
-    const double inside = std::clamp(x[i], lower[i], upper[i]);
-    const double distance = gradient[i] > 0.0 ? inside - lower[i] : upper[i] - inside;
-    worst = largest(worst, std::abs(gradient[i]) * std::min(1.0, distance));
+    worst = largest(worst, stationarity(gradient[i], x[i], lower[i], upper[i]));
   }
   return worst;
+}
+
+Eigen::VectorXd gradient_of_lagrangian(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                       const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd gradient = gradient_at(program, primal);
+  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
+  return gradient;
 }
 
 double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal,
                     const Eigen::VectorXd& constraints) {
-  return largest(outside(constraints, program.constraint_lower(), program.constraint_upper()),
-                 outside(primal, program.variable_lower(), program.variable_upper()));
+  return largest(largest_outside(constraints, program.constraint_lower(), program.constraint_upper()),
+                 largest_outside(primal, program.variable_lower(), program.variable_upper()));
 }
 
 /// Numbers the entries that are chosen 0, 1, ...
@@ -128,15 +145,34 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
   KktResidual residual;
   residual.constraint_violation = violation_of(program, primal, constraints);
 
-  Eigen::VectorXd gradient = gradient_at(program, primal);
-  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
-  program.jacobian_structure().for_each(
-      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
+  const Eigen::VectorXd gradient = gradient_of_lagrangian(program, primal, multipliers);
   // The multiplier of an inequality is the gradient of its slack but for the sign; that of an equality is free.
   residual.stationarity =
-      largest(stationarity(gradient, primal, program.variable_lower(), program.variable_upper()),
-              stationarity(-multipliers, constraints, program.constraint_lower(), program.constraint_upper()));
+      largest(largest_stationarity(gradient, primal, program.variable_lower(), program.variable_upper()),
+              largest_stationarity(-multipliers, constraints, program.constraint_lower(), program.constraint_upper()));
   return residual;
+}
+
+KktEntries kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  require_size(multipliers.size(), program.constraint_count(), "multipliers");
+  const Eigen::VectorXd constraints = constraints_at(program, primal);
+  const Eigen::VectorXd gradient = gradient_of_lagrangian(program, primal, multipliers);
+  KktEntries entries{.gradient = Eigen::VectorXd(primal.size()),
+                     .multipliers = Eigen::VectorXd(constraints.size()),
+                     .rows = Eigen::VectorXd(constraints.size()),
+                     .bounds = largest_outside(primal, program.variable_lower(), program.variable_upper())};
+  for (Eigen::Index j = 0; j < primal.size(); ++j) {
+    entries.gradient[j] =
+        stationarity(gradient[j], primal[j], program.variable_lower()[j], program.variable_upper()[j]);
+  }
+  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+    const double lower = program.constraint_lower()[i];
+    const double upper = program.constraint_upper()[i];
+    entries.multipliers[i] = stationarity(-multipliers[i], constraints[i], lower, upper);
+    entries.rows[i] = outside(constraints[i], lower, upper);
+  }
+  return entries;
 }
 
 double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {

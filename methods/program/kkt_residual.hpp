@@ -17,10 +17,22 @@ struct KktResidual {
   double constraint_violation = 0.0;
 };
 
+/// The entries that `KktResidual` holds the largest of.
+struct KktEntries {
+  Eigen::VectorXd gradient;     ///< stationarity of every variable
+  Eigen::VectorXd multipliers;  ///< stationarity of every constraint's slack; 0 of equalities
+  Eigen::VectorXd rows;         ///< violation of every constraint
+  double bounds = 0.0;          ///< largest violation of a bound of a variable
+};
+
 /// The residual at `primal` (variable_count() entries) with `multipliers` (constraint_count() entries).
 /// NaN where the program gives NaN. Throws `Error` if a size is wrong, as all functions here do.
 [[nodiscard]] KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers);
+
+/// The same entry by entry, where rows and variables are allowed residuals of their own (`RoundingFloors`).
+[[nodiscard]] KktEntries kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                     const Eigen::VectorXd& multipliers);
 
 /// The constraint violation alone.
 [[nodiscard]] double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);

@@ -6,6 +6,7 @@
 
 #include "methods/program/block_pattern.hpp"
 #include "methods/program/interval_structure.hpp"
+#include "methods/program/rounding_floors.hpp"
 
 namespace dmocbench {
 
@@ -57,8 +58,11 @@ class NonlinearProgram {
   /// Hessian of objective_factor · φ + λᵀa; `values`: one per entry of hessian_structure().
   virtual void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) = 0;
 
-  /// The size below which residuals of this program are rounding: about ε · (size of the terms of a row).
-  [[nodiscard]] virtual double rounding_floor() const { return 0.0; }
+  /// The sizes below which residuals of this program are rounding; by default 0.
+  [[nodiscard]] virtual const RoundingFloors& rounding_floors() const {
+    static const RoundingFloors none;
+    return none;
+  }
 
   /// How unknowns and rows belong to the intervals of a grid; null if the program has no such structure.
   [[nodiscard]] virtual const IntervalStructure* interval_structure() const { return nullptr; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -28,17 +29,35 @@ void judge_residuals(NonlinearProgram& program, Solution& solution) {
   solution.constraint_violation = residual.constraint_violation;
 }
 
-double scaled_residual(const NonlinearProgram& program, double tolerance, const Solution& solution) {
-  const StopRule tolerances(program, tolerance);
-  const bool has_multipliers = solution.multipliers.size() > 0;
-  const double mean =
-      has_multipliers ? solution.multipliers.lpNorm<1>() / static_cast<double>(solution.multipliers.size()) : 0.0;
-  const double largest = has_multipliers ? solution.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  const double stationarity = solution.kkt_residual.value_or(unbounded) / tolerances.stationarity(mean, largest);
-  const double violation = solution.constraint_violation.value_or(unbounded) / tolerances.violation();
-  return std::isnan(stationarity) ? stationarity
-         : std::isnan(violation)  ? violation
-                                  : std::max(stationarity, violation);
+namespace {
+
+/// The largest; NaN where one is.
+double largest_of(std::initializer_list<double> shares) {
+  double largest = 0.0;
+  for (const double share : shares) {
+    if (std::isnan(share)) return share;
+    largest = std::max(largest, share);
+  }
+  return largest;
+}
+
+}  // namespace
+
+double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution) {
+  const StopRule allowed(program, tolerance);
+  const Eigen::VectorXd& multipliers = solution.multipliers;
+  const bool has_multipliers = multipliers.size() > 0;
+  const double mean = has_multipliers ? multipliers.lpNorm<1>() / static_cast<double>(multipliers.size()) : 0.0;
+  const double largest = has_multipliers ? multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  const double stationarity = allowed.stationarity(mean, largest);
+  if (allowed.is_one_for_all() || !solution.kkt_residual || !solution.constraint_violation) {
+    return largest_of({solution.kkt_residual.value_or(unbounded) / stationarity,
+                       solution.constraint_violation.value_or(unbounded) / allowed.violation()});
+  }
+  const KktEntries entries = kkt_entries(program, solution.primal, multipliers);
+  const double of_slacks = has_multipliers ? entries.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  return largest_of({allowed.share_of_stationarity(entries.gradient, mean, largest), of_slacks / stationarity,
+                     allowed.share_of_violation(entries.rows), entries.bounds / allowed.violation()});
 }
 
 namespace {

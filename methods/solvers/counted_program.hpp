@@ -38,7 +38,7 @@ class CountedProgram final : public NonlinearProgram {
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return program_.constraint_upper(); }
   [[nodiscard]] const BlockPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
   [[nodiscard]] const BlockPattern& hessian_structure() const override { return program_.hessian_structure(); }
-  [[nodiscard]] double rounding_floor() const override { return program_.rounding_floor(); }
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return program_.rounding_floors(); }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return program_.interval_structure(); }
 
   [[nodiscard]] double objective(const VectorIn& x) override {

@@ -5,13 +5,17 @@
 #include <coin-or/IpIpoptCalculatedQuantities.hpp>
 #include <coin-or/IpIpoptData.hpp>
 #include <coin-or/IpJournalist.hpp>
+#include <coin-or/IpOrigIpoptNLP.hpp>
 #include <coin-or/IpTNLP.hpp>
+#include <coin-or/IpTNLPAdapter.hpp>
 #else
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
 #include <IpIpoptData.hpp>
 #include <IpJournalist.hpp>
+#include <IpOrigIpoptNLP.hpp>
 #include <IpTNLP.hpp>
+#include <IpTNLPAdapter.hpp>
 #endif
 
 #include <algorithm>
@@ -21,6 +25,7 @@
 #include <cstdio>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -55,16 +60,44 @@ struct Magnitudes {
   }
 };
 
+/// Ipopt's residuals in the order of the program's rows and variables; none if it works on another program.
+struct OrderedResiduals {
+  Eigen::VectorXd violations;
+  Eigen::VectorXd gradient;  // of the Lagrangian; 0 of fixed variables
+};
+
+std::optional<OrderedResiduals> ordered(const NonlinearProgram& program, Ipopt::IpoptCalculatedQuantities& quantities) {
+  auto* const inner = dynamic_cast<Ipopt::OrigIpoptNLP*>(Ipopt::GetRawPtr(quantities.GetIpoptNLP()));
+  if (inner == nullptr) return std::nullopt;
+  auto* const adapter = dynamic_cast<Ipopt::TNLPAdapter*>(Ipopt::GetRawPtr(inner->nlp()));
+  if (adapter == nullptr) return std::nullopt;
+  OrderedResiduals residuals{.violations = Eigen::VectorXd::Zero(static_cast<Index>(program.constraint_count())),
+                             .gradient = Eigen::VectorXd::Zero(static_cast<Index>(program.variable_count()))};
+  adapter->ResortG(*quantities.curr_c(), *quantities.curr_d_minus_s(), residuals.violations.data());
+  adapter->ResortX(*quantities.curr_grad_lag_x(), residuals.gradient.data());
+  for (Eigen::Index j = 0; j < residuals.gradient.size(); ++j) {
+    if (program.variable_lower()[j] == program.variable_upper()[j]) residuals.gradient[j] = 0.0;
+  }
+  return residuals;
+}
+
 /// Whether an iterate of Ipopt meets our stopping rule. Ipopt's own test ignores rounding, so that on long grids it
 /// would go on where other solvers stop.
-bool meets(const StopRule& tolerances, const Ipopt::IteratesVector& at, Ipopt::IpoptCalculatedQuantities& quantities) {
-  if (quantities.curr_primal_infeasibility(Ipopt::NORM_MAX) > tolerances.violation()) return false;
+bool meets(const StopRule& allowed, const NonlinearProgram& program, const Ipopt::IteratesVector& at,
+           Ipopt::IpoptCalculatedQuantities& quantities) {
   const Magnitudes of_constraints({at.y_c(), at.y_d()});
   const Magnitudes of_bounds({at.z_L(), at.z_U(), at.v_L(), at.v_U()});
   const Magnitudes all({at.y_c(), at.y_d(), at.z_L(), at.z_U(), at.v_L(), at.v_U()});
-  return quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <=
-             tolerances.stationarity(all.mean, of_constraints.largest) &&
-         quantities.curr_complementarity(0.0, Ipopt::NORM_MAX) <= tolerances.complementarity(of_bounds.mean);
+  if (quantities.curr_complementarity(0.0, Ipopt::NORM_MAX) > allowed.complementarity(of_bounds.mean)) return false;
+  const double stationarity = allowed.stationarity(all.mean, of_constraints.largest);
+  if (quantities.curr_primal_infeasibility(Ipopt::NORM_MAX) <= allowed.violation() &&
+      quantities.curr_dual_infeasibility(Ipopt::NORM_MAX) <= stationarity) {
+    return true;
+  }
+  if (allowed.is_one_for_all() || quantities.curr_grad_lag_s()->Amax() > stationarity) return false;
+  const auto residuals = ordered(program, quantities);
+  return residuals && allowed.share_of_violation(residuals->violations) <= 1.0 &&
+         allowed.share_of_stationarity(residuals->gradient, all.mean, of_constraints.largest) <= 1.0;
 }
 
 /// Ipopt's view of a program; it collects the answer.
@@ -147,7 +180,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities* quantities) override {
     solution_.major_iterations = static_cast<int>(iteration);
     has_converged_ = !has_rule_of_its_own_ && mode == Ipopt::RegularMode && data != nullptr && quantities != nullptr &&
-                     meets(tolerances_, *data->curr(), *quantities);
+                     meets(tolerances_, program_, *data->curr(), *quantities);
     if (has_converged_ || must_end()) return false;
     return !(options_.stop_requested && options_.stop_requested());
   }

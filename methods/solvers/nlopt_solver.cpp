@@ -94,7 +94,7 @@ class SlsqpRun {
   SlsqpRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options)
       : program_(program),
         options_(options),
-        constraint_tolerance_(std::max(options.tolerance, program.rounding_floor())),
+        constraint_tolerance_(std::max(options.tolerance, program.rounding_floors().smallest)),
         equalities_(program, OneSidedConstraints::Kind::equalities),
         inequalities_(program, OneSidedConstraints::Kind::inequalities),
         nearest_point_(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper())) {

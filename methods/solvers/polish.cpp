@@ -24,7 +24,7 @@ double residual_of(const Solution& solution) {
 }
 
 /// True if what is left is no more than the rounding of the program's terms.
-bool is_rounding(const NonlinearProgram& program, const Solution& solution) {
+bool is_rounding(NonlinearProgram& program, const Solution& solution) {
   constexpr double nothing = std::numeric_limits<double>::min();
   return scaled_residual(program, nothing, solution) <= 1.0;
 }

@@ -8,7 +8,7 @@ namespace dmocbench {
 /// Tightens a solution by Newton steps (`NewtonCorrections`), far below the tolerance that the solver was given.
 ///
 /// A step is kept if it lowers the larger of stationarity and violation. The first one that does not ends the polish,
-/// as `most_steps` do; it is still kept if all that it leaves is rounding (`rounding_floor`), because residuals of the
+/// as `most_steps` do; it is still kept if all that it leaves is rounding (`RoundingFloors`), because residuals of the
 /// same size may hide a smooth error far larger than what rounding leaves of the multipliers. Objective, residuals and
 /// multipliers of `solution` become those of the polished point. Returns the number of steps kept; 0 if the solution is
 /// not solved, has no multipliers of its own, or its Newton step cannot be computed. It ends with its `StopScope`.

@@ -1,26 +1,51 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
 
 /// The residuals at which a program counts as solved: the tolerance, or rounding where that is larger. The solvers that
-/// are compared stop by this rule, and all are judged by it (`confirm`).
+/// are compared stop by this rule, and all are judged by it (`confirm`). Rounding is that of the row, or of the
+/// variable
+/// (`RoundingFloors`). The program must outlive it.
 class StopRule {
  public:
   /// `tolerance` > 0, of the program as the solver sees it.
   StopRule(const NonlinearProgram& program, double tolerance)
-      : tolerance_(tolerance), rounding_(program.rounding_floor()) {}
+      : tolerance_(tolerance), floors_(program.rounding_floors()) {}
 
-  /// For the largest violation of a constraint or bound.
-  [[nodiscard]] double violation() const { return std::max(tolerance_, rounding_); }
+  /// True if all rows, and all variables, are allowed the same: then the largest residual tells.
+  [[nodiscard]] bool is_one_for_all() const { return floors_.are_equal(); }
 
-  /// For the largest entry of ∇_x of the Lagrangian. `mean_multiplier`, `largest_multiplier`: magnitudes; the mean
-  /// excuses large residuals as s_d of Wächter and Biegler (2006), (6), does.
+  /// For the violation of any constraint or bound: the least that is allowed.
+  [[nodiscard]] double violation() const { return std::max(tolerance_, floors_.smallest); }
+  /// For that of one constraint.
+  [[nodiscard]] double violation(Eigen::Index row) const { return std::max(tolerance_, floors_.of_row(row)); }
+
+  /// For any entry of ∇_x of the Lagrangian: the least that is allowed. `mean_multiplier`, `largest_multiplier`:
+  /// magnitudes; the mean excuses large residuals as s_d of Wächter and Biegler (2006), (6), does.
   [[nodiscard]] double stationarity(double mean_multiplier, double largest_multiplier) const {
-    return std::max(tolerance_ * scale(mean_multiplier), rounding_ * std::max(1.0, largest_multiplier));
+    return stationarity_above(floors_.smallest, mean_multiplier, largest_multiplier);
+  }
+  /// For the entry of one variable.
+  [[nodiscard]] double stationarity(double mean_multiplier, double largest_multiplier, Eigen::Index variable) const {
+    return stationarity_above(floors_.of_variable(variable), mean_multiplier, largest_multiplier);
+  }
+
+  /// The largest violation of a constraint divided by what it is allowed. `violations`: one of either sign per row.
+  [[nodiscard]] double share_of_violation(const Eigen::VectorXd& violations) const {
+    return largest_share(violations, [&](Eigen::Index i) { return violation(i); });
+  }
+  /// The largest entry of ∇_x of the Lagrangian divided by what it is allowed.
+  [[nodiscard]] double share_of_stationarity(const Eigen::VectorXd& gradient, double mean_multiplier,
+                                             double largest_multiplier) const {
+    return largest_share(gradient,
+                         [&](Eigen::Index j) { return stationarity(mean_multiplier, largest_multiplier, j); });
   }
 
   /// For the largest product of a bound's multiplier and the distance to it. `mean_multiplier`: of those of bounds.
@@ -33,8 +58,24 @@ class StopRule {
   }
 
  private:
+  [[nodiscard]] double stationarity_above(double floor, double mean_multiplier, double largest_multiplier) const {
+    return std::max(tolerance_ * scale(mean_multiplier), floor * std::max(1.0, largest_multiplier));
+  }
+
+  /// NaN where an entry is.
+  template <class Allowed>
+  [[nodiscard]] static double largest_share(const Eigen::VectorXd& entries, const Allowed& allowed) {
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < entries.size(); ++i) {
+      const double share = std::abs(entries[i]) / allowed(i);
+      if (std::isnan(share)) return share;
+      largest = std::max(largest, share);
+    }
+    return largest;
+  }
+
   double tolerance_;
-  double rounding_;
+  const RoundingFloors& floors_;
 };
 
 }  // namespace dmocbench

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "methods/transcription/undefined_stage.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -213,6 +215,10 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
                                double tolerance) {
   const Eigen::VectorXd& x = solution.primal;
   if (is_solved(solution.status) || static_cast<std::size_t>(x.size()) != transcription.variable_count()) return "";
+  if (solution.status == Status::evaluation_failed && x.allFinite()) {
+    const std::string undefined = undefined_stage(problem, transcription, x);
+    if (!undefined.empty()) return "At its last point " + undefined + ".";
+  }
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, rows);
   const Worst row = farthest_outside(rows, transcription.constraint_lower(), transcription.constraint_upper());

@@ -21,7 +21,8 @@ namespace dmocbench {
 /// Why a solve failed, in a sentence or two: the constraint or bound that its point violates most
 /// (`describe_constraint`), and by how much, in the unit of the constraint; which controls, and whether the horizon,
 /// are at their bounds there; and, where the solver ended at a point of least violation, what cannot be met near it,
-/// such as a final state that is out of reach. Empty where the solve ended without a point, or its point violates
+/// such as a final state that is out of reach. Of a failed evaluation it names the formula that is not a number and the
+/// interval (`undefined_stage`). Empty where the solve ended without a point, or its point violates
 /// nothing by more than `tolerance`. `problem` is the one that was transcribed.
 [[nodiscard]] std::string describe_violation(const Problem& problem, Transcription& transcription,
                                              const Solution& solution, double tolerance = 1e-8);

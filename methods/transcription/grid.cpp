@@ -32,6 +32,12 @@ Grid Grid::from_nodes(Eigen::VectorXd relative_times) {
     if (!(widths[k] > 0.0)) {
       throw Error(fmt::format("relative node times must ascend: entry {} is not above entry {}", k + 1, k));
     }
+    if (widths[k] < narrowest) {
+      throw Error(
+          fmt::format("relative node times {} and {} are {:.1e} apart, less than {:g}: rounding would drown the motion "
+                      "between them; take one of the two out",
+                      k, k + 1, widths[k], narrowest));
+    }
   }
   return {std::move(relative_times), std::move(widths)};
 }

@@ -11,9 +11,15 @@ class Grid {
   /// The largest number of intervals accepted.
   static constexpr long long most_intervals = 1LL << 24;
 
+  /// The narrowest interval accepted, as a share of the horizon. Velocities are differences of q divided by the step:
+  /// in an interval ten times narrower, rounding would leave of a velocity that covers |q| in the horizon fewer than
+  /// six digits.
+  static constexpr double narrowest = 1e-8;
+
   /// N intervals of equal length. Throws `Error` unless 1 <= intervals <= most_intervals.
   [[nodiscard]] static Grid uniform(long long intervals);
-  /// Any relative node times. Throws `Error` unless they ascend strictly from 0 to 1.
+  /// Any relative node times. Throws `Error` unless they ascend strictly from 0 to 1 and every interval is at least
+  /// `narrowest` wide.
   [[nodiscard]] static Grid from_nodes(Eigen::VectorXd relative_times);
 
   [[nodiscard]] std::size_t intervals() const noexcept { return static_cast<std::size_t>(nodes_.size() - 1); }

@@ -79,7 +79,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
 
   const Eigen::MatrixXd table = traced.table(points, times);
   GuessMagnitudes magnitudes;
-  FormulaCheck check(problem);
+  FormulaCheck check(problem, FormulaCheck::Derivatives::second);
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const Eigen::VectorXd values = table.row(i);
     const Eigen::MatrixXd mass = values.segment(3 * n + 1 + traced.path_constraint_count(), n * n).reshaped(n, n);

@@ -13,8 +13,8 @@ struct GuessMagnitudes {
 };
 
 /// Evaluates the problem at 64 points of its guess. Throws `Error` that names the function, the interval of the grid
-/// with its time, and the quantity, if the guess has the wrong size, a formula or one of its first derivatives is
-/// not a number (`FormulaCheck`), or L_vv is singular there.
+/// with its time, and the quantity, if the guess has the wrong size, a formula or one of its first or second
+/// derivatives is not a number (`FormulaCheck`), or L_vv is singular there.
 [[nodiscard]] GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced, const Grid& grid);
 
 }  // namespace dmocbench

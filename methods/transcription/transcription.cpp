@@ -53,11 +53,35 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count()};
 }
 
-/// From max|q| and max|L_vv| over the ends and the guess.
-double rounding_floor_of(const GuessMagnitudes& survey, double smallest_step) {
+/// The floor of every place, that of an interval being `of_interval`.
+Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interval, double of_border) {
+  Eigen::VectorXd floors(static_cast<Eigen::Index>(places.size()));
+  const Eigen::Index last = of_interval.size() - 1;
+  Eigen::Index i = 0;
+  places.for_each([&](const Place& place) {
+    const auto k = static_cast<Eigen::Index>(place.index);
+    double floor = of_border;
+    if (place.kind == Place::Kind::interval) floor = of_interval[k];
+    if (place.kind == Place::Kind::node) {
+      floor = std::max(of_interval[std::max<Eigen::Index>(k - 1, 0)], of_interval[std::min(k, last)]);
+    }
+    floors[i++] = floor;
+  });
+  return floors;
+}
+
+/// From max|q| and max|L_vv| over the ends and the guess, and the steps of the intervals.
+RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps, const Layout& layout) {
   constexpr double safety = 20.0;
-  return safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass /
-         smallest_step;
+  const double terms =
+      safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass;
+  RoundingFloors floors{
+      .smallest = terms / steps.maxCoeff(), .largest = terms / steps.minCoeff(), .rows = {}, .variables = {}};
+  if (steps.minCoeff() == steps.maxCoeff()) return floors;
+  const Eigen::VectorXd of_interval = terms * steps.cwiseInverse();
+  floors.rows = floors_at(layout.structure().rows, of_interval, floors.smallest);
+  floors.variables = floors_at(layout.structure().unknowns, of_interval, floors.largest);
+  return floors;
 }
 
 }  // namespace
@@ -85,8 +109,8 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       end_functions_(trace_ends(problem, traced_, end_rules_)),
       layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
       bounds_(program_bounds(problem, traced_, problem_bounds_, end_rules_, layout_)),
-      rounding_floor_(
-          rounding_floor_of(check_guess(problem, traced_, grid), guessed_horizon_ * grid.relative_widths().minCoeff())),
+      rounding_floors_(
+          rounding_floors_of(check_guess(problem, traced_, grid), guessed_horizon_ * grid.relative_widths(), layout_)),
       step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
       time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
       jacobian_pattern_(assemble_pattern(

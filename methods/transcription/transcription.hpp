@@ -60,9 +60,11 @@ class Transcription final : public NonlinearProgram {
   void constraints(const VectorIn& x, VectorOut result) override;
   void jacobian(const VectorIn& x, VectorOut values) override;
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override;
-  /// 20 ε max|q| max|L_vv| / min h: constraints are differences of momenta, and these are differences of q divided by
-  /// h. The maxima are taken over the ends of the motion and the problem's guess.
-  [[nodiscard]] double rounding_floor() const override { return rounding_floor_; }
+  /// 20 ε max|q| max|L_vv| / h: constraints are differences of momenta, and these are differences of q divided by h.
+  /// The maxima are taken over the ends of the motion and the problem's guess; h is the step of the row's or the
+  /// variable's interval, at a node the smaller one of both sides. Rows of the border have the smallest floor, its
+  /// variables the largest. No floor is above 1e-6 of max|q| max|L_vv| / T, because no interval is as narrow (`Grid`).
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return rounding_floors_; }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return &layout_.structure(); }
 
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
@@ -118,7 +120,7 @@ class Transcription final : public NonlinearProgram {
   std::optional<EndFunctions> end_functions_;
   Layout layout_;
   ProgramBounds bounds_;
-  double rounding_floor_ = 0.0;
+  RoundingFloors rounding_floors_;
   Eigen::VectorXd step_inputs_;
   Eigen::VectorXd time_inputs_;
   AssembledPattern jacobian_pattern_;

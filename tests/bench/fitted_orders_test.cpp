@@ -175,5 +175,39 @@ TEST(FittedOrders, EveryCurveHasItsOwn) {
   EXPECT_NEAR(slope_of(slopes, "state", "tangent").number("slope").value_or(0.0), 1.0, 1e-12);
 }
 
+/// A curve with errors e and jumps j.
+Table with_jumps(const std::function<double(double)>& e, const std::function<double(double)>& j) {
+  const Table errors = convergence_of({{.error = e}}, dense_grids);
+  std::vector<std::string> columns = errors.columns();
+  columns.emplace_back("largest_jump");
+  Table table(columns);
+  for (Row row : errors.rows()) {
+    row.set("largest_jump", j(*row.number("intervals")));
+    table.append(row);
+  }
+  return table;
+}
+
+TEST(FittedJumps, OneOrderApartExplainTheSameShareOfTheErrorOnEveryGrid) {
+  const Table table = with_jumps(power_law(3.0, 2.0), power_law(2.0, 3.0));
+  const Table jumps = fit_jumps(table);
+  ASSERT_EQ(jumps.rows().size(), 1U);
+  const Row& row = jumps.rows()[0];
+  EXPECT_NEAR(row.number("jump_slope").value_or(0.0), 3.0, 1e-12);
+  EXPECT_NEAR(row.number("error_slope").value_or(0.0), 2.0, 1e-12);
+  EXPECT_NEAR(row.number("orders_apart").value_or(0.0), 1.0, 1e-12);
+  EXPECT_NEAR(row.number("error_of_jumps_coarsest").value_or(0.0), 1.5, 1e-12);
+  EXPECT_NEAR(row.number("error_of_jumps_finest").value_or(0.0), 1.5, 1e-12);
+}
+
+TEST(FittedJumps, UseGridsAloneWhereBothAreAboveTheirFloors) {
+  const Table table = with_jumps(power_law(3.0, 2.0), with_floor);
+  const Table jumps = fit_jumps(table);
+  ASSERT_EQ(jumps.rows().size(), 1U);
+  EXPECT_NEAR(jumps.rows()[0].number("jump_slope").value_or(0.0), 6.0, 0.05);
+  EXPECT_EQ(jumps.rows()[0].text("verdict"), "slope");
+  EXPECT_LT(jumps.rows()[0].number("finest").value_or(0.0), 512.0);
+}
+
 }  // namespace
 }  // namespace dmocbench

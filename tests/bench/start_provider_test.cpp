@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiment/process_pool.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "tests/robustness/chain_on_cart.hpp"
 #include "tests/support/restated_problems.hpp"
 
 namespace dmocbench {
@@ -44,6 +46,23 @@ TEST_F(StartProviders, LookForNoCommonStartWhereSolvesBeginAtTheGuess) {
   EXPECT_FALSE(start.branch);
   EXPECT_TRUE(start.note.empty()) << start.note;
   EXPECT_EQ(solves_, 0);
+}
+
+/// Standing still the chain falls apart by a factor of 1e9 or more over its horizon.
+TEST_F(StartProviders, FindTheCommonStartOfAnUnstableSystemThatAReplayOfItsHorizonCannotJudge) {
+  const tests::ChainOnCart unstable = tests::ChainOnCart::shifted(2);
+  Case chain = with("dmoc");
+  chain.problem = {std::shared_ptr<const Problem>(), &unstable};  // which it does not own
+  chain.grid = Grid::uniform(96);
+  StartProvider source = provider({.most_seconds = 300.0});
+  const Start start = source.start_for(chain);
+  EXPECT_TRUE(start.note.empty()) << start.note;
+  ASSERT_TRUE(start.branch);
+  const SolvedCase solved = solve_case(chain, start, *make_solver(chain.solver), SolverOptions{}.tolerance, 1);
+  EXPECT_EQ(solved.branch, "same");
+  ASSERT_TRUE(is_solved(solved.solution.status)) << solved.solution.message;
+  EXPECT_LT(solved.accuracy->relative_jump, 1e-2);
+  EXPECT_GT(replay_error(*chain.problem, *solved.trajectory).norm(), 1.0);
 }
 
 TEST_F(StartProviders, GiveUpWhenTheirTimeHasPassed) {

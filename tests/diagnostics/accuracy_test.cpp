@@ -40,6 +40,19 @@ TEST(Accuracy, FindsWhereAMotionIsTornAndByHowMuch) {
   EXPECT_NEAR(replay.relative_jump, 0.25 / 1.25, 1e-13);
 }
 
+TEST(Accuracy, DoesNotCallABodyAtRestTornByRounding) {
+  const tests::DoubleIntegrator problem;
+  Trajectory at_rest = exact_optimum(problem, 8);
+  at_rest.stage_u.setZero();
+  for (const double place : {0.0, 1.0, 1e6}) {
+    at_rest.v = 1e-13 * Eigen::MatrixXd::Random(9, 1);
+    at_rest.q = Eigen::MatrixXd::Constant(9, 1, place) + 1e-14 * std::max(1.0, place) * Eigen::MatrixXd::Random(9, 1);
+    EXPECT_LT(accuracy(problem, at_rest).relative_jump, 1e-7) << "at " << place;
+    at_rest.q.bottomRows(4).array() += 1.0;
+    EXPECT_GT(accuracy(problem, at_rest).relative_jump, 0.05) << "torn at " << place;
+  }
+}
+
 /// x'' = 400 x + u grows by e^40 over its horizon: a replay of the whole cannot judge a motion that rounding moves.
 class Unstable final : public tests::SmallProblem {
  public:

@@ -76,6 +76,23 @@ TEST(ReplayError, KnowsTheTimeThatALagrangianDependsOn) {
   }
 }
 
+/// A free mass whose place costs: C = q².
+class CostlyPlace final : public tests::SmallProblem {
+ public:
+  CostlyPlace() : SmallProblem("costly_place", at(0.0, 0.0), at(1.0, 0.0), 2.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.q[0] * x.q[0]; }
+};
+
+TEST(CostByIntervals, BeginsEveryIntervalAtItsOwnNode) {
+  const CostlyPlace problem;
+  Trajectory torn = controls_alone(problem, 1, Grid::uniform(4), [](double) { return 0.0; });
+  torn.v.setZero();
+  torn.q.col(0) << 1.0, -2.0, 3.0, 0.5, 7.0;  // each place is kept for half a second, the last for none
+  EXPECT_NEAR(cost_by_intervals(problem, torn), 0.5 * (1.0 + 4.0 + 9.0 + 0.25), 1e-11);
+}
+
 /// q̈ = q̇² from q̇ = 2: the velocity 2/(1 - 2t) leaves every bound at t = ½.
 class BlowUp final : public tests::SmallProblem {
  public:

@@ -24,7 +24,7 @@ TEST(CountedProgram, ForwardsEverythingAndCountsEachEvaluationOnItsOwn) {
   EXPECT_EQ(&counted.hessian_structure(), &program.hessian_structure());
   EXPECT_EQ(counted.interval_structure(), program.interval_structure());
   EXPECT_NE(counted.interval_structure(), nullptr);
-  EXPECT_EQ(counted.rounding_floor(), program.rounding_floor());
+  EXPECT_EQ(&counted.rounding_floors(), &program.rounding_floors());
 
   const Eigen::VectorXd x = sample(program, guessed_motion(pendulum));
   const Eigen::VectorXd multipliers = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(program.constraint_count()));

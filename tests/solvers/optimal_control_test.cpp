@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/solvers/confirm.hpp"
+#include "methods/solvers/solver.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 
@@ -58,6 +60,34 @@ TEST(HarmonicOscillator, NeedsNoControlBetweenTheEndsOfAFreeMotion) {
       errors.push_back({1.0 / intervals, trajectory.stage_u.lpNorm<Eigen::Infinity>()});
     }
     EXPECT_NEAR(fit_order(errors)->order, 2.0, 0.1) << method;
+  }
+}
+
+/// Sixteen even intervals and one between them that is a ten-millionth of the horizon.
+Grid grid_with_a_narrow_interval() {
+  Eigen::VectorXd nodes(18);
+  nodes.head(9) = Eigen::VectorXd::LinSpaced(9, 0.0, 0.5);
+  nodes.tail(9) = Eigen::VectorXd::LinSpaced(9, 0.5, 1.0);
+  nodes[9] += 1e-7;
+  return Grid::from_nodes(nodes);
+}
+
+/// Rounding in the narrow interval is 4e-8, and a hundred times less would be a failure elsewhere.
+TEST(NarrowInterval, IsSolvedAndExcusesNoErrorInOtherIntervals) {
+  const tests::DoubleIntegrator problem;
+  for (const std::string& method : element_names()) {
+    const auto program = tests::transcribe(problem, {method, 1}, grid_with_a_narrow_interval());
+    ASSERT_LT(program->rounding_floors().smallest, 1e-12);
+    for (const char* solver : {"ipopt", "interior_point", "sqp"}) {
+      SCOPED_TRACE(method + " by " + solver);
+      const Solution solution = make_solver(solver)->solve(*program, sample(*program, guessed_motion(problem)));
+      ASSERT_EQ(solution.status, Status::solved) << solution.message;
+      EXPECT_NEAR(solution.objective, 6.0 / (1.0 - 1.0 / 256.0), 1e-4);
+      Solution spoilt = solution;
+      spoilt.primal[3] += 1e-8;  // q of a node elsewhere
+      confirm(*program, 1e-10, spoilt);
+      EXPECT_EQ(spoilt.status, Status::not_confirmed);
+    }
   }
 }
 

@@ -36,7 +36,7 @@ TEST(Polish, NeverMakesASolutionWorseThanRounding) {
   const double residual = std::max(*solved.solution.kkt_residual, *solved.solution.constraint_violation);
   polish(*solved.transcription, solved.solution);
   const double rounding =
-      solved.transcription->rounding_floor() * solved.solution.multipliers.lpNorm<Eigen::Infinity>();
+      solved.transcription->rounding_floors().largest * solved.solution.multipliers.lpNorm<Eigen::Infinity>();
   EXPECT_LE(std::max(*solved.solution.kkt_residual, *solved.solution.constraint_violation),
             std::max(residual, rounding));
 }

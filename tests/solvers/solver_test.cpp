@@ -32,7 +32,10 @@ TEST(Solvers, AreMadeByNameAndUnknownNamesListThem) {
 class CoarseProgram final : public tests::SmallProgram {
  public:
   using SmallProgram::SmallProgram;
-  [[nodiscard]] double rounding_floor() const override { return 1e-3; }
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return floors_; }
+
+ private:
+  RoundingFloors floors_{.smallest = 1e-3, .largest = 1e-3, .rows = {}, .variables = {}};
 };
 
 TEST(Solvers, StopWhereRoundingBegins) {

@@ -27,7 +27,7 @@ class BoundedProgram final : public NonlinearProgram {
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
     program_.hessian(x, objective_factor, multipliers, values);
   }
-  [[nodiscard]] double rounding_floor() const override { return program_.rounding_floor(); }
+  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return program_.rounding_floors(); }
 
  private:
   NonlinearProgram& program_;

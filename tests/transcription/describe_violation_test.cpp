@@ -147,6 +147,18 @@ TEST_P(ViolationInWords, HasWordsForEveryRowAndUnknownThatSayWhereItBelongs) {
   }
 }
 
+TEST_P(ViolationInWords, NamesTheFormulaThatIsNotANumberAndTheInterval) {
+  const tests::DoubleIntegrator base;
+  const Restated problem(base, [](Statement& s) {
+    s.running_cost = [](const ControlledState& x) { return pow(x.u[0] + 1.0, 1.5) + x.u[0] * x.u[0]; };
+  });
+  Ended ended(problem, GetParam(), Status::evaluation_failed);
+  ended.control(0, 7) = -1.0;
+  EXPECT_PRED2(says, ended.words(), "a second derivative of running_cost is not a number in interval 7 (t = 0.");
+  ended.control(0, 3) = -2.0;
+  EXPECT_PRED2(says, ended.words(), "At its last point running_cost is not a number in interval 3 (t = 0.");
+}
+
 TEST_P(ViolationInWords, NamesWhatIsNotANumber) {
   const tests::MovingFrame problem;
   Ended ended(problem, GetParam(), Status::evaluation_failed);

@@ -22,7 +22,7 @@ constexpr double tolerance = 1e-11;
 
 /// Rows of stages are of the size of forces, up to 1/h times those of nodes.
 double allowed(const Transcription& program) {
-  return 10.0 * std::max(tolerance, program.rounding_floor()) / program.step_inputs().minCoeff();
+  return 10.0 * std::max(tolerance, program.rounding_floors().largest) / program.step_inputs().minCoeff();
 }
 
 TEST(Equivalence, ASolutionOfDmocSolvesTheHamiltonianRowsAndBack) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
 namespace {
@@ -55,6 +56,15 @@ TEST(Grid, RefusesNodesThatDoNotAscendStrictlyFromZeroToOne) {
   EXPECT_THROW(static_cast<void>(Grid::from_nodes(nodes({0.0, 0.6, 0.5, 1.0}))), Error);
   EXPECT_THROW(static_cast<void>(Grid::from_nodes(nodes({0.0, nan, 1.0}))), Error);
   EXPECT_THROW(static_cast<void>(Grid::from_nodes(nodes({nan, 0.5, 1.0}))), Error);
+}
+
+TEST(Grid, RefusesAnIntervalSoNarrowThatRoundingDrownsTheMotion) {
+  EXPECT_NO_THROW(static_cast<void>(Grid::from_nodes(nodes({0.0, 0.3, 0.3 + 2e-8, 1.0}))));
+  for (const double width : {5e-9, 1e-11, 6e-17}) {
+    tests::expect_error_naming({"1 and 2", "rounding"}, [&] {
+      static_cast<void>(Grid::from_nodes(nodes({0.0, 0.3, 0.3 + width, 1.0})));
+    });
+  }
 }
 
 }  // namespace

@@ -261,6 +261,11 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
               s.running_cost = [](const ControlledState& x) { return sqrt(x.q[0] - 0.6) + x.u[0] * x.u[0]; };
             }).find("at its guess in interval 0 (t = 0.0078125) running_cost is not a number"),
             std::string::npos);
+  // u = 0 at the guess, where u^1.5 and its slope are 0.
+  EXPECT_NE(sentence([](Statement& s) {
+              s.running_cost = [](const ControlledState& x) { return pow(x.u[0], 1.5); };
+            }).find("at its guess in interval 0 (t = 0.0078125) a second derivative of running_cost is not a number"),
+            std::string::npos);
   EXPECT_NE(sentence([](Statement& s) {
               s.path = [](const ControlledState& x) {
                 ExpressionVector h(2);

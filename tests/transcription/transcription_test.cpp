@@ -182,11 +182,44 @@ TEST(Transcription, RefusesIllPosedProblemsAndSaysWhy) {
 TEST(Transcription, RoundingFloorGrowsWithTheNumberOfIntervals) {
   const auto problem = make_problem("orbital_transfer");
   const auto floor = [&](int intervals) {
-    return tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(intervals))->rounding_floor();
+    return tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(intervals))->rounding_floors().largest;
   };
   EXPECT_GT(floor(64), 0.0);
   EXPECT_NEAR(floor(128), 2.0 * floor(64), 1e-12 * floor(64));
   EXPECT_LT(floor(1024), 1e-10);
+}
+
+/// Sixteen intervals of 0.1 s or so and one of 1e-7 of the horizon in between.
+Grid grid_with_a_narrow_interval() {
+  Eigen::VectorXd nodes(18);
+  nodes.head(9) = Eigen::VectorXd::LinSpaced(9, 0.0, 0.5);
+  nodes.tail(9) = Eigen::VectorXd::LinSpaced(9, 0.5, 1.0);
+  nodes[9] += 1e-7;
+  return Grid::from_nodes(nodes);
+}
+
+TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
+  const auto problem = make_problem("orbital_transfer");
+  const double even = tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(16))->rounding_floors().largest;
+  for (const std::string& method : element_names()) {
+    for (const int stages : {1, 2}) {
+      const auto program = tests::transcribe(*problem, {method, stages}, grid_with_a_narrow_interval());
+      const RoundingFloors& floors = program->rounding_floors();
+      ASSERT_FALSE(floors.are_equal());
+      const auto expect = [&](const Places& places, const Eigen::VectorXd& values, double of_border) {
+        ASSERT_EQ(static_cast<std::size_t>(values.size()), places.size());
+        Eigen::Index i = 0;
+        places.for_each([&](const Place& place) {
+          const bool is_border = place.kind == Place::Kind::border;
+          const bool is_narrow = place.index == 8 || (place.kind == Place::Kind::node && place.index == 9);
+          const double expected = is_border ? of_border : is_narrow ? even / 16.0 * 1e7 : even;
+          EXPECT_NEAR(values[i++] / expected, 1.0, 1e-5) << method << " " << stages << ", place " << place.index;
+        });
+      };
+      expect(program->layout().structure().rows, floors.rows, floors.smallest);
+      expect(program->layout().structure().unknowns, floors.variables, floors.largest);
+    }
+  }
 }
 
 TEST(Element, UnknownNamesListTheKnownOnes) {

@@ -7,6 +7,7 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/barrier_bounds.hpp"
 #include "methods/solvers/kkt/matrix_product.hpp"
+#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -65,6 +66,9 @@ class BarrierProgram {
 
   /// From the gradient of the Lagrangian, see above, and the values at an iterate.
   [[nodiscard]] OptimalityErrors optimality_errors(const Iterate& at, const Primal& gradient, const Evaluation& values);
+  /// Whether an iterate, with the errors that the last `optimality_errors` told of it, may be the answer.
+  [[nodiscard]] bool meets(const StopRule& allowed, const OptimalityErrors& errors, const Iterate& at,
+                           const Primal& gradient, const Evaluation& values) const;
 
  private:
   NonlinearProgram& program_;

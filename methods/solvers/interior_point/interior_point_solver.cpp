@@ -84,7 +84,7 @@ class InteriorPointRun {
     theta_min_ = theta_min_ratio * theta;
     theta_max_ = theta_max_ratio * theta;
     filter_.reset(theta_max_);
-    rounding_of_theta_ = counted_.rounding_floor() * std::sqrt(static_cast<double>(values_.constraints.size()));
+    rounding_of_theta_ = counted_.rounding_floors().norm_of_rows(values_.constraints.size());
     return std::nullopt;
   }
 
@@ -92,7 +92,7 @@ class InteriorPointRun {
   [[nodiscard]] std::optional<Status> iterate() {
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
     // Stop where E_0 <= ε, (5) and (6).
-    if (has_converged(errors)) return Status::solved;
+    if (program_.meets(allowed_, errors, at_, gradient_, values_)) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
     // Lower μ while E_μ <= κ_ε μ, (7).
     update_barrier_parameter(errors);
@@ -120,6 +120,7 @@ class InteriorPointRun {
     }
     // Restore feasibility where no step is acceptable.
     if (!is_accepted) {
+      if (!is_finite(program_.hessian())) return Status::evaluation_failed;
       if (const auto reason = restoration_phase()) return reason;
     }
     program_.differentiate(at_.x);
@@ -149,12 +150,6 @@ class InteriorPointRun {
     if (counted_.is_out_of_time()) return Status::time_limit;
     if (iterations_ >= options_.most_iterations) return Status::iteration_limit;
     return std::nullopt;
-  }
-
-  [[nodiscard]] bool has_converged(const OptimalityErrors& errors) const {
-    return errors.violation <= allowed_.violation() &&
-           errors.stationarity <= allowed_.stationarity(errors.mean_multiplier, largest_of(at_.multipliers)) &&
-           program_.bounds().complementarity(at_, 0.0) <= allowed_.complementarity(errors.mean_bound_multiplier);
   }
 
   void update_barrier_parameter(const OptimalityErrors& errors) {

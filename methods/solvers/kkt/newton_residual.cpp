@@ -26,7 +26,7 @@ NewtonResidual::NewtonResidual(const NonlinearProgram& program)
     : hessian_(MatrixProduct::symmetric(program.hessian_structure())),
       jacobian_(MatrixProduct::plain(program.jacobian_structure())),
       transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())),
-      floor_(program.rounding_floor()),
+      floor_(program.rounding_floors().largest),
       fixed_(fixed_variables(program)) {}
 
 void NewtonResidual::compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step) {

@@ -25,16 +25,16 @@ class NewtonResidual {
   [[nodiscard]] KktRightHandSide value() const noexcept { return {.gradient = gradient_, .constraints = constraints_}; }
 
   /// The residual divided by its limit: the sum of `accuracy` times the largest entry of the right-hand side, the
-  /// rounding of the sums that the residual is left of, and the program's `rounding_floor`. Gradient and constraints
-  /// have limits of their own; the larger ratio counts. Infinite if a number is not finite. `matrix` and `step` are
-  /// those of the last `compute`.
+  /// rounding of the sums that the residual is left of, and the largest of the program's `RoundingFloors`. Gradient and
+  /// constraints have limits of their own; the larger ratio counts. Infinite if a number is not finite. `matrix` and
+  /// `step` are those of the last `compute`.
   [[nodiscard]] double excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const;
 
  private:
   MatrixProduct hessian_;
   MatrixProduct jacobian_;
   MatrixProduct transposed_jacobian_;
-  double floor_;  // the program's rounding_floor()
+  double floor_;  // the largest of the program's
   std::vector<Eigen::Index> fixed_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd constraints_;

@@ -32,7 +32,7 @@ class SequentialRun {
                 const SequentialOptions& choices)
       : program_(program),
         options_(options),
-        tolerance_(std::max(options.tolerance, program.rounding_floor())),
+        tolerance_(std::max(options.tolerance, program.rounding_floors().smallest)),
         quadratic_solver_({.tolerance = tolerance_of_quadratic_programs * tolerance_, .crash = choices.crash},
                           Pricing(choices.pricing, choices.seed),
                           [this](const MinorIteration& minor) { return observe(minor); }),
@@ -85,7 +85,7 @@ class SequentialRun {
     now.primal = at_.point;
     now.multipliers = multipliers_;
     judge_residuals(program_.uncounted(), now);
-    return scaled_residual(program_, options_.tolerance, now) <= 1.0;
+    return scaled_residual(program_.uncounted(), options_.tolerance, now) <= 1.0;
   }
 
   [[nodiscard]] std::optional<Status> major_iteration() {

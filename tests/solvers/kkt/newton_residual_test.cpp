@@ -176,7 +176,7 @@ TEST(NewtonResidual, ExceedsByHowMuchMoreItIsThanItMayBe) {
 TEST(NewtonResidual, MayBeAsLargeAsTheRoundingOfTheProgram) {
   const OrbitalTransfer problem;
   Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(8));
-  const double floor = program.rounding_floor();
+  const double floor = program.rounding_floors().largest;
   ASSERT_GT(floor, 0.0);
   const auto variables = static_cast<Eigen::Index>(program.variable_count());
   const auto rows = static_cast<Eigen::Index>(program.constraint_count());

@@ -1,0 +1,29 @@
+#include "methods/transcription/undefined_stage.hpp"
+
+#include <fmt/format.h>
+
+#include "methods/mechanics/formula_check.hpp"
+
+namespace dmocbench {
+
+std::string undefined_stage(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
+  const Layout& layout = transcription.layout();
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
+  FormulaCheck check(problem, FormulaCheck::Derivatives::second);
+  for (Eigen::Index k = 0; k < stages.rows(); ++k) {
+    for (Eigen::Index i = 0; i < layout.stages(); ++i) {
+      const auto stage = stages.row(k).segment(i * (2 * n + 1), 2 * n + 1);
+      MotionPoint point{.q = stage.head(n), .v = stage.segment(n, n), .u = Eigen::VectorXd(problem.control_size())};
+      for (Eigen::Index c = 0; c < point.u.size(); ++c) {
+        point.u[c] = x[static_cast<Eigen::Index>(layout.control_column(i, c)) + k];
+      }
+      const std::string quantity = check.undefined_at(point, stage[2 * n]);
+      if (!quantity.empty())
+        return fmt::format("{} is not a number in interval {} (t = {:g})", quantity, k, stage[2 * n]);
+    }
+  }
+  return "";
+}
+
+}  // namespace dmocbench
