@@ -1,59 +1,36 @@
 // The table of claims: what the paper states, what was measured, and the verdict.
 
-#include <algorithm>
-#include <ranges>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/claims/claim.hpp"
+#include "bench/claims/claims_table.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 
 namespace dmocbench::programs {
 
-const Columns<JudgedClaim> columns{
-    {"claim", "", "short name", &JudgedClaim::id},
-    {"where", "", "in the paper", &JudgedClaim::where},
-    {"paper", "", "what it states", &JudgedClaim::states},
-    {"measured", "", "what was measured", &JudgedClaim::measured},
-    {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
-};
-
-std::string markdown(const Table& claims) {
-  std::string text = fmt::format("# The paper's claims, measured\n\n| {} |\n|", fmt::join(claims.columns(), " | "));
-  for (std::size_t i = 0; i < claims.columns().size(); ++i) text += "---|";
-  for (const Row& claim : claims.rows()) {
-    const auto field = [&](const std::string& column) { return claim.text(column); };
-    text += fmt::format("\n| {} |", fmt::join(claims.columns() | std::views::transform(field), " | "));
-  }
-  return text + "\n";
-}
-
 void print(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
-    fmt::print("{0:<11} {1:<50} {2}\n{5:12}paper:    {3}\n{5:12}measured: {4}\n", name_of(claim.verdict), claim.id,
-               claim.where, claim.states, claim.measured, "");
+    fmt::print("{0:<11} {1:<50} {2}, {3}\n{6:12}states:   {4}\n{6:12}measured: {5}\n", name_of(claim.verdict), claim.id,
+               name_of(claim.whose), claim.where, claim.states, claim.measured, "");
+    if (!claim.reason.empty()) fmt::print("{:12}reason:   {}\n", "", claim.reason);
   }
-  std::vector<std::string> counts;
-  for (const ClaimVerdict verdict :
-       {ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::floor, ClaimVerdict::not_yet}) {
-    counts.push_back(
-        fmt::format("{} {}", std::ranges::count(claims, verdict, &JudgedClaim::verdict), name_of(verdict)));
-  }
-  fmt::print("{}\n", fmt::join(counts, ", "));
+  fmt::print("{}\n", fmt::join(closing_lines(claims), "\n"));
 }
 
 int judge_all(CommandLine& line) {
   std::filesystem::path out = "results";
+  std::vector<std::string> required;
   line.option("--out", out, "the results folder");
+  line.list("--require", required, "claims that have to be reproduced; exit code 1 if one is not");
   line.parse();
   const std::vector<JudgedClaim> claims = judge_claims(ResultTables::read(out));
-  const Table table = table_of(columns, claims);
-  write_file(out / "claims.csv", table.csv());
-  write_file(out / "claims.md", markdown(table));
+  const std::vector<std::string> missed = not_reproduced(claims, required);
+  write_file(out / "claims.csv", claims_table(claims).csv());
+  write_file(out / "claims.md", claims_markdown(claims));
   print(claims);
-  return 0;
+  for (const std::string& sentence : missed) fmt::print(stderr, "claims: {}\n", sentence);
+  return missed.empty() ? 0 : 1;
 }
 
 }  // namespace dmocbench::programs

@@ -40,45 +40,103 @@ Finding finding_of(const Judge& judge) {
   try {
     return judge();
   } catch (const Error& lacking) {
-    return {lacking.what(), ClaimVerdict::not_yet};
+    return {.measured = lacking.what(), .sure = ""};
   }
 }
 
-/// A misprint is confirmed if what is printed differs from what must hold by far more than rounding; the verdict on the
-/// printed statement is then "differs".
-Finding judge_misprint(const Row& row) {
+bool is_equal(double value, double required) {
   constexpr double tolerance = 1e-6;
+  return std::abs(value - required) < tolerance * std::max(1.0, std::abs(required));
+}
+
+/// A misprint is confirmed, and the printed statement "differs", if what is printed misses what must hold by far more
+/// than rounding and what is meant does not. If both miss it, nobody knows what is meant.
+Finding judge_misprint(const Row& row) {
   const double printed = row.needed("value_as_printed");
+  const double meant = row.needed("value_as_meant");
   const double required = row.needed("required_value");
-  return found(std::abs(printed - required) < tolerance * std::max(1.0, std::abs(required)),
-               "{}: {:.6g} as printed, {:.6g} as meant ({}), {:.6g} required", row.text("quantity"), printed,
-               row.needed("value_as_meant"), row.text("meant"), required);
+  ClaimVerdict verdict = is_equal(meant, required) ? ClaimVerdict::differs : ClaimVerdict::undecided;
+  if (is_equal(printed, required)) verdict = ClaimVerdict::reproduced;
+  return found(verdict, "{}: {:.6g} as printed, {:.6g} as meant, {:.6g} required", row.text("quantity"), printed, meant,
+               required)
+      .because("meant is " + row.text("meant"));
 }
 
 /// The misprints of a table that is there; one row says so if it cannot be read.
 std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   if (!tables.has("slips")) return {};
   std::vector<JudgedClaim> judged;
+  const auto append = [&](const std::string& id, const Row& row, Finding finding) {
+    judged.push_back({.id = id,
+                      .where = row.text("where"),
+                      .figure = "",
+                      .whose = Whose::misprint,
+                      .states = row.text("printed"),
+                      .measured = std::move(finding.measured),
+                      .verdict = finding.verdict,
+                      .reason = std::move(finding.reason),
+                      .evidence = "slips.csv",
+                      .sure = std::move(finding.sure)});
+  };
   try {
     for (const Row& row : tables.rows("slips")) {
-      Finding finding = finding_of([&] { return judge_misprint(row); });
-      judged.push_back({.id = row.text("problem") + "/" + row.text("slip"),
-                        .where = row.text("where"),
-                        .states = row.text("printed"),
-                        .measured = std::move(finding.measured),
-                        .verdict = finding.verdict});
+      append(row.text("problem") + "/" + row.text("slip"), row, finding_of([&] { return judge_misprint(row); }));
     }
   } catch (const Error& fault) {
-    judged.push_back({.id = "paper/slips", .where = "", .states = "(misprints)", .measured = fault.what()});
+    Row unread;
+    unread.set("printed", "(misprints)");
+    append("paper/slips", unread, {.measured = fault.what(), .sure = ""});
   }
   return judged;
+}
+
+/// What is written behind a verdict: the cause where the claim differs, the condition, what the tables tell.
+std::string reason_of(const Claim& claim, const std::string& problem, const Finding& finding) {
+  if (finding.verdict == ClaimVerdict::not_yet) return "";
+  std::vector<std::string> sentences;
+  const auto append = [&](const std::string& sentence) {
+    if (!sentence.empty()) sentences.push_back(sentence);
+  };
+  if (finding.verdict == ClaimVerdict::differs) append(claim.cause.on(problem));
+  append(claim.condition.on(problem));
+  append(finding.reason);
+  return fmt::format("{}", fmt::join(sentences, "; "));
+}
+
+/// The files of the evidence, with the problem's name in theirs.
+std::string evidence_of(const Claim& claim, const std::string& problem) {
+  std::string files = fmt::format("{}", fmt::join(claim.evidence, "; "));
+  const std::string placeholder = "{}";
+  for (auto i = files.find(placeholder); i != std::string::npos; i = files.find(placeholder)) {
+    files.replace(i, placeholder.size(), problem);
+  }
+  return files;
+}
+
+JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const std::string& problem) {
+  Finding finding = finding_of([&] { return claim.judge(tables, problem); });
+  return {.id = problem + "/" + claim.id,
+          .where = claim.where.on(problem),
+          .figure = claim.figure.on(problem),
+          .whose = claim.whose,
+          .states = claim.states.on(problem),
+          .measured = std::move(finding.measured),
+          .verdict = finding.verdict,
+          .reason = reason_of(claim, problem, finding),
+          .evidence = evidence_of(claim, problem),
+          .sure = std::move(finding.sure)};
 }
 
 }  // namespace
 
 std::string_view name_of(ClaimVerdict verdict) noexcept {
-  constexpr std::array names{"reproduced", "differs", "floor", "not yet"};
+  constexpr std::array names{"reproduced", "differs", "undecided", "floor", "not yet"};
   return names[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view name_of(Whose whose) noexcept {
+  constexpr std::array names{"paper", "paper's remark", "ours", "misprint"};
+  return names[static_cast<std::size_t>(whose)];
 }
 
 double quotient(const Row& row, const Row& other, const std::string& column) {
@@ -116,13 +174,7 @@ std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
       for (const Claim& claim : chapter) {
         if (std::ranges::find(claim.problems, problem) == claim.problems.end()) continue;
         if (!claim.needs.empty() && !tables.has(claim.needs)) continue;
-        Finding finding = finding_of([&] { return claim.judge(tables, problem); });
-        if (finding.verdict != ClaimVerdict::not_yet) finding.measured += claim.reason;
-        judged.push_back({.id = problem + "/" + claim.id,
-                          .where = claim.where.on(problem),
-                          .states = claim.states.on(problem),
-                          .measured = std::move(finding.measured),
-                          .verdict = finding.verdict});
+        judged.push_back(judge_claim(claim, tables, problem));
       }
     }
   }

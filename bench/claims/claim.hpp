@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench/claims/result_tables.hpp"
@@ -15,11 +17,14 @@ namespace dmocbench {
 enum class ClaimVerdict : std::uint8_t {
   reproduced,  ///< the predicate holds
   differs,     ///< the predicate does not hold
+  undecided,   ///< the interval of what was measured holds values on both sides of what decides
   floor,       ///< only rounding was measured: nothing can be said
   not_yet,     ///< it lacks a table, a row or a number
 };
+inline constexpr std::array all_verdicts{ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::undecided,
+                                         ClaimVerdict::floor, ClaimVerdict::not_yet};
 
-/// "reproduced", "differs", "floor" or "not yet".
+/// "reproduced", "differs", "undecided", "floor" or "not yet".
 [[nodiscard]] std::string_view name_of(ClaimVerdict verdict) noexcept;
 
 /// The paper's problems, and one of ours with a constant mass matrix.
@@ -31,12 +36,20 @@ using Problems = std::vector<std::string>;
 inline const Problems of_paper{orbit, two_link};
 inline const Problems only_orbit{orbit};
 inline const Problems only_two_link{two_link};
+/// In the place of a problem where motions are simulated and nothing is optimal.
+inline const Problems simulated{"simulations"};
 
 /// Who makes a statement.
 enum class Whose : std::uint8_t {
-  paper,
-  ours,  ///< a sharper form of the paper's statement, or one that the paper does not make
+  paper,     ///< the paper, as a theorem, an equation or a result
+  remark,    ///< the paper in passing: a remark, an expectation, a motive
+  ours,      ///< not the paper: a sharper form of its statement, or one that it does not make
+  misprint,  ///< the paper as it is printed, but not as it is meant
 };
+inline constexpr std::array all_sources{Whose::paper, Whose::remark, Whose::ours, Whose::misprint};
+
+/// "paper", "paper's remark", "ours" or "misprint".
+[[nodiscard]] std::string_view name_of(Whose whose) noexcept;
 
 /// A text of a claim: one for every problem, or one for each of the paper's.
 class Wording {
@@ -56,6 +69,17 @@ class Wording {
 struct Finding {
   std::string measured;  ///< in words and numbers
   ClaimVerdict verdict = ClaimVerdict::not_yet;
+  std::string reason = {};     ///< what the tables tell of the cause or the condition; behind the claim's own
+  std::string sure = "exact";  ///< "exact", or how often the verdict came out among replicates
+
+  [[nodiscard]] Finding because(std::string sentence) && {
+    reason = std::move(sentence);
+    return std::move(*this);
+  }
+  [[nodiscard]] Finding as_sure_as(std::string replicates) && {
+    sure = std::move(replicates);
+    return std::move(*this);
+  }
 };
 
 /// Judges a claim about a problem. Throws `Error` that names what it lacks; the claim is then "not yet".
@@ -65,21 +89,29 @@ using Predicate = std::function<Finding(const ResultTables& tables, const std::s
 struct Claim {
   std::string id;  ///< "state_slope"; the written table puts the problem in front
   Problems problems;
-  Wording where;  ///< label or section in the paper
+  Wording where;        ///< section or label in the paper; for a statement of ours the place that it sharpens
+  Wording figure = "";  ///< label of the paper's figure that shows it; "" if none does
   Whose whose;
-  Wording states;
+  Wording states;  ///< what is stated, in the words of whoever states it
   Predicate judge;
-  const char* reason = "";  ///< explains what was measured, and is written behind it
-  std::string needs = "";   ///< left out where this table is not there: the experiment is not part of every run
+  Wording condition = "";             ///< under which condition it holds; written whatever the verdict
+  Wording cause = "";                 ///< why it differs; written where it does
+  std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
+  std::string needs = "";  ///< left out where this table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.
 struct JudgedClaim {
-  std::string id;        ///< "orbital_transfer/state_slope"
-  std::string where;     ///< label or section in the paper
-  std::string states;    ///< what the paper states
+  std::string id;      ///< "orbital_transfer/state_slope"
+  std::string where;   ///< section or label in the paper
+  std::string figure;  ///< label of the paper's figure
+  Whose whose = Whose::paper;
+  std::string states;    ///< what is stated
   std::string measured;  ///< what was found, or what is lacking
   ClaimVerdict verdict = ClaimVerdict::not_yet;
+  std::string reason;    ///< why it differs, or under which condition it holds
+  std::string evidence;  ///< the tables and figures, with "; " between them
+  std::string sure;      ///< "exact", or how often the verdict came out among replicates; "" for "not yet"
 };
 
 /// Every claim with its verdict, and the paper's misprints. Rows that are not solved or on another branch make a claim

@@ -142,17 +142,33 @@ Finding order_of_stage_controls(const ResultTables& tables, const std::string& p
 }  // namespace
 
 Claims order_claims() {
-  return {{"order_of_convergence", of_paper, "main_theorem", Whose::paper,
-           "order kappa for state, costate and u(x, psi) at the nodes", order_of_convergence},
-          {"order_of_adjoint_scheme", of_paper, "th:orderapp, eq:stateco5-eq:stateco9", Whose::paper,
-           "the adjoint scheme is that of the states with both halves exchanged, and has its order",
-           order_of_adjoint_scheme}};
+  return {{.id = "order_of_convergence",
+           .problems = of_paper,
+           .where = "section 3.6, main_theorem",
+           .whose = Whose::paper,
+           .states = "order kappa for state, costate and u(x, psi) at the nodes",
+           .judge = order_of_convergence,
+           .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
+           .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
+          {.id = "order_of_adjoint_scheme",
+           .problems = of_paper,
+           .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
+           .whose = Whose::paper,
+           .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",
+           .judge = order_of_adjoint_scheme,
+           .condition = "Gauss is its own exchange, so that Lobatto alone can tell",
+           .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}}};
 }
 
 Claims stage_control_claims() {
   // Not the orbit: its costate is nearly constant, and so the low-order terms of its stages are too small to be seen.
-  return {{"order_of_stage_controls", only_two_link, "remark behind main_theorem", Whose::paper,
-           "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages", order_of_stage_controls}};
+  return {{.id = "order_of_stage_controls",
+           .problems = only_two_link,
+           .where = "section 3.6, remark behind main_theorem",
+           .whose = Whose::remark,
+           .states = "the estimate holds for u(x_k, psi_k), not for the controls u_k of the stages",
+           .judge = order_of_stage_controls,
+           .evidence = {"convergence_indirect_slopes.csv", "figures/{}_orders.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -112,21 +112,42 @@ Finding tangent_coincides(const ResultTables& tables, const std::string& problem
 }  // namespace
 
 Claims solution_claims() {
-  return {{"momentum_consistency", of_paper, Wording("fig:kepler_J", "fig:twolink_obj b)"), Whose::paper,
-           "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
-           "not for tangent-space collocation",
-           momentum_consistency},
-          {"equal_solutions", of_paper, "th:equi, equ_L_RK, ex:RK", Whose::paper,
-           "DMOC and Hamiltonian collocation by the same tableau have equal solutions", equal_solutions},
-          {"tangent_differs", of_paper, "section 4.2", Whose::paper,
-           "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
-           tangent_differs}};
+  const Wording section{"section 4.2.1", "section 4.2.2"};
+  const std::vector<std::string> equivalence{"equivalence.csv", "figures/{}_equivalence.svg"};
+  return {{.id = "momentum_consistency",
+           .problems = of_paper,
+           .where = section,
+           .figure = Wording("fig:kepler_J", "fig:twolink_obj b)"),
+           .whose = Whose::paper,
+           .states = "change in momentum equals the forces to numerical accuracy for DMOC and Hamiltonian collocation, "
+                     "not for tangent-space collocation",
+           .judge = momentum_consistency,
+           .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
+          {.id = "equal_solutions",
+           .problems = of_paper,
+           .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
+           .whose = Whose::paper,
+           .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
+           .judge = equal_solutions,
+           .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
+           .evidence = equivalence},
+          {.id = "tangent_differs",
+           .problems = of_paper,
+           .where = section,
+           .whose = Whose::ours,
+           .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
+           .judge = tangent_differs,
+           .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}}};
 }
 
 Claims coincidence_claims() {
-  return {{"tangent_coincides", Problems(1, oscillator), "section 4.2, ex:RK", Whose::paper,
-           "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
-           tangent_coincides}};
+  return {{.id = "tangent_coincides",
+           .problems = Problems(1, oscillator),
+           .where = "section 3.4, ex:RK",
+           .whose = Whose::ours,
+           .states = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
+           .judge = tangent_coincides,
+           .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};
 }
 
 }  // namespace dmocbench

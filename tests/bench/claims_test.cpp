@@ -234,6 +234,12 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
   slips.append(row);
   results.add("slips", slips);
   EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::reproduced);
+  row.set("value_as_printed", 1.02);
+  row.set("value_as_meant", 1.01);
+  slips.clear();
+  slips.append(row);
+  results.add("slips", slips);
+  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::undecided);
 }
 
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
@@ -241,10 +247,12 @@ TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {
   for (const JudgedClaim& claim : judge_claims(tables())) {
     EXPECT_TRUE(seen.insert(claim.id).second) << claim.id;
     EXPECT_TRUE(claim.id.starts_with("orbital_transfer/") || claim.id.starts_with("two_link_manipulator/") ||
-                claim.id.starts_with("forced_oscillator/"))
+                claim.id.starts_with("forced_oscillator/") || claim.id.starts_with("simulations/"))
         << claim.id;
     EXPECT_FALSE(claim.states.empty());
     EXPECT_FALSE(claim.where.empty());
+    EXPECT_FALSE(claim.evidence.empty()) << claim.id;
+    EXPECT_EQ(claim.evidence.find('{'), std::string::npos) << claim.evidence;
   }
 }
 

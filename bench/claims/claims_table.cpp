@@ -1,0 +1,128 @@
+#include "bench/claims/claims_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <ranges>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/experiment/column.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+const Columns<JudgedClaim>& claim_columns() {
+  static const Columns<JudgedClaim> all{
+      {"claim", "", "problem and short name", &JudgedClaim::id},
+      {"where", "", "in the paper", &JudgedClaim::where},
+      {"figure", "", "of the paper", &JudgedClaim::figure},
+      {"whose", "", "who states it", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
+      {"states", "", "what is stated", &JudgedClaim::states},
+      {"measured", "", "what was measured", &JudgedClaim::measured},
+      {"verdict", "", "by the tables", [](const JudgedClaim& claim) { return name_of(claim.verdict); }},
+      {"reason", "", "why it differs, or when it holds", &JudgedClaim::reason},
+      {"evidence", "", "tables and figures", &JudgedClaim::evidence},
+      {"sure", "", "exact, or how often the verdict came out among replicates", &JudgedClaim::sure},
+  };
+  return all;
+}
+
+/// What the claims of a source are called: in the closing lines and as a heading.
+struct Title {
+  const char* line;
+  const char* heading;
+};
+
+Title title_of(Whose whose) {
+  constexpr std::array titles{Title{"the paper's statements", "The paper's statements"},
+                              Title{"its remarks", "Its remarks, expectations and motives"},
+                              Title{"ours", "Not stated by the paper: sharper forms, and what we ask besides"},
+                              Title{"misprints", "Misprints: what is printed, and what is meant"}};
+  return titles[static_cast<std::size_t>(whose)];
+}
+
+std::vector<JudgedClaim> stated_by(const std::vector<JudgedClaim>& claims, Whose whose) {
+  std::vector<JudgedClaim> of_source;
+  std::ranges::copy_if(claims, std::back_inserter(of_source),
+                       [&](const JudgedClaim& claim) { return claim.whose == whose; });
+  return of_source;
+}
+
+/// A field in a table of Markdown, where a bar would begin the next column.
+std::string escaped(const std::string& field) {
+  std::string text;
+  for (const char c : field) {
+    if (c == '|') text += '\\';
+    text += c == '\n' ? ' ' : c;
+  }
+  return text;
+}
+
+std::string markdown_table(const std::vector<JudgedClaim>& claims) {
+  const Table table = claims_table(claims);
+  std::vector<std::string> names = table.columns();
+  std::erase(names, "whose");  // the heading says it
+  std::string text = fmt::format("| {} |\n|", fmt::join(names, " | "));
+  for (std::size_t i = 0; i < names.size(); ++i) text += "---|";
+  for (const Row& claim : table.rows()) {
+    const auto field = [&](const std::string& column) { return escaped(claim.text(column)); };
+    text += fmt::format("\n| {} |", fmt::join(names | std::views::transform(field), " | "));
+  }
+  return text + "\n";
+}
+
+/// "differs" of one claim, "differ" of several.
+std::string counted(std::ptrdiff_t count, ClaimVerdict verdict) {
+  const bool are_several = verdict == ClaimVerdict::differs && count != 1;
+  return fmt::format("{} {}", count, are_several ? "differ" : name_of(verdict));
+}
+
+}  // namespace
+
+Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), claims); }
+
+std::string claims_markdown(const std::vector<JudgedClaim>& claims) {
+  std::string text =
+      "# Claims, measured\n\n"
+      "What decides on a verdict is a predicate on the tables beside this file. *Reproduced*: it holds. *Differs*: it "
+      "does not. *Undecided*: the interval of what was measured reaches to both sides of what decides. *Floor*: only "
+      "rounding was measured. *Not yet*: a table, a row or a number is lacking. *Sure* is *exact* where no time and no "
+      "choice at random is judged.\n";
+  for (const Whose whose : all_sources) {
+    const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
+    if (of_source.empty()) continue;
+    text += fmt::format("\n## {}\n\n{}", title_of(whose).heading, markdown_table(of_source));
+  }
+  return text + fmt::format("\n## In all\n\n- {}\n", fmt::join(closing_lines(claims), "\n- "));
+}
+
+std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
+  std::vector<std::string> lines;
+  for (const Whose whose : all_sources) {
+    const std::vector<JudgedClaim> of_source = stated_by(claims, whose);
+    if (of_source.empty()) continue;
+    std::vector<std::string> counts;
+    for (const ClaimVerdict verdict : all_verdicts) {
+      const auto count = std::ranges::count(of_source, verdict, &JudgedClaim::verdict);
+      if (count > 0) counts.push_back(counted(count, verdict));
+    }
+    lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
+  }
+  return lines;
+}
+
+std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, const std::vector<std::string>& names) {
+  std::vector<std::string> sentences;
+  for (const std::string& name : names) {
+    const auto claim = std::ranges::find(claims, name, &JudgedClaim::id);
+    if (claim == claims.end()) throw Error(fmt::format("there is no claim {}; claims.csv lists all", name));
+    if (claim->verdict == ClaimVerdict::reproduced) continue;
+    sentences.push_back(fmt::format("{} is not reproduced but {}: {}", name, name_of(claim->verdict), claim->measured));
+  }
+  return sentences;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/claims/claim.hpp"
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench {
+
+/// The judged claims as claims.csv has them, a row each in their order.
+[[nodiscard]] Table claims_table(const std::vector<JudgedClaim>& claims);
+
+/// The same for readers: what the paper states, its remarks, what is ours and the misprints, each in a table of its own
+/// below a heading, then the closing lines.
+[[nodiscard]] std::string claims_markdown(const std::vector<JudgedClaim>& claims);
+
+/// How many claims have which verdict, a line for the paper's statements, its remarks, ours and the misprints:
+/// "the paper's statements: 21 reproduced, 4 differ". What nobody claims has no line.
+[[nodiscard]] std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims);
+
+/// Claims that are not reproduced, a sentence each, of those with certain names. Throws `Error` on a name that no claim
+/// has.
+[[nodiscard]] std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims,
+                                                      const std::vector<std::string>& names);
+
+}  // namespace dmocbench

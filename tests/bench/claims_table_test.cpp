@@ -1,0 +1,65 @@
+// The written table of claims: whose statement stands where, and what its closing lines count.
+#include "bench/claims/claims_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+namespace {
+
+JudgedClaim claim_of(const char* id, Whose whose, ClaimVerdict verdict) {
+  return {.id = id,
+          .where = "section 4",
+          .figure = "fig:any",
+          .whose = whose,
+          .states = "|J| falls",
+          .measured = "it falls, by \"2\"",
+          .verdict = verdict,
+          .reason = "of the step",
+          .evidence = "convergence.csv",
+          .sure = "exact"};
+}
+
+const std::vector<JudgedClaim> some{claim_of("a/one", Whose::paper, ClaimVerdict::reproduced),
+                                    claim_of("b/two", Whose::ours, ClaimVerdict::differs),
+                                    claim_of("c/three", Whose::paper, ClaimVerdict::differs),
+                                    claim_of("d/four", Whose::misprint, ClaimVerdict::differs),
+                                    claim_of("e/five", Whose::paper, ClaimVerdict::differs)};
+
+TEST(ClaimsTable, IsReadBackWithEveryField) {
+  const Table table = Table::from_csv(claims_table(some).csv());
+  EXPECT_EQ(table.columns(), (std::vector<std::string>{"claim", "where", "figure", "whose", "states", "measured",
+                                                       "verdict", "reason", "evidence", "sure"}));
+  ASSERT_EQ(table.rows().size(), some.size());
+  EXPECT_EQ(table.rows()[1].text("whose"), "ours");
+  EXPECT_EQ(table.rows()[1].text("verdict"), "differs");
+  EXPECT_EQ(table.rows()[1].text("measured"), "it falls, by \"2\"");
+}
+
+TEST(ClaimsTable, CountsThePapersStatementsApartFromOursAndFromMisprints) {
+  EXPECT_EQ(closing_lines(some), (std::vector<std::string>{"the paper's statements: 1 reproduced, 2 differ",
+                                                           "ours: 1 differs", "misprints: 1 differs"}));
+}
+
+TEST(ClaimsTable, HasATableForEachSourceAndNoBarThatWouldBeginAColumn) {
+  const std::string text = claims_markdown(some);
+  const auto place = [&](const char* part) { return text.find(part); };
+  EXPECT_LT(place("## The paper's statements"), place("a/one"));
+  EXPECT_LT(place("e/five"), place("## Not stated by the paper"));
+  EXPECT_LT(place("b/two"), place("## Misprints"));
+  EXPECT_LT(place("## Misprints"), place("d/four"));
+  EXPECT_EQ(place("## Its remarks"), std::string::npos);
+  EXPECT_NE(place("\\|J\\| falls"), std::string::npos);
+}
+
+TEST(ClaimsTable, TellsWhichRequiredClaimsAreNotReproduced) {
+  EXPECT_TRUE(not_reproduced(some, {"a/one"}).empty());
+  const std::vector<std::string> missed = not_reproduced(some, {"a/one", "c/three"});
+  ASSERT_EQ(missed.size(), 1U);
+  EXPECT_TRUE(missed.front().starts_with("c/three is not reproduced but differs")) << missed.front();
+  EXPECT_THROW(static_cast<void>(not_reproduced(some, {"no/claim"})), Error);
+}
+
+}  // namespace
+}  // namespace dmocbench
