@@ -17,10 +17,13 @@ Claims joined(std::initializer_list<Claims> topics) {
 /// The claims in the order of the table: chapter by chapter, in each of them problem by problem.
 std::vector<Claims> chapters() {
   return {joined({solution_claims(), grid_claims(), cost_claims()}),
-          consistency_order_claims(),
+          joined({energy_claims(), coercivity_claims()}),
+          joined({consistency_order_claims(), order_theorem_claims()}),
           order_claims(),
-          joined({minima_claims(), cold_start_claims()}),
-          joined({stage_control_claims(), coincidence_claims(), flow_claims()}),
+          minima_claims(),
+          joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
+                  rotation_claims()}),
+          joined({optimal_momentum_claims(), smoothness_claims()}),
           library_claims()};
 }
 

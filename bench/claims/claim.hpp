@@ -38,6 +38,8 @@ inline const Problems only_orbit{orbit};
 inline const Problems only_two_link{two_link};
 /// In the place of a problem where motions are simulated and nothing is optimal.
 inline const Problems simulated{"simulations"};
+/// The same where several small problems are solved for one statement.
+inline const Problems examples{"examples"};
 
 /// Who makes a statement.
 enum class Whose : std::uint8_t {
@@ -128,6 +130,13 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims stage_control_claims();      ///< and of the controls of the stages
 [[nodiscard]] Claims cost_claims();               ///< iterations, time, operations and derivatives
 [[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
+[[nodiscard]] Claims order_theorem_claims();      ///< the theorem on it, and the exact Legendre transforms
+[[nodiscard]] Claims energy_claims();             ///< energies against work along optimal motions
+[[nodiscard]] Claims modified_energy_claims();    ///< the modified energy without forces
+[[nodiscard]] Claims optimal_momentum_claims();   ///< momentum along optimal motions
+[[nodiscard]] Claims rotation_claims();           ///< momentum about three axes
+[[nodiscard]] Claims coercivity_claims();         ///< the assumption of coercivity
+[[nodiscard]] Claims smoothness_claims();         ///< optima that are not smooth, free final states
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it

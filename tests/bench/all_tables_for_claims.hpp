@@ -61,6 +61,97 @@ inline Rows consistency_order_rows() {
   return rows;
 }
 
+inline Rows rows_of_texts(const ColumnNames& columns, const std::vector<std::vector<std::string>>& texts) {
+  Rows rows;
+  for (const std::vector<std::string>& row : texts) rows.push_back(row_of_texts(columns, row));
+  return rows;
+}
+
+/// Slopes of three truncations; tangent-space collocation has order 2 whatever the truncation.
+inline Rows truncation_rows(const char* problem, const std::vector<std::string>& quantities, const char* method) {
+  Rows rows;
+  for (const std::string& quantity : quantities) {
+    for (const char* truncation : {"2", "4", "6"}) {
+      const bool is_tangent = std::string(method) == "tangent" || quantity == "gap_to_work_";
+      rows.push_back(
+          row_of_texts({"problem", "method", "tableau", "stages", "quantity", "slope"},
+                       {problem, method, "gauss", "1", quantity + truncation, is_tangent ? "2" : truncation}));
+    }
+  }
+  return rows;
+}
+
+inline Rows drift_rows() {
+  Rows rows = truncation_rows("radial_thrust", {"drift_"}, "dmoc");
+  std::ranges::copy(truncation_rows("radial_thrust", {"drift_"}, "tangent"), std::back_inserter(rows));
+  return rows;
+}
+
+inline Rows energy_work_rows() {
+  return rows_of_texts({"problem", "method", "tableau", "stages", "intervals", "largest_gap"},
+                       {{orbit, "dmoc", "gauss", "1", "64", "1e-9"}, {orbit, "tangent", "gauss", "1", "64", "1e-8"}});
+}
+
+inline Rows orthogonal_rows() {
+  const ColumnNames columns{"problem", "method", "tableau", "stages", "intervals", "momentum_deviation", "rounding"};
+  return rows_of_texts(columns, {{"radial_thrust", "dmoc", "gauss", "1", "64", "1e-14", "2e-14"},
+                                 {"radial_thrust", "tangent", "gauss", "1", "64", "1e-4", "2e-14"}});
+}
+
+inline Rows rotation_rows() {
+  Rows rows;
+  for (const char* axis : {"1", "2", "3"}) {
+    const auto append = [&](const char* action, const char* method, const char* defect) {
+      rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "action", "axis", "work", "defect"},
+                                  {action, method, "gauss", "1", action, axis, "-0.01", defect}));
+    };
+    append("linear", "dmoc", "1e-18");
+    append("linear", "tangent", "1e-5");
+    append("polar", "dmoc", "1e-3");
+  }
+  return rows;
+}
+
+inline Rows transform_rows() {
+  return rows_of_texts({"problem", "h", "left_defect", "right_defect", "largest_momentum"},
+                       {{orbit, "0.1", "1e-13", "1e-13", "2"}});
+}
+
+inline Rows smoothness_rows() {
+  Rows rows;
+  const auto append = [&](const char* situation, const char* active, const char* end, const char* stages,
+                          const char* quantity, const char* slope) {
+    rows.push_back(row_of_texts(
+        {"situation", "active", "end", "problem", "method", "tableau", "stages", "order", "quantity", "slope"},
+        {situation, active, end, "any", "dmoc", "gauss", stages, std::string(stages) == "1" ? "2" : "4", quantity,
+         slope}));
+  };
+  for (const char* quantity : {"state", "costate_q", "costate_p", "node_control"}) {
+    append("two_link_free_end", "nothing", "free", "1", quantity, "2.01");
+    append("two_link_free_end", "nothing", "free", "2", quantity, "4.01");
+    append("two_link_bounded", "control", "fixed", "1", quantity, "2.02");
+    append("beam", "state", "fixed", "1", quantity, std::string(quantity) == "costate_q" ? "0.01" : "2.03");
+  }
+  append("two_link_bounded", "control", "fixed", "2", "state", "2.1");
+  append("beam", "state", "fixed", "1", "control", "0.98");
+  return rows;
+}
+
+inline Rows coercivity_rows() {
+  Rows rows;
+  const auto append = [&](const char* problem, const char* intervals, const char* curvature) {
+    rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "status", "intervals", "smallest_curvature"},
+                                {problem, "dmoc", "gauss", "1", "solved", intervals, curvature}));
+  };
+  append(orbit, "16", "1.99");
+  append(orbit, "64", "1.998");
+  append(orbit, "256", "1.999");
+  append("brachistochrone", "16", "1e-2");
+  append("brachistochrone", "64", "1e-3");
+  append("brachistochrone", "256", "1e-4");
+  return rows;
+}
+
 inline Rows advantage_rows() {
   Rows rows;
   const auto append = [&](const char* solver, const char* factorisation, const char* quantity) {
@@ -149,6 +240,14 @@ inline std::map<std::string, Rows> all_rows() {
   rows["structure_symplecticity"] = symplecticity_rows();
   rows["structure_energy_behaviour"] = energy_rows();
   rows["consistency_order_slopes"] = consistency_order_rows();
+  rows["structure_modified_energy_slopes"] = drift_rows();
+  rows["structure_energy_work"] = energy_work_rows();
+  rows["structure_energy_work_slopes"] = truncation_rows(orbit, {"gap_to_work_", "gap_to_modified_work_"}, "dmoc");
+  rows["structure_orthogonal_forces"] = orthogonal_rows();
+  rows["structure_rotations"] = rotation_rows();
+  rows["consistency_order_transforms"] = transform_rows();
+  rows["smoothness_slopes"] = smoothness_rows();
+  rows["coercivity"] = coercivity_rows();
   rows["structure_advantage_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();
   rows["local_minima_shares"] = share_rows();

@@ -62,7 +62,19 @@ const ColumnNames& known_columns() {
                                "share_lower",
                                "share_upper",
                                "success",
-                               "evaluations"});
+                               "evaluations",
+                               "situation",
+                               "active",
+                               "end",
+                               "axis",
+                               "action",
+                               "work",
+                               "largest_gap",
+                               "momentum_deviation",
+                               "smallest_curvature",
+                               "left_defect",
+                               "right_defect",
+                               "largest_momentum"});
     names.insert(names.end(), tests::differences.begin(), tests::differences.end());
     return names;
   }();
@@ -163,7 +175,9 @@ class DoctoredClaims : public tests::InTemporaryFolder {
 const std::vector<std::string> no_numbers{"nan", "-nan", "inf", "-inf", "much", ""};
 
 TEST_F(DoctoredClaims, AreAllReproducedByWholeTables) {
-  const std::set<std::string> told_otherwise{"orbital_transfer/adolc_faster_than_differences"};
+  // Slopes cannot be those of the theorem as printed and with one power less.
+  const std::set<std::string> told_otherwise{"orbital_transfer/adolc_faster_than_differences",
+                                             "orbital_transfer/order_theorem_with_one_power_less"};
   std::size_t reproduced = 0;
   for (const auto& [id, claim] : whole_) {
     if (claim.verdict == ClaimVerdict::reproduced) ++reproduced;

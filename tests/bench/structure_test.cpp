@@ -7,6 +7,7 @@
 #include "bench/structure/energy_tables.hpp"
 #include "bench/structure/long_time_energy.hpp"
 #include "bench/structure/orthogonal_forces.hpp"
+#include "bench/structure/rotations.hpp"
 #include "bench/structure/simulated_tables.hpp"
 
 namespace dmocbench {
@@ -66,6 +67,23 @@ TEST(OrthogonalForces, KeepTheMomentumOfOptimalMotionsUnlessTheyAreCollocatedInT
       EXPECT_GT(number(row, "momentum_deviation"), 1e-10) << label;
     } else {
       EXPECT_LT(number(row, "momentum_deviation"), 10.0 * number(row, "rounding")) << label;
+    }
+  }
+}
+
+TEST(Rotations, AreBalancedAboutEveryAxisWhereTheyActLinearly) {
+  const Table table = rotations_table(50);
+  ASSERT_EQ(table.rows().size(), 27U);  // systems, methods, axes
+  for (const Row& row : table.rows()) {
+    const std::string label = row.text("problem") + " " + row.text("method") + " " + row.text("axis");
+    EXPECT_GT(std::abs(number(row, "work")), 1e-5) << label;
+    const bool is_invariant = row.text("action") == "linear" || row.text("axis") == "3";
+    const bool moves_mass_in_tangent_space =
+        row.text("method") == "tangent" && row.text("problem") != "elastic_pendulum";
+    if (is_invariant && !moves_mass_in_tangent_space) {
+      EXPECT_LT(number(row, "defect"), 1e-15) << label;
+    } else {
+      EXPECT_GT(number(row, "defect"), 1e-8) << label;
     }
   }
 }

@@ -1,0 +1,117 @@
+// Energy and modified energy, without forces and against their work along optimal motions.
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr const char* in_paper = "section 3.3, Conservation of a Modified Energy";
+const std::vector<std::string> truncations{"2", "4", "6"};
+
+/// Slopes of the truncations 2, 4 and 6 of a quantity, by their texts.
+Selection of_truncations(const Selection& slopes, const std::string& quantity, std::string_view table) {
+  Selection rows;
+  for (const std::string& truncation : truncations) {
+    const Selection found = slopes.where("quantity", quantity + truncation);
+    require(!found.empty(), "{}.csv has no slope of {}{}", table, quantity, truncation);
+    rows.append(found);
+  }
+  return rows;
+}
+
+/// The number behind the last "_" of a quantity.
+double truncation_of(const Row& row) {
+  const std::string quantity = row.text("quantity");
+  return std::stod(quantity.substr(quantity.rfind('_') + 1));
+}
+
+bool has_order_of_its_truncation(const Row& row) { return has_order(row, truncation_of(row)); }
+
+std::string slope_in_words(const Row& row) { return fmt::format("{:.2f}", row.needed("slope")); }
+
+Finding gap_smaller_than_of_tangent(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("structure_energy_work", problem);
+  const Selection dmoc = rows.where("method", "dmoc");
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const Row& row : dmoc) {
+    const Selection other = rows.where("method", "tangent").matching(row, {"intervals"});
+    require(!other.empty(), "structure_energy_work.csv has no row of tangent with {} intervals", row.text("intervals"));
+    const double ratio = quotient(other.front(), row, "largest_gap");
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  require(!dmoc.empty(), "structure_energy_work.csv has no row of dmoc for {}", problem);
+  return found(least > 1.0,
+               "largest |change of energy - work| of tangent over that of DMOC: {:.2f} to {:.2f} on {} grids", least,
+               most, dmoc.size());
+}
+
+Finding drifts_by_orders_2_4_6(const ResultTables& tables, const std::string& /*problem*/) {
+  const char* const table = "structure_modified_energy_slopes";
+  const Selection slopes = of_truncations(tables.rows(table), "drift_", table);
+  const Selection structured = slopes.where([](const Row& row) { return row.text("method") != "tangent"; });
+  // With a constant mass tangent-space collocation is the same rule.
+  const Selection tangent =
+      slopes.where("method", "tangent").where([](const Row& row) { return row.text("problem") != "pendulum"; });
+  require(!structured.empty() && !tangent.empty(), "{}.csv needs rows of dmoc and of tangent with a moving mass",
+          table);
+  const auto stays_at_2 = [](const Row& row) { return has_order(row, 2.0); };
+  return found(std::ranges::all_of(structured, has_order_of_its_truncation) && std::ranges::all_of(tangent, stays_at_2),
+               "slopes of the drift, DMOC and Hamiltonian on {} systems: {}; tangent-space collocation with a moving "
+               "mass: {}",
+               structured.group_by({"problem"}).size(), structured.in_words(", ", slope_in_words),
+               tangent.in_words(", ", slope_in_words));
+}
+
+Finding balances_modified_work(const ResultTables& tables, const std::string& problem) {
+  const char* const table = "structure_energy_work_slopes";
+  const Selection dmoc = tables.rows(table, problem).where("method", "dmoc");
+  const Selection modified = of_truncations(dmoc, "gap_to_modified_work_", table);
+  const Selection plain = of_truncations(dmoc, "gap_to_work_", table);
+  return found(std::ranges::all_of(modified, has_order_of_its_truncation),
+               "slopes of the gap to the modified work: {}; of the gap to the virtual work: {}",
+               modified.in_words(", ", slope_in_words), plain.in_words(", ", slope_in_words));
+}
+
+}  // namespace
+
+Claims energy_claims() {
+  return {
+      {.id = "energy_against_work",
+       .problems = of_paper,
+       .where = in_paper,
+       .whose = Whose::ours,
+       .states = "along optimal motions the energy of DMOC misses the virtual work by less than that of tangent-space "
+                 "collocation",
+       .judge = gap_smaller_than_of_tangent,
+       .condition = "both gaps are of order h^2 and their factors belong to the motion: on the slow transfer DMOC's is "
+                    "the smaller one, on the fast manipulator the larger one",
+       .evidence = {"structure_energy_work.csv", "figures/{}_energy_work.svg"}},
+      {.id = "modified_energy_and_work",
+       .problems = of_paper,
+       .where = in_paper,
+       .whose = Whose::ours,
+       .states = "along optimal motions H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
+                 "modified work up to h^2, h^4 and h^6",
+       .judge = balances_modified_work,
+       .condition = "the work has to be modified as well, by terms that vanish with the force: against the virtual "
+                    "work alone every truncation keeps a gap of order 2",
+       .evidence = {"structure_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
+}
+
+Claims modified_energy_claims() {
+  return {{.id = "modified_energy_by_orders",
+           .problems = simulated,
+           .where = in_paper,
+           .whose = Whose::ours,
+           .states =
+               "without forces H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule drift with orders 2, 4 "
+               "and 6; tangent-space collocation with a moving mass has no such energy",
+           .judge = drifts_by_orders_2_4_6,
+           .evidence = {"structure_modified_energy_slopes.csv", "figures/radial_thrust_modified_energy.svg"}}};
+}
+
+}  // namespace dmocbench

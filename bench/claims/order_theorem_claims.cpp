@@ -1,0 +1,96 @@
+// The Lemma on exact Legendre transforms, and (th:ordercalculation) as a whole.
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+Finding exact_transforms_agree(const ResultTables& tables, const std::string& problem) {
+  constexpr double rounding_of_differences = 1e-9;
+  const Selection rows = tables.rows("consistency_order_transforms", problem);
+  const auto defect = [](const Row& row) {
+    require(row.needed("largest_momentum") > 0.0, "{}, column largest_momentum: it has to be above zero", row.place());
+    return std::max(row.needed("left_defect"), row.needed("right_defect")) / row.needed("largest_momentum");
+  };
+  return found(rows.max(defect) < rounding_of_differences,
+               "largest difference over 8 motions and {} steps, relative to the largest momentum: {:.1e}", rows.size(),
+               rows.max(defect));
+}
+
+/// What has to have which order of error in (th:ordercalculation).
+struct Statement {
+  const char* name;
+  std::vector<const char*> quantities;
+  int more;  ///< than the order r, in the exponent of h
+};
+
+/// Slopes by Gauss with up to three stages; beyond, rounding comes first.
+Predicate all_hold_with_one_order(std::vector<Statement> statements) {
+  return [statements = std::move(statements)](const ResultTables& tables, const std::string& problem) -> Finding {
+    const Selection rows =
+        tables.rows("consistency_order_slopes", problem).where("tableau", "gauss").where([](const Row& row) {
+          return row.needed("stages") <= 3.0;
+        });
+    bool all = true;
+    std::vector<std::string> words;
+    for (const Statement& statement : statements) {
+      std::vector<std::string> slopes;
+      bool holds = true;
+      for (const char* quantity : statement.quantities) {
+        const Selection of_quantity = rows.where("quantity", quantity);
+        require(!of_quantity.empty(), "consistency_order_slopes.csv has no slope of {} for {}", quantity, problem);
+        for (const Row& row : of_quantity) {
+          holds = has_order(row, row.needed("order") + statement.more) && holds;
+          slopes.push_back(fmt::format("{:.1f}", row.needed("slope")));
+        }
+      }
+      all = all && holds;
+      words.push_back(fmt::format("{} {} ({})", statement.name, holds ? "holds" : "fails", fmt::join(slopes, ", ")));
+    }
+    return found(all, "slopes over h by Gauss of order 2, 4, 6: {}", fmt::join(words, "; "));
+  };
+}
+
+}  // namespace
+
+Claims order_theorem_claims() {
+  const std::vector<std::string> evidence{"consistency_order_slopes.csv", "figures/{}_consistency_order.svg"};
+  const std::vector<const char*> transforms{"left_legendre", "right_legendre"};
+  const std::vector<const char*> forces{"left_force", "right_force"};
+  return {
+      {.id = "exact_legendre_transform",
+       .problems = of_paper,
+       .where = "section 2.3, the Lemma",
+       .whose = Whose::paper,
+       .states = "the forced discrete Legendre transforms of L_d^E are those of L at the ends of the exact motion",
+       .judge = exact_transforms_agree,
+       .evidence = {"consistency_order_transforms.csv"}},
+      {.id = "order_theorem",
+       .problems = of_paper,
+       .where = "section 2.3, th:ordercalculation",
+       .whose = Whose::paper,
+       .states =
+           "(i) the map, (ii) the Legendre transforms and (iii) L_d and f_d have order r together, with errors of "
+           "h^(r + 1)",
+       .judge = all_hold_with_one_order({{"(i) map", {"map"}, 1},
+                                         {"(ii) transforms", transforms, 1},
+                                         {"(iii) L_d", {"lagrangian"}, 1},
+                                         {"(iii) f_d", forces, 1}}),
+       .cause = "(i) holds and (ii) and (iii) do not, for the definition asks one power too much of forces and "
+                "transforms (derivation: methods/README.md, \"Order of consistency\")",
+       .evidence = evidence},
+      {.id = "order_theorem_with_one_power_less",
+       .problems = of_paper,
+       .where = "section 2.3, th:ordercalculation",
+       .whose = Whose::ours,
+       .states = "with errors of h^r in eq:DMOC_orderf and eq:DMOC_orderLeg, (i), (ii) and (iii) hold with the same r",
+       .judge = all_hold_with_one_order({{"(i) map", {"map"}, 1},
+                                         {"(ii) transforms", transforms, 0},
+                                         {"(iii) L_d", {"lagrangian"}, 1},
+                                         {"(iii) f_d", forces, 0}}),
+       .evidence = evidence}};
+}
+
+}  // namespace dmocbench

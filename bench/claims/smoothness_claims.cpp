@@ -1,0 +1,177 @@
+// Convergence where the optimal control is not smooth, free final states, and coercivity: what (main_theorem) assumes.
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// What (main_theorem) speaks of; psi^q jumps where a bound on the state becomes active.
+const std::vector<std::string> of_theorem{"state", "costate_p", "node_control"};
+
+/// Slopes of DMOC with so many stages, of some quantities, in situations that are picked.
+template <class Picks>
+Selection slopes_of(const ResultTables& tables, const char* stages, const std::vector<std::string>& quantities,
+                    const Picks& picks) {
+  Selection slopes;
+  const Selection rows = tables.rows("smoothness_slopes").where("method", "dmoc").where("stages", stages).where(picks);
+  for (const std::string& quantity : quantities) {
+    const Selection of_quantity = rows.where("quantity", quantity);
+    require(!of_quantity.empty(),
+            "smoothness_slopes.csv has no slope of {} with {} stages in a situation that is asked for", quantity,
+            stages);
+    slopes.append(of_quantity);
+  }
+  return slopes;
+}
+
+auto with_active(std::string bound) {
+  return [bound = std::move(bound)](const Row& row) { return row.text("active") == bound; };
+}
+
+std::string slopes_in_words(const Selection& slopes) {
+  return slopes.in_words(", ", [](const Row& row) {
+    return fmt::format("{} {} {:.2f}", row.text("situation"), row.text("quantity"), row.needed("slope"));
+  });
+}
+
+Finding order_2_within_control_bounds(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double beside = 0.35;  // the error's factor changes with the place of a kink within its interval
+  const Selection slopes = slopes_of(tables, "1", of_theorem, with_active("control"));
+  const auto is_2 = [](const Row& row) { return std::abs(row.needed("slope") - 2.0) < beside; };
+  return found(std::ranges::all_of(slopes, is_2), "slopes by the midpoint rule: {}", slopes_in_words(slopes));
+}
+
+Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double nearer_to_2 = 3.0;
+  const auto has_kinks = [](const Row& row) { return row.text("active") != "nothing"; };
+  const Selection kinked = slopes_of(tables, "2", {"state"}, has_kinks);
+  const Selection smooth = slopes_of(tables, "2", {"state"}, std::not_fn(has_kinks));
+  const auto lost = [](const Row& row) { return row.needed("slope") < nearer_to_2 && row.needed("slope") > 1.5; };
+  const auto kept = [](const Row& row) { return has_order(row, 4.0); };
+  return found(std::ranges::all_of(kinked, lost) && std::ranges::all_of(smooth, kept),
+               "slopes of the state by Gauss, s = 2, with kinks: {}; without: {}", slopes_in_words(kinked),
+               slopes_in_words(smooth));
+}
+
+Finding free_end_has_the_order(const ResultTables& tables, const std::string& /*problem*/) {
+  const auto is_free = [](const Row& row) { return row.text("active") == "nothing" && row.text("end") == "free"; };
+  Selection slopes;
+  for (const char* stages : {"1", "2"}) {
+    slopes.append(slopes_of(tables, stages, {"state", "costate_q", "costate_p", "node_control"}, is_free));
+  }
+  return found(std::ranges::all_of(slopes, [](const Row& row) { return has_order(row, row.needed("order")); }),
+               "slopes of DMOC, s = 1 and 2: {}", slopes_in_words(slopes));
+}
+
+Finding state_bound_orders(const ResultTables& tables, const std::string& /*problem*/) {
+  const auto is_arc = [](const Row& row) { return row.text("situation") == "beam"; };
+  const Selection theorem = slopes_of(tables, "1", of_theorem, is_arc);
+  const Selection control = slopes_of(tables, "1", {"control"}, is_arc);
+  const Selection jumping = slopes_of(tables, "1", {"costate_q"}, is_arc);
+  const bool holds = std::ranges::all_of(theorem, [](const Row& row) { return has_order(row, 2.0); }) &&
+                     std::ranges::all_of(control, [](const Row& row) { return has_order(row, 1.0); }) &&
+                     std::ranges::all_of(jumping, [](const Row& row) { return has_order(row, 0.0); });
+  return found(holds, "slopes by the midpoint rule: {}; {}; {}", slopes_in_words(theorem), slopes_in_words(control),
+               slopes_in_words(jumping));
+}
+
+/// The smallest curvature of DMOC over the grids, coarsest first.
+Selection curvatures(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("coercivity", problem).where("method", "dmoc").sorted_by("intervals");
+  require(rows.size() >= 3, "coercivity.csv has {} rows of dmoc for {}; three are needed", rows.size(), problem);
+  return rows;
+}
+
+Finding coercive(const ResultTables& tables, const std::string& problem) {
+  constexpr double bounded_below = 0.5;
+  constexpr double settled = 0.01;
+  const Selection rows = curvatures(tables, problem);
+  const auto curvature = [](const Row& row) { return row.needed("smallest_curvature"); };
+  const double last = curvature(rows.back());
+  double least = last;
+  double before_last = last;
+  for (const Row& row : rows) {
+    least = std::min(least, curvature(row));
+    if (&row != &rows.back()) before_last = curvature(row);
+  }
+  return found(last > 0.0 && least > bounded_below * last && std::abs(before_last - last) < settled * last,
+               "alpha_h on {} grids: at least {:.4f}, {:.4f} on the finest", rows.size(), least, last);
+}
+
+Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/) {
+  const Selection rows = curvatures(tables, "brachistochrone");
+  const auto curvature = [](const Row& row) { return row.needed("smallest_curvature"); };
+  const double first = curvature(rows.front());
+  const double last = curvature(rows.back());
+  const double refined = rows.back().needed("intervals") / rows.front().needed("intervals");
+  bool falls = last >= 0.0;
+  double coarser = std::numeric_limits<double>::infinity();
+  for (const Row& row : rows) {
+    falls = falls && curvature(row) < coarser;
+    coarser = curvature(row);
+  }
+  return found(falls && last * refined < first, "alpha_h falls from {:.2e} to {:.2e} as h is divided by {:g}", first,
+               last, refined);
+}
+
+}  // namespace
+
+Claims coercivity_claims() {
+  return {{.id = "coercive",
+           .problems = of_paper,
+           .where = "section 3.5, assumption of coercivity",
+           .whose = Whose::paper,
+           .states = "the second variation is coercive (assumed)",
+           .judge = coercive,
+           .condition =
+               "measured on the discrete optima: the largest alpha_h with d^2 L >= alpha_h h sum b_i |dU_i|^2 is "
+               "bounded below as h falls",
+           .evidence = {"coercivity.csv"}}};
+}
+
+Claims smoothness_claims() {
+  const std::vector<std::string> evidence{"smoothness_slopes.csv", "smoothness.csv", "figures/smoothness.svg"};
+  return {
+      {.id = "order_within_control_bounds",
+       .problems = examples,
+       .where = "section 3.6, second remark below main_theorem",
+       .whose = Whose::remark,
+       .states = "the order 2 also holds with constraints on the control",
+       .judge = order_2_within_control_bounds,
+       .evidence = evidence},
+      {.id = "order_with_a_free_end",
+       .problems = examples,
+       .where = "section 3.6, main_theorem",
+       .whose = Whose::paper,
+       .states = "without constraint on the final state, state, costate and u(x, psi) have the order of the method",
+       .judge = free_end_has_the_order,
+       .evidence = evidence},
+      {.id = "kinks_leave_order_2",
+       .problems = examples,
+       .where = "section 3.6, eq:conv_estimate",
+       .whose = Whose::ours,
+       .states = "where the optimal control has kinks, a method of order 4 is left with about order 2",
+       .judge = kinks_leave_order_2,
+       .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; of u* and its first derivative it "
+                    "does, which gives h^2",
+       .evidence = evidence},
+      {.id = "order_within_a_state_bound",
+       .problems = examples,
+       .where = "section 3.6, main_theorem",
+       .whose = Whose::ours,
+       .states = "with a bound on the state, state, psi^p and u(x, psi) keep order 2, stage controls have order 1, and "
+                 "psi^q, which jumps, does not converge",
+       .judge = state_bound_orders,
+       .evidence = evidence},
+      {.id = "brachistochrone_not_coercive",
+       .problems = examples,
+       .where = "section 3.5, assumption of coercivity",
+       .whose = Whose::ours,
+       .states = "of a problem that is linear in its control the constant of coercivity tends to 0",
+       .judge = not_coercive,
+       .evidence = {"coercivity.csv"}}};
+}
+
+}  // namespace dmocbench
