@@ -159,9 +159,9 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
 struct ExactTransform {
   std::string problem;
   double h = 0.0;
-  std::optional<double> left;  ///< none of the three where the exact motion could not be found
-  std::optional<double> right;
-  std::optional<double> momentum;
+  std::optional<double> left{};  ///< none of the three where the exact motion could not be found
+  std::optional<double> right{};
+  std::optional<double> momentum{};
 };
 
 const Columns<ExactTransform> transform_columns{
