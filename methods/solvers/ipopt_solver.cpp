@@ -24,6 +24,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -148,13 +149,15 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
   bool eval_grad_f(Index n, const Number* x, bool /*new_x*/, Number* values) override {
-    if (must_end()) return false;
     program_.gradient(point(x, n), array(values, n));
     return true;
   }
 
   bool eval_g(Index n, const Number* x, bool /*new_x*/, Index m, Number* values) override {
-    if (must_end()) return false;
+    if (must_end()) {
+      std::fill_n(values, m, std::numeric_limits<double>::quiet_NaN());  // Ipopt reads them even where we return false
+      return true;
+    }
     program_.constraints(point(x, n), array(values, m));
     return true;
   }
@@ -162,7 +165,6 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool eval_jac_g(Index n, const Number* x, bool /*new_x*/, Index /*m*/, Index nonzeros, Index* rows, Index* columns,
                   Number* values) override {
     if (values == nullptr) return copy(program_.jacobian_structure(), rows, columns);
-    if (must_end()) return false;
     program_.jacobian(point(x, n), array(values, nonzeros));
     return true;
   }
@@ -170,7 +172,6 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   bool eval_h(Index n, const Number* x, bool /*new_x*/, Number objective_factor, Index m, const Number* lambda,
               bool /*new_lambda*/, Index nonzeros, Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) return copy(program_.hessian_structure(), rows, columns);
-    if (must_end()) return false;
     program_.hessian(point(x, n), objective_factor, point(lambda, m), array(values, nonzeros));
     return true;
   }
@@ -193,7 +194,7 @@ class ProgramForIpopt final : public Ipopt::TNLP {
   }
 
  private:
-  /// Ipopt looks at CPU time, and between iterations only. An evaluation that fails ends a long line search too.
+  /// Ipopt looks at CPU time, and between iterations only. Values that are no numbers end a long line search too.
   [[nodiscard]] bool must_end() {
     is_late_ = is_late_ || program_.is_out_of_time();
     return is_late_;
