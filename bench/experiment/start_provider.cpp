@@ -86,13 +86,11 @@ int order_of_jumps(const Tableau& tableau) {
   return std::min(tableau.order + 1, static_cast<int>(tableau.stages()) + 2);
 }
 
-/// True if two answers, the second on twice as many intervals, are one motion: they are on one branch, their intervals,
-/// replayed alone, join, and join better by 2^order on the finer grid (half an order is granted to the asymptotics).
-/// The jumps of a spurious minimum of a coarse grid do not fall like this. Those near the solver's tolerance fall no
-/// further.
-bool are_one_motion(const Problem& problem, const Trajectory& coarse, const Trajectory& fine) {
+/// True if the intervals of an answer, replayed alone, join better by 2^order on twice as many intervals (half an order
+/// is granted to the asymptotics). The jumps of a spurious minimum of a coarse grid do not fall like this. Those near
+/// the solver's tolerance fall no further.
+bool do_jumps_fall(const Problem& problem, const Trajectory& coarse, const Trajectory& fine) {
   constexpr double solver_floor = 1e-8;
-  if (!is_on_branch(fine, smooth_motion(coarse))) return false;
   const double before = accuracy(problem, coarse).relative_jump;
   const double after = accuracy(problem, fine).relative_jump;
   return after < solver_floor || after <= before * std::pow(2.0, 0.5 - order_of_jumps(fine.tableau));
@@ -144,8 +142,11 @@ class StartProvider::Search {
         if (!is_motion(candidate.trajectory)) continue;
         Candidate finer = candidate;
         if (!refine(finer)) continue;
-        if (are_one_motion(*case_.problem, candidate.trajectory, finer.trajectory)) {
-          return CommonStart{candidate.method, static_cast<std::size_t>(intervals), smooth_motion(candidate.trajectory),
+        Motion motion = smooth_motion(candidate.trajectory);
+        // Where no answer keeps to its branch minima are dense; then any motion will do.
+        const bool is_right_branch = intervals > final_intervals || is_on_branch(finer.trajectory, motion);
+        if (is_right_branch && do_jumps_fall(*case_.problem, candidate.trajectory, finer.trajectory)) {
+          return CommonStart{candidate.method, static_cast<std::size_t>(intervals), std::move(motion),
                              smooth_motion(finer.trajectory)};
         }
         candidate = std::move(finer);

@@ -30,9 +30,9 @@ class NoStart : public Error {
 /// 96 and 144, each answer is solved again at 144 and at 288, and of those that are a motion the one with the lowest
 /// objective is taken: on one branch on both grids, its intervals, replayed one by one (`accuracy`), join, and at 288
 /// better than at 144, as the order predicts. Where none is, the same is tried at 288 and 576, the answers that were
-/// cheapest at 144 first. This judges unstable systems too, which a replay of the whole horizon cannot. Each solve is
-/// one by `interior_point`, and where that fails one by Ipopt; neither takes more iterations or seconds than a row's
-/// may.
+/// cheapest at 144 first, and the finer answer may be on another branch. This judges unstable systems too, which a
+/// replay of the whole horizon cannot. Each solve is one by `interior_point`, and where that fails one by Ipopt;
+/// neither takes more iterations or seconds than a row's may.
 class StartProvider {
  public:
   struct Rules {
@@ -47,7 +47,7 @@ class StartProvider {
   void check(const std::vector<Case>& cases);
 
   /// The motion to start this case from, and the motion whose branch it should be on. No case starts at its own answer:
-  /// where the common start is the case's own method on the same grid, the same branch on the finer grid serves; a file
+  /// where the common start is the case's own method on the same grid, the answer on the finer grid serves; a file
   /// that is the case's own answer is refused: throws `NoStart`. Where no common start is found, in time or at all, it
   /// is the guess, and the note says why; throws `Interrupted` if the search was interrupted.
   [[nodiscard]] Start start_for(const Case& the_case);
@@ -66,7 +66,7 @@ class StartProvider {
     std::string method;
     std::size_t intervals = 0;
     Motion motion;  // solved on them
-    Motion finer;   // the same branch on twice as many
+    Motion finer;   // from there on twice as many
   };
   using FoundStart = tl::expected<CommonStart, std::string>;  // or the reason why there is none
   using Key = std::tuple<std::string, std::string, int>;
