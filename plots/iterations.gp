@@ -90,7 +90,7 @@ do for [where in problems_of(name, "ratio_at_equal_intervals")] {
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_savings", 1300, 620)
     set multiplot layout 1, 3 title title_text(problem_label(problem).": what collocation takes, in multiples of DMOC",\
-        conditions(solves).". Above the line DMOC takes less.",\
+        conditions(solves).". Above the line DMOC takes less. Warm solves take few iterations: one more is a large ratio.",\
         "Replay error: how far from the final state the continuous system ends under the computed control.")\
         offset 0, -0.4 margins 0.065, 0.79, 0.12, 0.77 spacing 0.025
     low = 1; high = 1

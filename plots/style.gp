@@ -139,8 +139,10 @@ set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, lo
 
 error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
 
-# To be evaluated: two panels side by side below `figure_title`; `left` is the room for the first panel's labels.
-two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.13, 0.8\
+# To be evaluated: two panels side by side below `figure_title`, room for a key below them; `left` is the room for the first
+# panel's labels.
+key_below = "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2"
+two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.2, 0.8\
     spacing 0.1", left)
 
 # --- Output ----------------------------------------------------------------------------------------------------------
