@@ -15,7 +15,8 @@ class Consistency final : public Experiment {
       : Experiment(
             {.name = "consistency",
              .description = "How well the change of momentum equals the work of the forces, interval by interval.",
-             .options = {.intervals = "16:1024"}}) {}
+             .options = {.intervals = "16:1024"},
+             .compares_tolerances = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     using Result = MomentumConsistency;
     return {

@@ -11,13 +11,8 @@ namespace dmocbench::programs {
 
 const std::string limited_memory = "limited_memory";
 
-/// Solves without exact second derivatives may take this many times as long as the tape's on the same grid, and at
-/// least the shortest limit; a solve that takes longer keeps its row with that status. The last limit holds where the
-/// tape has no solve.
-constexpr double longer_than_tape = 15.0;
-constexpr double shortest_limit = 0.2;  // [s]
-constexpr double limit_without_tape = 0.5;
-/// From the common start exact derivatives take two or three iterations.
+/// Of solves without exact second derivatives. A limit of time would let the load of the machine decide who solves;
+/// exact derivatives take two or three iterations from the common start and a few dozen from the guess.
 constexpr int most_iterations = 150;
 
 /// Multipliers around 1 of either sign, the same on every run.
@@ -37,9 +32,10 @@ class Derivatives final : public Experiment {
                  "Back ends of derivatives: error of Jacobian and Hessian against long double, time relative to one "
                  "residual, and what a solve with them takes and reaches. Column hessian: exact is that of the back "
                  "end, limited_memory Ipopt's quasi-Newton one, with first derivatives by tape and by forward "
-                 "differences. Solves but those by tape and adolc end after 150 iterations, or 15 times the tape's "
-                 "time (at least 0.2 s).",
-             .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"}}) {}
+                 "differences. Solves but those by tape and adolc end after 150 iterations.",
+             .options = {.derivatives = derivative_back_end_names(), .intervals = "16:1024"},
+             .takes_turns = true,
+             .compares_tolerances = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     const auto over_residual = [this](double EvaluationTimes::*evaluation) {
       return [this, evaluation](const SolvedCase& solved) {
@@ -76,21 +72,20 @@ class Derivatives final : public Experiment {
     if (the_case.variant == limited_memory) options.passed_on.emplace("hessian_approximation", "limited-memory");
     const bool is_exact = the_case.derivatives == "tape" || the_case.derivatives == "adolc";
     if (!is_exact || !the_case.variant.empty()) {
-      const SolvedCase* exact = partner_of(the_case);
       options.most_iterations = std::min(options.most_iterations, most_iterations);
-      const double limit =
-          exact != nullptr ? std::max(shortest_limit, longer_than_tape * exact->solution.seconds) : limit_without_tape;
-      options.most_seconds = options.most_seconds > 0.0 ? std::min(options.most_seconds, limit) : limit;
     }
     return Experiment::solver_for(the_case, options);
   }
 
+  void solved_once(const SolvedCase& solved) override {
+    const Case& the_case = solved.the_case;
+    if (!solved.trajectory || the_case.derivatives != "tape" || !the_case.variant.empty() || !is_usable(solved)) return;
+    answers_.push_back(solved);
+    answers_.back().program.reset();  // it is large
+  }
+
   void complete(SolvedCase& solved) override {
     const Case& the_case = solved.the_case;
-    if (solved.trajectory && the_case.derivatives == "tape" && the_case.variant.empty() && is_usable(solved)) {
-      answers_.push_back(solved);
-      answers_.back().program.reset();  // it is large
-    }
     measured_ = {};
     if (const SolvedCase* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
       const Eigen::MatrixXd& q = exact->trajectory->q;

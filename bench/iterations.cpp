@@ -21,7 +21,9 @@ class Iterations final : public Experiment {
                         "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
                         "collocation against DMOC. Default start: the problem's guess.",
                     .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
-                    .tells_branches_from_guess = true}) {}
+                    .tells_branches_from_guess = true,
+                    .takes_turns = true,
+                    .compares_tolerances = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     constexpr auto solution = &SolvedCase::solution;
     return {

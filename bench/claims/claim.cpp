@@ -16,7 +16,8 @@ Claims joined(std::initializer_list<Claims> topics) {
 
 /// The claims in the order of the table: chapter by chapter, in each of them problem by problem.
 std::vector<Claims> chapters() {
-  return {joined({solution_claims(), grid_claims(), cost_claims()}),
+  return {joined({solution_claims(), grid_claims(), accuracy_claims(), iteration_claims(), cost_claims(),
+                  derivative_claims()}),
           consistency_order_claims(),
           order_claims(),
           joined({minima_claims(), cold_start_claims()}),
@@ -151,7 +152,10 @@ std::string left_out(const Selection& all, const Selection& used, std::string_vi
   if (unused.empty()) return "";
   std::vector<std::string> favoured;
   for (const Selection& rows : unused.group_by({"method"})) {
-    favoured.push_back(fmt::format("{} ({})", rows.front().text("method"), rows.size()));
+    std::vector<std::string> grids = rows.distinct("intervals");
+    std::erase(grids, "");
+    favoured.push_back(fmt::format("{} ({}{}{})", rows.front().text("method"), rows.size(),
+                                   grids.empty() ? "" : ": N = ", fmt::join(grids, ", ")));
   }
   return fmt::format("; {} of {} rows left out, {} {}", unused.size(), all.size(), why, fmt::join(favoured, ", "));
 }

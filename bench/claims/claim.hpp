@@ -126,7 +126,10 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims grid_claims();               ///< section 4.2: convergence, cost and variables over the grids
 [[nodiscard]] Claims order_claims();              ///< orders of state and costate for every tableau
 [[nodiscard]] Claims stage_control_claims();      ///< and of the controls of the stages
-[[nodiscard]] Claims cost_claims();               ///< iterations, time, operations and derivatives
+[[nodiscard]] Claims accuracy_claims();           ///< replay, and what rounding costs
+[[nodiscard]] Claims iteration_claims();          ///< minor iterations
+[[nodiscard]] Claims cost_claims();               ///< variables, operations, time, also at equal accuracy
+[[nodiscard]] Claims derivative_claims();         ///< automatic differentiation
 [[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
 [[nodiscard]] Claims minima_claims();             ///< local minima
@@ -167,7 +170,7 @@ void require(bool is_there, fmt::format_string<Values...> words, Values&&... val
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 /// How many of the rows a claim does not use, of which methods, why and whom that favours; "" if it uses all of them:
-/// "; 2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2)".
+/// "; 2 of 24 rows left out, not solved on the wanted branch, in favour of tangent (2: N = 8, 16)".
 [[nodiscard]] std::string left_out(const Selection& all, const Selection& used,
                                    std::string_view why = "not solved on the wanted branch, in favour of");
 

@@ -10,16 +10,21 @@ namespace dmocbench {
 
 namespace {
 
-/// Holds if there are at least two minima that more than one method ends in: a minimum of one discretisation alone may
-/// be spurious.
+/// Holds if there are at least two minima that a replay confirms and more than one method ends in: a minimum of one
+/// discretisation alone may be spurious.
 Finding local_minima(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("local_minima_minima", problem);
-  const Selection shared = rows.where([methods = element_names()](const Row& row) {
+  const Selection confirmed = rows.where("replay_confirmed", "yes");
+  const Selection shared = confirmed.where([methods = element_names()](const Row& row) {
     return std::ranges::count_if(methods, [&](const auto& method) { return row.needed(method) > 0.0; }) > 1;
   });
   const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };
-  return found(shared.size() > 1, "{} minima, of which more than one method ends in those with J = {}", rows.size(),
-               shared.in_words(", ", objective));
+  return found(
+      shared.size() > 1,
+      "minima that a replay confirms: {}, and more than one method ends in {} of them: J = {}; not counted: {} that "
+      "are no motions but artefacts of the grid",
+      confirmed.size(), shared.size(), shared.empty() ? "(none)" : shared.in_words(", ", objective),
+      rows.size() - confirmed.size());
 }
 
 /// A number between 0 and 1.

@@ -85,12 +85,18 @@ std::string in_words(const Selection& orders) {
   return words;
 }
 
-/// Whether orders are as expected, if other things hold too; `floor` if no order could be fitted.
+/// Whether orders are as expected, if other things hold too; `floor` if less than half of them could be fitted, or none
+/// of a tableau of second and of fourth order.
 ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true) {
   const Selection fitted = fitted_of(orders);
   const auto is_expected = [](const Row& row) { return has_order(row, expected_order(row)); };
   if (!others_hold || !std::ranges::all_of(fitted, is_expected)) return ClaimVerdict::differs;
-  return fitted.empty() ? ClaimVerdict::floor : ClaimVerdict::reproduced;
+  for (const double order : {2.0, 4.0}) {
+    const auto is_of_order = [&](const Row& row) { return expected_order(row) == order; };
+    if (std::ranges::any_of(orders, is_of_order) && std::ranges::none_of(fitted, is_of_order))
+      return ClaimVerdict::floor;
+  }
+  return 2 * fitted.size() < orders.size() ? ClaimVerdict::floor : ClaimVerdict::reproduced;
 }
 
 Finding order_of_convergence(const ResultTables& tables, const std::string& problem) {

@@ -25,7 +25,8 @@ const ColumnNames scheme{"problem", "method", "tableau", "stages"};
 
 /// Columns of keys that count or measure something.
 bool is_number(const std::string& column) {
-  constexpr std::array numbers{"stages", "intervals", "order", "steps", "steps_per_period", "periods", "h", "minimum"};
+  constexpr std::array numbers{"stages",  "intervals", "order",   "steps",     "steps_per_period",
+                               "periods", "h",         "minimum", "tolerance", "error"};
   return std::ranges::find(numbers, column) != numbers.end();
 }
 
@@ -82,7 +83,8 @@ void check_run(const std::filesystem::path& folder, const std::string& run, cons
 
 const std::vector<DeclaredTable>& declared_tables() {
   static const std::vector<DeclaredTable> tables{
-      {"consistency", "consistency", solve, status},
+      {"consistency", "consistency", columns(solve, {"tolerance"}), status},
+      {"consistency_tolerances", "consistency_tolerances", columns(solve, {"tolerance"}), status},
       {"objective", "objective", solve, status},
       {"convergence", "convergence", solve, status},
       {"convergence_512", "convergence_512", solve, status},
@@ -92,8 +94,15 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"convergence_indirect_slopes", "convergence_indirect", fit, {"verdict"}},
       {"equivalence", "equivalence", solve, status},
       {"equivalence_slopes", "equivalence", fit, {"verdict"}},
+      {"convergence_stages", "convergence_stages", solve, status},
+      {"convergence_equal_accuracy", "convergence", {"problem", "method", "tableau", "stages", "quantity", "error"}},
+      {"convergence_indirect_reference", "convergence_indirect", {"problem"}},
       {"iterations", "iterations", columns(solve, {"crash"}), status},
-      {"derivatives", "derivatives", columns(solve, {"hessian"}), status},
+      {"iterations_tolerances", "iterations_tolerances", columns(solve, {"crash", "tolerance"}), status},
+      {"iterations_limited_memory", "iterations_limited_memory", columns(solve, {"crash"}), status},
+      {"iterations_common", "iterations_common", columns(solve, {"crash"}), status},
+      {"derivatives", "derivatives", columns(solve, {"hessian", "tolerance"}), status},
+      {"derivatives_cold", "derivatives_cold", columns(solve, {"hessian", "tolerance"}), status},
       {"consistency_order_slopes", "consistency_order", {"problem", "tableau", "stages", "order", "quantity"}},
       {"structure_momentum", "structure", columns(scheme, {"force", "steps", "h"})},
       {"structure_symplecticity", "structure", columns(scheme, {"h"})},
@@ -102,7 +111,8 @@ const std::vector<DeclaredTable>& declared_tables() {
        columns(scheme, {"solver", "factorisation", "intervals", "quantity"})},
       {"local_minima_minima",
        "local_minima",
-       {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"}},
+       {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"},
+       {"replay_confirmed"}},
       {"local_minima_shares", "local_minima", solve},
       {"cold_start_shares", "cold_start", solve},
       {"profile", "profile", solve, {"status", "success"}},

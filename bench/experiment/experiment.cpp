@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "bench/experiment/case_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -26,16 +27,6 @@ namespace {
 
 void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
 
-/// Cases in a row that differ in their grid only, together.
-std::vector<std::vector<Case>> curves_of(std::span<const Case> cases) {
-  std::vector<std::vector<Case>> curves;
-  for (const Case& the_case : cases) {
-    if (curves.empty() || !curves.back().front().same_curve(the_case)) curves.emplace_back();
-    curves.back().push_back(the_case);
-  }
-  return curves;
-}
-
 std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
   std::vector<Case> result;
   for (const std::vector<Case>& curve : curves_of(cases)) {
@@ -45,6 +36,11 @@ std::vector<Case> with_variants(const Experiment& experiment, const std::vector<
   return result;
 }
 
+Columns<SolvedCase> columns_of(const Experiment& experiment) {
+  Columns<SolvedCase> columns = core_columns() + experiment.columns();
+  return experiment.card().takes_turns ? columns + columns_of_rounds() : columns;
+}
+
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
@@ -52,13 +48,13 @@ class Run {
       : experiment_(experiment),
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
-        cases_(with_variants(experiment, expand_cases(options_))),
+        cases_(with_tolerances(with_variants(experiment, expand_cases(options_)), chosen_tolerances(options_))),
         starts_({.kind = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().tells_branches,
                  .tells_branch_from_guess = experiment.card().tells_branches_from_guess},
                 solver_options_),
-        columns_(core_columns() + experiment.columns()),
+        columns_(columns_of(experiment)),
         names_(names_of(columns_)),
         rows_(cases_.size()),
         prefix_(options_.out / options_.name),
@@ -70,7 +66,7 @@ class Run {
       if (!terminal_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
     };
     metadata_["start"] = options_.start;
-    metadata_["tolerance"] = options_.tolerance;
+    if (options_.tolerances.empty()) metadata_["tolerance"] = options_.tolerance;
     metadata_["repeats"] = options_.repeats;
     for (const Case& the_case : cases_) {
       nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
@@ -184,6 +180,7 @@ class Run {
       const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
       SolvedCase solved = solve(curve[position], options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
+      experiment_.solved_once(solved);
       keep(completed(solved), first + position);
     }
   }
@@ -196,8 +193,10 @@ class Run {
       Start start = starts_.start_for(the_case);
       start.motion = experiment_.start_for(the_case, std::move(start.motion));
       show(the_case.label());
-      return solve_case(the_case, start, *experiment_.solver_for(the_case, solver_options_), solver_options_.tolerance,
-                        repeats, experiment_.card().polishes);
+      SolverOptions options = solver_options_;
+      options.tolerance = the_case.tolerance.value_or(options.tolerance);
+      return solve_case(the_case, start, *experiment_.solver_for(the_case, options), options.tolerance, repeats,
+                        experiment_.card().polishes);
     } catch (const NoStart& reason) {
       unsolved.solution.message = reason.what();
     } catch (const Error& error) {
@@ -234,21 +233,25 @@ class Run {
     }
   }
 
-  /// Solves some cases in turn, round after round. If it is interrupted, none of them gets a row.
+  /// Solves some cases in turn, round after round, each round beginning with another case. If it is interrupted, none
+  /// of them gets a row.
   void solve_rounds(const std::vector<std::size_t>& numbers) {
     std::vector<SolvedCase> first;
     std::vector<std::vector<Solution>> rounds(numbers.size());
-    for (int round = 0; round < options_.repeats; ++round) {
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t round = 0; std::cmp_less(round, options_.repeats); ++round) {
+      for (std::size_t turn = 0; turn < numbers.size(); ++turn) {
+        const std::size_t i = (turn + round) % numbers.size();
         if (round > 0 && !is_solved(first[i].solution.status)) continue;
         SolvedCase solved = solve(cases_[numbers[i]], round == 0 ? 1 : solves_per_round(rounds[i].front()));
         if (interrupt_requested()) return;
         rounds[i].push_back(solved.solution);
-        if (round == 0) first.push_back(std::move(solved));
+        if (round > 0) continue;
+        experiment_.solved_once(solved);
+        first.push_back(std::move(solved));
       }
     }
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      set_median_times(first[i], rounds[i]);
+      set_times(first[i], rounds[i]);
       keep(completed(first[i]), numbers[i]);
     }
   }
@@ -358,11 +361,15 @@ std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::st
 int run_experiment(Experiment&& experiment, int argc, char** argv) {
   const ExperimentCard& card = experiment.card();
   return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
-    line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(core_columns() + experiment.columns())));
+    line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(columns_of(experiment))));
     add_options(line, experiment.options());
     if (card.problems_are_independent) {
       line.number("--jobs", experiment.options().jobs, 1, 256,
                   "problems worked on at the same time, each in a process of its own");
+    }
+    if (card.compares_tolerances) {
+      line.list("--tolerances", experiment.options().tolerances,
+                "several tolerances, a row for each; wins over --tolerance");
     }
     experiment.add_options(line);
     return Run(experiment, line.parse()).run();

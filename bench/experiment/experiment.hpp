@@ -22,7 +22,8 @@ struct ExperimentCard {
   bool problems_are_independent = false;   ///< rows of one problem need nothing of another's: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
-  bool polishes = false;     ///< solved cases are tightened by Newton steps (polish.hpp)
+  bool compares_tolerances = false;  ///< several tolerances make several cases: --tolerances is offered
+  bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
@@ -55,6 +56,8 @@ class Experiment {
   virtual void check(const std::vector<Case>& /*cases*/) {}
   /// The case of one curve (intervals ascending) that is solved first, before the others in ascending order.
   [[nodiscard]] virtual std::size_t solved_first(const std::vector<Case>& /*curve*/) const { return 0; }
+  /// Told of every case behind its first solve, before the next one is solved.
+  virtual void solved_once(const SolvedCase& /*solved*/) {}
   /// Measures the values of the own columns for a solved case. Called in the order of solving.
   virtual void complete(SolvedCase& /*solved*/) {}
   /// What `finish` puts behind the table's name, as in "_slopes.csv"; asked for after `check`. Those of an earlier run

@@ -160,6 +160,17 @@ SolverOptions solver_options(const ExperimentOptions& options) {
   return result;
 }
 
+std::vector<double> chosen_tolerances(const ExperimentOptions& options) {
+  std::vector<double> tolerances;
+  for (const std::string& text : options.tolerances) {
+    SolverOptions solver;
+    solver.tolerance = parse_number("--tolerances", text);
+    solver.validate();
+    tolerances.push_back(solver.tolerance);
+  }
+  return tolerances;
+}
+
 std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
                                                               const std::vector<std::string>& settings) {
   std::vector<std::shared_ptr<Problem>> problems;

@@ -27,6 +27,7 @@ struct ExperimentOptions {
   std::string form = "bolza";               ///< bolza or mayer
   std::string start = "common";             ///< common, guess or a file X_nodes.csv
   double tolerance = SolverOptions{}.tolerance;
+  std::vector<std::string> tolerances = {};  ///< several, where an experiment compares them; empty: `tolerance` alone
   int most_iterations = SolverOptions{}.most_iterations;
   double most_seconds = 0.0;    ///< of a solve, and of its set-up; 0 for no limit
   double start_seconds = 30.0;  ///< of the search of a problem's common start
@@ -36,6 +37,9 @@ struct ExperimentOptions {
   std::filesystem::path out = "results";
   std::string name = {};
 };
+
+/// The numbers of `tolerances`. Throws `Error` if one is no number or out of range.
+[[nodiscard]] std::vector<double> chosen_tolerances(const ExperimentOptions& options);
 
 /// Registers the options with their help.
 void add_options(CommandLine& line, ExperimentOptions& options);

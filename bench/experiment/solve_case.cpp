@@ -32,7 +32,7 @@ void solve_repeatedly(SolvedCase& solved, const Solver& solver, int repeats) {
     if (again.status == Status::interrupted) break;
     solutions.push_back(again);
   }
-  set_median_times(solved, solutions);
+  set_times(solved, solutions);
 }
 
 /// Settles an answer that needs it (`settle`). If the solver's derivatives are not exact the answer is judged again by
@@ -80,6 +80,23 @@ auto seconds(double Solution::*member) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(solved.solution.*member) : Cell(); };
 }
 
+std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
+  std::vector<double> seconds;
+  if (!is_solved(solved.solution.status)) return seconds;
+  std::ranges::transform(solved.rounds, std::back_inserter(seconds), &SolveTimes::seconds);
+  return seconds;
+}
+
+/// A getter of the time that a share of the rounds stays below.
+auto quantile_of_rounds(double share) {
+  return [share](const SolvedCase& solved) -> Cell {
+    std::vector<double> seconds = seconds_of_rounds(solved);
+    if (seconds.empty()) return {};
+    std::ranges::sort(seconds);
+    return seconds[static_cast<std::size_t>(std::lround(share * static_cast<double>(seconds.size() - 1)))];
+  };
+}
+
 bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
 
 Cell largest_step(const SolvedCase& solved) {
@@ -106,7 +123,8 @@ std::string Case::file_label() const {
 
 bool Case::same_curve(const Case& other) const {
   return problem == other.problem && method == other.method && tableau == other.tableau && stages == other.stages &&
-         solver == other.solver && derivatives == other.derivatives && variant == other.variant;
+         solver == other.solver && derivatives == other.derivatives && variant == other.variant &&
+         tolerance == other.tolerance;
 }
 
 const Columns<SolvedCase>& core_columns() {
@@ -131,6 +149,8 @@ const Columns<SolvedCase>& core_columns() {
       {"branch", "", "same or other than that of the start; unknown: no common start found; empty: none looked for",
        from(&SolvedCase::branch)},
       {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
+      {"tolerance", "", "of the solver",
+       [](const SolvedCase& s) { return s.tolerance > 0.0 ? Cell(fmt::format("{:g}", s.tolerance)) : Cell(); }},
       {"kkt_residual", "", "scaled KKT residual", from(&SolvedCase::solution, &Solution::kkt_residual)},
       {"constraint_violation", "", "largest violation of a constraint",
        from(&SolvedCase::solution, &Solution::constraint_violation)},
@@ -150,23 +170,33 @@ const Columns<SolvedCase>& core_columns() {
   return columns;
 }
 
-void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
-  const auto times = [&](const auto& time_of) {
+void set_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
+  solved.rounds.clear();
+  for (const Solution& solution : repeats) {
+    solved.rounds.push_back({solution.seconds, solution.evaluation_seconds, solution.linear_seconds});
+  }
+  const auto median_of = [&](const auto& time_of) {
     std::vector<double> seconds;
     std::ranges::transform(repeats, std::back_inserter(seconds), time_of);
-    return seconds;
+    return median(std::move(seconds));
   };
-  const std::vector<double> seconds = times([](const Solution& s) { return s.seconds; });
-  solved.solution.seconds = median(seconds);
-  solved.smallest_seconds = std::ranges::min(seconds);
-  solved.solution.evaluation_seconds = median(times([](const Solution& s) { return s.evaluation_seconds; }));
+  solved.solution.seconds = median_of([](const Solution& s) { return s.seconds; });
+  solved.solution.evaluation_seconds = median_of([](const Solution& s) { return s.evaluation_seconds; });
   if (!solved.solution.linear_seconds) return;
-  solved.solution.linear_seconds = median(times([](const Solution& s) { return s.linear_seconds.value_or(0.0); }));
+  solved.solution.linear_seconds = median_of([](const Solution& s) { return s.linear_seconds.value_or(0.0); });
+}
+
+Columns<SolvedCase> columns_of_rounds() {
+  constexpr double quarter = 0.25;
+  return {{"seconds_lower_quartile", "s", "of the rounds", quantile_of_rounds(quarter)},
+          {"seconds_upper_quartile", "s", "of the rounds", quantile_of_rounds(1.0 - quarter)},
+          {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
+           [](const SolvedCase& solved) { return joined_numbers(seconds_of_rounds(solved)); }}};
 }
 
 SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
                       bool polishes) {
-  SolvedCase result{.the_case = the_case};
+  SolvedCase result{.the_case = the_case, .tolerance = tolerance};
   const auto setup_start = Clock::now();
   try {
     const StopScope scope(solver.options().stop_requested, solver.options().most_seconds);

@@ -29,6 +29,7 @@ struct Case {
   Grid grid = Grid::uniform(1);
   std::string variant = {};  ///< a choice that only some experiments vary; empty in others
   CostForm form = CostForm::bolza;
+  std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
   /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
@@ -42,6 +43,13 @@ struct Case {
   [[nodiscard]] bool same_curve(const Case& other) const;
 };
 
+/// Wall clock of one solve [s].
+struct SolveTimes {
+  double seconds = 0.0;
+  double evaluation_seconds = 0.0;
+  std::optional<double> linear_seconds = std::nullopt;  ///< of solvers that tell it
+};
+
 /// The result of one solve.
 struct SolvedCase {
   Case the_case;
@@ -53,8 +61,9 @@ struct SolvedCase {
   /// "same" or "other" than that of the start; "unknown" if no common start was found, empty if none was looked for.
   std::string branch = {};
   std::optional<double> setup_seconds = std::nullopt;
-  std::optional<double> smallest_seconds = std::nullopt;  ///< of several solves
-  std::optional<int> polish_steps = std::nullopt;         ///< none if the answer was not to be polished
+  std::vector<SolveTimes> rounds = {};             ///< of every solve; the times of the solution are their medians
+  double tolerance = 0.0;                          ///< of the solver; 0 if the case could not start
+  std::optional<int> polish_steps = std::nullopt;  ///< none if the answer was not to be polished
 
   /// Adds a sentence to the message of the row.
   void note(const std::string& sentence) { solution.message += " " + sentence; }
@@ -78,8 +87,11 @@ struct Start {
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
                                     int repeats, bool polishes = false);
 
-/// Replaces the times of a solve by the medians of several.
-void set_median_times(SolvedCase& solved, const std::vector<Solution>& repeats);
+/// Keeps the times of several solves, and replaces those of the answer by their medians.
+void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
+
+/// Columns of experiments that solve in turn: the times of all rounds and their quartiles.
+[[nodiscard]] Columns<SolvedCase> columns_of_rounds();
 
 /// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);

@@ -1,5 +1,6 @@
 #include "bench/experiment/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ranges>
 
@@ -7,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "methods/error.hpp"
+#include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
 
@@ -66,9 +68,31 @@ double Row::needed(std::string_view column) const {
                           field.empty() ? "there is no number" : "\"" + field + "\" is no finite number"));
 }
 
+std::vector<double> Row::numbers(std::string_view column) const {
+  const std::string field = text(column);
+  std::vector<double> numbers;
+  for (std::string_view rest = field; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    const auto number = parsed<double>(word);
+    if (!number || !std::isfinite(*number)) {
+      throw Error(
+          fmt::format("{}, column {}: \"{}\" is no finite number", place_.empty() ? "a row" : place_, column, word));
+    }
+    numbers.push_back(*number);
+    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+  }
+  return numbers;
+}
+
 std::string Row::csv(const std::vector<std::string>& columns) const {
   const auto field = [this](const std::string& column) { return quoted(text(column)); };
   return fmt::format("{}\n", fmt::join(columns | std::views::transform(field), ","));
+}
+
+std::string joined_numbers(std::span<const double> numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(fmt::format("{:.7g}", number));
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
 void Table::name_places(const std::string& file) {

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,9 @@ class Cell {
   std::string text_;
 };
 
+/// Numbers as one field of a table: seven digits each, with spaces between them.
+[[nodiscard]] std::string joined_numbers(std::span<const double> numbers);
+
 /// A row: fields by the names of their columns.
 class Row {
  public:
@@ -46,6 +50,9 @@ class Row {
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
   /// The field as a number that has to be there. Throws `Error` that names the place, the column and what stands there.
   [[nodiscard]] double needed(std::string_view column) const;
+  /// The numbers of a field that holds several (`joined_numbers`); none if it is empty. Throws `Error` that names the
+  /// place and the column if something else stands there.
+  [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
   /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if nobody said.
   [[nodiscard]] const std::string& place() const noexcept { return place_; }
   void set_place(std::string place) { place_ = std::move(place); }

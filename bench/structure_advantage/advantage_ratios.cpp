@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/summary/ratio_interval.hpp"
 #include "bench/summary/ratios.hpp"
 
 namespace dmocbench {
@@ -19,19 +20,28 @@ struct Quantity {
   const char* name;
   const char* column;
   bool is_per_interval = false;  ///< in the table
+  const char* rounds = "";       ///< column with the times of the rounds, and
+  const char* parts = "";        ///< what they are divided by, if anything
 
   [[nodiscard]] std::optional<double> cost(const Row& row) const {
     auto value = row.number(column);
     if (value && is_per_interval) *value *= row.number("intervals", 0.0);
     return value;
   }
+  /// The ratios to another row, one of each round; none where the quantity is no time.
+  [[nodiscard]] std::vector<double> ratios(const Row& row, const Row& other) const {
+    std::vector<double> ratios = round_ratios(row.numbers(rounds), other.numbers(rounds));
+    const double divisor = std::string_view(parts).empty() ? 1.0 : row.needed(parts) / other.needed(parts);
+    for (double& ratio : ratios) ratio /= divisor;
+    return ratios;
+  }
 };
 
 constexpr std::array quantities{
-    Quantity{"seconds", "seconds"},
-    Quantity{"seconds_per_iteration", "seconds_per_iteration"},
+    Quantity{"seconds", "seconds", false, "round_seconds"},
+    Quantity{"seconds_per_iteration", "seconds_per_iteration", false, "round_seconds", "major_iterations"},
     Quantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
-    Quantity{"seconds_per_linear_system", "seconds_per_linear_system"},
+    Quantity{"seconds_per_linear_system", "seconds_per_linear_system", false, "round_linear_seconds", "linear_systems"},
     Quantity{"iterations", "major_iterations"},
     Quantity{"operations", "operations_per_interval", true},
     Quantity{"elimination_operations", "elimination_operations_per_interval", true},
@@ -49,11 +59,20 @@ Selection comparable_rows(const Selection& table) {
   });
 }
 
+/// The ratios of the rounds and the interval of their median.
+void set_rounds(Row& result, const std::vector<double>& ratios) {
+  if (ratios.empty()) return;
+  const RatioInterval interval = ratio_interval(ratios);
+  result.set("ratio_lower", interval.lower);
+  result.set("ratio_upper", interval.upper);
+  result.set("round_ratios", joined_numbers(ratios));
+}
+
 }  // namespace
 
 Table advantage_ratios(const Selection& advantage) {
   Table table({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
-               "ratio_at_equal_intervals", "ratio_at_equal_accuracy"});
+               "ratio_at_equal_intervals", "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
   const Selection rows = comparable_rows(advantage);
   for (const Selection& line : rows.group_by(line_columns)) {
     const Selection dmoc = rows.where("method", "dmoc")
@@ -66,6 +85,7 @@ Table advantage_ratios(const Selection& advantage) {
         result.set("intervals", row.text("intervals"));
         result.set("quantity", quantity.name);
         set_cost_ratios(result, row, dmoc, cost, "objective_error", same_error);
+        set_rounds(result, quantity.ratios(row, dmoc.matching(row, {"intervals"}).front()));
         table.append(std::move(result));
       }
     }

@@ -106,7 +106,7 @@ Table equal_accuracy(const Selection& convergence) {
   Table table({"problem", "tableau", "stages", "quantity", "error", "method", "intervals", "variables", "seconds",
                "variables_ratio", "seconds_ratio"});
   for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
-    for (const std::string quantity : {"state", "control"}) {
+    for (const std::string quantity : {"state", "control", "replay"}) {
       const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
       if (points.empty()) continue;
       const auto [smallest, largest] = std::ranges::minmax(points, {}, &ErrorCostPoint::log_error);

@@ -1,5 +1,6 @@
 // Whether collocation is dearer by its size or by the solver, judged on doctored ratios.
 
+#include <cmath>
 #include <initializer_list>
 #include <string>
 
@@ -21,6 +22,9 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
   row.set("intervals", static_cast<long long>(intervals));
   row.set("quantity", quantity);
   row.set("ratio_at_equal_intervals", value);
+  std::vector<double> rounds;
+  for (int i = 0; i < 11; ++i) rounds.push_back(value * (1.0 + 0.02 * std::sin(5.0 * i)));
+  row.set("round_ratios", joined_numbers(rounds));
   return row;
 }
 
@@ -66,11 +70,13 @@ TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
   const auto verdict = [](double ipopt, double sparse) {
     return judged("collocation_more_expensive", {ratio("", "seconds_per_iteration", 128, ipopt),
                                                  ratio("intervals", "seconds_per_linear_system", 128, 1.3),
-                                                 ratio("sparse", "seconds_per_linear_system", 128, sparse)})
+                                                 ratio("sparse", "seconds_per_linear_system", 128, sparse),
+                                                 ratio("sparse", "elimination_operations", 128, 1.3)})
         .verdict;
   };
   EXPECT_EQ(verdict(1.9, 1.2), ClaimVerdict::reproduced);
   EXPECT_EQ(verdict(1.9, 1.0), ClaimVerdict::differs);
+  EXPECT_EQ(verdict(1.9, 1.05), ClaimVerdict::undecided);
   EXPECT_EQ(verdict(0.9, 1.2), ClaimVerdict::differs);
   EXPECT_EQ(judged("collocation_more_expensive", {}).verdict, ClaimVerdict::not_yet);
 }

@@ -21,11 +21,14 @@ inline Row row_of_texts(const ColumnNames& columns, const std::vector<std::strin
 
 inline Rows momentum_rows() {
   Rows rows;
-  for (const char* force : {"along", "orthogonal"}) {
+  for (const std::string force : {"along", "orthogonal"}) {
+    const bool along = force == "along";
     for (const char* stages : {"1", "2"}) {
-      rows.push_back(row_of_texts(
-          {"problem", "method", "tableau", "stages", "force", "steps", "h", "defect", "defect_in_long_double"},
-          {"radial_thrust", "dmoc", "gauss", stages, force, "400", "0.05", "1e-13", "1e-16"}));
+      rows.push_back(
+          row_of_texts({"problem", "method", "tableau", "stages", "force", "steps", "h", "momentum_change", "work",
+                        "work_of_discrete_forces", "defect", "defect_in_long_double"},
+                       {"radial_thrust", "dmoc", "gauss", stages, force, "400", "0.05", along ? "0.5" : "1e-13",
+                        along ? "0.5" : "0", along ? "0.5" : "0", "1e-13", "1e-16"}));
     }
   }
   return rows;
@@ -67,6 +70,7 @@ inline Rows advantage_rows() {
     rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals",
                                  "quantity", "ratio_at_equal_intervals"},
                                 {orbit, "hamiltonian", "gauss", "1", solver, factorisation, "256", quantity, "1.5"}));
+    if (!std::string(quantity).ends_with("operations")) rows.back().set("round_ratios", rounds_around(1.5));
   };
   append("ipopt", "", "seconds_per_iteration");
   for (const char* factorisation : {"intervals", "sparse"}) {
@@ -80,9 +84,9 @@ inline const ColumnNames of_minima{"problem", "tableau", "stages", "solver", "de
 
 inline Rows minima_rows() {
   ColumnNames columns = of_minima;
-  columns.insert(columns.end(), {"objective", "dmoc", "hamiltonian", "tangent"});
-  return {row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "1", "80.5", "3", "2", "0"}),
-          row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "2", "90.5", "3", "2", "0"})};
+  columns.insert(columns.end(), {"replay_confirmed", "objective", "dmoc", "hamiltonian", "tangent"});
+  return {row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "1", "yes", "80.5", "3", "2", "0"}),
+          row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "2", "yes", "90.5", "3", "2", "0"})};
 }
 
 inline Rows share_rows() {
@@ -115,6 +119,33 @@ inline Rows profile_rows() {
   return rows;
 }
 
+/// Programs of one and two stages as (rem:savings) counts them.
+inline Rows stages_rows() {
+  Rows rows;
+  for (const std::string method : {"dmoc", "hamiltonian"}) {
+    for (const long long stages : {1LL, 2LL}) {
+      Row row = solved_row(method, 16);
+      const long long of_interval = 16 * stages;
+      row.set("stages", stages);
+      row.set("variables", (method == "dmoc" ? 2 : 4) * (of_interval + 1) + of_interval);
+      row.set("constraints", method == "dmoc" ? 2 * (of_interval - 1) + 4 : 4 * of_interval);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+inline Rows equal_accuracy_rows() {
+  Rows rows;
+  for (const std::string& method : methods) {
+    for (const char* quantity : {"state", "replay"}) {
+      rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "quantity", "error", "variables_ratio"},
+                                  {orbit, method, "gauss", "1", quantity, "0.001", method == "dmoc" ? "1" : "1.65"}));
+    }
+  }
+  return rows;
+}
+
 /// The rows that a claim about another problem reads, made of those of the orbit.
 inline void add_rows_of(Rows& rows, const char* problem, const std::function<bool(const Row&)>& wanted) {
   Rows more;
@@ -128,7 +159,10 @@ inline void add_rows_of(Rows& rows, const char* problem, const std::function<boo
 inline std::map<std::string, Rows> all_rows() {
   std::map<std::string, Rows> rows = rows_of_tables();
   rows["convergence_512_slopes"] = rows["convergence_slopes"];
-  for (Row& row : rows["convergence_512_slopes"]) row.set("problem", two_link);
+  for (Row& row : rows["convergence_512_slopes"]) {
+    row.set("problem", two_link);
+    row.set("slope", 2.13);
+  }
   add_rows_of(rows["convergence_indirect_slopes"], two_link,
               [](const Row& row) { return row.text("method") == "dmoc" && row.text("quantity") == "control"; });
   for (Row& row : rows["equivalence"]) {
@@ -142,8 +176,20 @@ inline std::map<std::string, Rows> all_rows() {
     row.set("minor_iterations", *row.number("free_variables") + 3.0);
     row.set("predicted_minors", *row.number("minor_iterations"));
   }
-  for (Row& row : rows["derivatives"]) {
-    if (row.text("derivatives") == "forward_differences") row.set("status", "step failed");
+  rows["iterations_limited_memory"] = rows["iterations"];
+  rows["iterations_common"] = rows["iterations"];
+  for (Row& row : rows["iterations_common"]) {
+    row.set("solver", "nlopt");
+    row.set("evaluations", *row.number("minor_iterations"));
+    row.set("minor_iterations", Cell());
+  }
+  std::erase_if(rows["iterations_common"], [](const Row& row) { return row.text("crash") == "basis"; });
+  rows["convergence_stages"] = stages_rows();
+  rows["convergence_equal_accuracy"] = equal_accuracy_rows();
+  rows["convergence_512"] = rows["convergence"];
+  for (Row& row : rows["convergence_512"]) {
+    row.set("problem", two_link);
+    if (row.text("intervals") == "1024") row.set("intervals", 512LL);
   }
   rows["structure_momentum"] = momentum_rows();
   rows["structure_symplecticity"] = symplecticity_rows();

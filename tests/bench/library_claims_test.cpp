@@ -20,7 +20,7 @@ ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id
 }
 
 TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
-  const auto verdict = [](double second_by_tangent) {
+  const auto verdict = [](double second_by_tangent, const char* confirmed = "yes") {
     Table minima({"problem"});
     for (const auto& [objective, dmoc, tangent] :
          {std::tuple(80.0, 3.0, 2.0), std::tuple(90.0, 4.0, second_by_tangent), std::tuple(100.0, 1.0, 0.0)}) {
@@ -30,6 +30,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
       row.set("dmoc", dmoc);
       row.set("hamiltonian", 0LL);
       row.set("tangent", tangent);
+      row.set("replay_confirmed", confirmed);
       minima.append(row);
     }
     ResultTables results;
@@ -38,6 +39,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
   };
   EXPECT_EQ(verdict(1.0), ClaimVerdict::reproduced);
   EXPECT_EQ(verdict(0.0), ClaimVerdict::differs);
+  EXPECT_EQ(verdict(1.0, "no"), ClaimVerdict::differs) << "artefacts of the grid are no minima";
 }
 
 TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreApart) {

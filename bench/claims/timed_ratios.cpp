@@ -1,0 +1,64 @@
+#include "bench/claims/timed_ratios.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dmocbench {
+
+void TimedRatios::add(std::string name, const std::vector<double>& of_rounds) {
+  ratios_.emplace_back(std::move(name), ratio_interval(of_rounds));
+}
+
+std::size_t TimedRatios::rounds() const {
+  if (ratios_.empty()) return 0;
+  return std::ranges::min(ratios_, {}, [](const auto& ratio) { return ratio.second.rounds; }).second.rounds;
+}
+
+ClaimVerdict TimedRatios::verdict() const {
+  if (rounds() < fewest_rounds) return ClaimVerdict::undecided;
+  const auto is_above = [&](const auto& ratio) { return ratio.second.lower > threshold_; };
+  const auto is_below = [&](const auto& ratio) { return ratio.second.upper <= threshold_; };
+  if (std::ranges::any_of(ratios_, is_below)) return ClaimVerdict::differs;
+  return std::ranges::all_of(ratios_, is_above) ? ClaimVerdict::reproduced : ClaimVerdict::undecided;
+}
+
+std::string TimedRatios::in_words() const {
+  std::vector<std::string> words;
+  for (const auto& [name, interval] : ratios_) {
+    words.push_back(fmt::format("{} {:.2f} ({:.2f} to {:.2f})", name, interval.ratio, interval.lower, interval.upper));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::size_t TimedRatios::resamples_above() const {
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < resamples; ++b) {
+    const auto is_above = [&](const auto& ratio) { return ratio.second.resampled[b] > threshold_; };
+    count += std::ranges::all_of(ratios_, is_above) ? 1 : 0;
+  }
+  return count;
+}
+
+std::string TimedRatios::sure() const {
+  if (rounds() < fewest_rounds) return "";
+  const std::size_t above = resamples_above();
+  switch (verdict()) {
+    case ClaimVerdict::reproduced:
+      return fmt::format("{} of {} resamples", above, resamples);
+    case ClaimVerdict::differs:
+      return fmt::format("{} of {} resamples", resamples - above, resamples);
+    default:
+      return fmt::format("it holds in {} of {} resamples", above, resamples);
+  }
+}
+
+Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind) {
+  Finding finding = found(ratios.verdict(), "{}{}{}", what, ratios.in_words(), behind).as_sure_as(ratios.sure());
+  if (ratios.rounds() >= fewest_rounds) return finding;
+  return std::move(finding).because(
+      fmt::format("there are {} rounds; a verdict on times needs {}", ratios.rounds(), fewest_rounds));
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/claims/claim.hpp"
+#include "bench/summary/ratio_interval.hpp"
+
+namespace dmocbench {
+
+/// Ratios of times, measured in rounds, that a claim says to lie above a threshold.
+///
+/// The claim holds if every interval lies above it, does not if one lies wholly at or below it, and is undecided
+/// otherwise, or with less than `fewest_rounds` rounds.
+class TimedRatios {
+ public:
+  explicit TimedRatios(double threshold) : threshold_(threshold) {}
+
+  /// Adds a ratio with one value per round. Throws `Error` if there is none or one is no ratio of times.
+  void add(std::string name, const std::vector<double>& of_rounds);
+
+  [[nodiscard]] ClaimVerdict verdict() const;
+  /// "ipopt 1.25 (1.21 to 1.30), sparse 1.40 (1.38 to 1.41)": medians with their intervals.
+  [[nodiscard]] std::string in_words() const;
+  /// "993 of 1000 resamples": how often the verdict comes out where rounds are drawn anew; for "undecided" how often
+  /// the claim holds.
+  [[nodiscard]] std::string sure() const;
+  /// The smallest number of rounds of a ratio; 0 without ratios.
+  [[nodiscard]] std::size_t rounds() const;
+
+ private:
+  [[nodiscard]] std::size_t resamples_above() const;
+
+  double threshold_;
+  std::vector<std::pair<std::string, RatioInterval>> ratios_;
+};
+
+/// What the ratios say of a claim, in words with `what` in front and `behind` at the end.
+[[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind = "");
+
+}  // namespace dmocbench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace dmocbench {
+
+/// Fewer rounds are too few for a verdict on times.
+inline constexpr std::size_t fewest_rounds = 10;
+/// How often the rounds are drawn anew.
+inline constexpr std::size_t resamples = 1000;
+
+/// The ratio of two times that were measured in turn, round after round, so that other load of the machine slowed both.
+///
+/// The ratio is the median over the rounds. Its interval comes from the bootstrap: rounds are drawn anew with
+/// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
+/// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
+struct RatioInterval {
+  double ratio = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  std::size_t rounds = 0;
+  std::vector<double> resampled;  ///< the medians, in the order of drawing
+};
+
+/// The interval of the median of ratios, one of each round. Throws `Error` without ratios or if one is not a finite
+/// number above zero.
+[[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
+
+/// The quotients of two lists of times, round by round, as far as both reach.
+[[nodiscard]] std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others);
+
+}  // namespace dmocbench

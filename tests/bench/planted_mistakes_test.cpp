@@ -1,0 +1,219 @@
+// Well-formed tables that are false: each turns the verdict that it should, though no field is missing and every number
+// is a number.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/claims/claim.hpp"
+#include "tests/bench/all_tables_for_claims.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Rows;
+
+struct Mistake {
+  std::string what;
+  std::string table;
+  std::function<void(Rows&)> plant;
+  std::string claim;  ///< its whole id
+  ClaimVerdict becomes = ClaimVerdict::differs;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.what; }
+
+using Where = std::function<bool(const Row&)>;
+
+Where has(const std::string& column, const std::string& text) {
+  return [=](const Row& row) { return row.text(column) == text; };
+}
+bool every_row(const Row& /*row*/) { return true; }
+
+/// Changes a field of some rows.
+std::function<void(Rows&)> set(const Where& where, const std::string& column, const Cell& value) {
+  return [=](Rows& rows) {
+    for (Row& row : rows) {
+      if (where(row)) row.set(column, value);
+    }
+  };
+}
+/// Multiplies a number of some rows.
+std::function<void(Rows&)> scale(const Where& where, const std::string& column, double factor) {
+  return [=](Rows& rows) {
+    for (Row& row : rows) {
+      if (where(row)) row.set(column, row.needed(column) * factor);
+    }
+  };
+}
+
+/// Times of a clock that cannot be relied on: half of the rounds say one thing, half the opposite.
+std::string noisy_rounds(double value) {
+  std::vector<double> times;
+  for (int round = 0; round < 12; ++round) times.push_back(value * (round % 2 == 0 ? 0.4 : 2.5));
+  return joined_numbers(times);
+}
+
+std::string on_orbit(const std::string& claim) { return std::string(orbit) + "/" + claim; }
+
+std::vector<Mistake> mistakes_about_solutions() {
+  return {
+      {"a slope of first order", "convergence_slopes", set(has("method", "dmoc"), "slope", 1.0),
+       on_orbit("state_slope")},
+      {"a slope whose error is as large as itself", "convergence_slopes",
+       [](Rows& rows) {
+         set(every_row, "slope", 2.6)(rows);
+         set(every_row, "standard_error", 2.0)(rows);
+       },
+       on_orbit("control_slope")},
+      {"a slope that is too good for its reference", "convergence_512_slopes", set(every_row, "slope", 2.0),
+       "two_link_manipulator/state_slope_against_512"},
+      {"a cost of DMOC that is nearer to the optimum than it is", "objective",
+       set([](const Row& row) { return row.text("method") != "tangent"; }, "objective", 4e-5 * (1.0 + 1e-7)),
+       on_orbit("objective_evolution")},
+      {"another cost of Hamiltonian collocation", "objective",
+       scale(has("method", "hamiltonian"), "objective", 1.0 + 1e-7), on_orbit("objective_evolution")},
+      {"a reference that is DMOC's own finest grid", "convergence_indirect_reference",
+       set(every_row, "cost", 4e-5 * (1.0 + std::pow(1.0 / 1024.0, 2) * 0.999)), on_orbit("objective_evolution")},
+      {"a balance of momentum that is solved loosely", "consistency",
+       set(has("method", "dmoc"), "momentum_defect_max", 1e-9), on_orbit("momentum_consistency")},
+      {"a balance that tangent-space collocation keeps on fine grids", "consistency",
+       set([](const Row& row) { return row.text("method") == "tangent" && row.text("intervals") == "1024"; },
+           "momentum_defect_total", 1e-15),
+       on_orbit("momentum_consistency")},
+      {"rounding that grows a thousand times", "consistency", set(has("method", "dmoc"), "momentum_defect_max", 1e-12),
+       on_orbit("rounding_floor")},
+      {"costates that differ", "equivalence", set(has("method", "hamiltonian"), "costate_difference", 1e-6),
+       on_orbit("equal_solutions")},
+      {"DMOC's motion replayed half as well", "convergence", scale(has("method", "dmoc"), "replay_error", 2.0),
+       on_orbit("replay_beside_tangent")},
+      {"an order at the nodes that is that of the stages", "convergence_indirect_slopes",
+       set([](const Row& row) { return row.text("quantity") == "costate" && row.text("stages") == "3"; }, "slope", 4.0),
+       on_orbit("order_of_convergence")},
+      {"orders of which all but one are rounding", "convergence_indirect_slopes",
+       [](Rows& rows) {
+         for (std::size_t i = 1; i < rows.size(); ++i) rows[i].set("verdict", "floor");
+       },
+       on_orbit("order_of_convergence"), ClaimVerdict::floor},
+      {"an adjoint scheme that Lobatto fulfils without the exchange", "equivalence",
+       set(has("tableau", "lobatto"), "adjoint_residual_by_plain_coefficients", 1e-12),
+       on_orbit("order_of_adjoint_scheme")},
+      {"minima that no replay confirms", "local_minima_minima", set(has("minimum", "2"), "replay_confirmed", "no"),
+       on_orbit("local_minima")},
+      {"shares whose intervals overlap", "local_minima_shares", set(has("method", "tangent"), "share_upper", "0.85"),
+       on_orbit("best_minimum_share")},
+  };
+}
+
+std::vector<Mistake> mistakes_about_flows() {
+  return {
+      {"an order of L_d one too low", "consistency_order_slopes", set(has("quantity", "lagrangian"), "slope", 2.0),
+       on_orbit("order_of_discrete_lagrangian")},
+      {"a momentum that changes by less than the work", "structure_momentum",
+       set(has("force", "along"), "momentum_change", 0.5 - 1e-8), "simulations/forced_noether_theorem"},
+      {"forces along the group that do no work", "structure_momentum",
+       [](Rows& rows) {
+         for (const char* column : {"momentum_change", "work", "work_of_discrete_forces"})
+           set(every_row, column, 0.0)(rows);
+       },
+       "simulations/forced_noether_theorem"},
+      {"a force along the group where it is said to be orthogonal", "structure_momentum",
+       [](Rows& rows) {
+         for (const char* column : {"momentum_change", "work", "work_of_discrete_forces"})
+           set(every_row, column, 0.1)(rows);
+       },
+       "simulations/momentum_preserved"},
+      {"a flow that is not symplectic", "structure_symplecticity", set(has("method", "hamiltonian"), "defect", 1e-9),
+       "simulations/symplectic"},
+      {"an energy that drifts", "structure_energy_behaviour", set(has("method", "dmoc"), "range", 0.5),
+       "simulations/modified_energy"},
+  };
+}
+
+std::vector<Mistake> mistakes_about_cost() {
+  const Where sparse = has("factorisation", "sparse");
+  const Where differences = [](const Row& row) { return row.text("derivatives").ends_with("differences"); };
+  const auto drop = [](const Where& where) { return [=](Rows& rows) { std::erase_if(rows, where); }; };
+  return {
+      {"minor iterations of DMOC that are a tenth too many", "iterations",
+       scale(has("method", "dmoc"), "minor_iterations", 1.1), on_orbit("minor_iteration_ratio")},
+      {"rows of one method dropped", "iterations",
+       drop([](const Row& row) { return row.text("method") == "hamiltonian" && row.text("intervals") == "64"; }),
+       on_orbit("minor_iteration_ratio")},
+      {"minor iterations that miss the law", "iterations", scale(every_row, "predicted_minors", 1.01),
+       on_orbit("minor_iterations_equal_variable_ratio")},
+      {"quasi-Newton iterations that all methods need alike", "iterations_limited_memory",
+       set(every_row, "minor_iterations", 100LL), on_orbit("minor_iteration_ratio_by_quasi_newton")},
+      {"evaluations that all methods need alike", "iterations_common", set(every_row, "evaluations", 100LL),
+       on_orbit("evaluation_ratio_by_slsqp")},
+      {"DMOC with the variables of collocation", "convergence",
+       scale(has("method", "dmoc"), "free_variables", 5.0 / 3.0), on_orbit("variable_ratio")},
+      {"one constraint too many", "convergence_stages", set(has("method", "dmoc"), "constraints", 67LL),
+       on_orbit("counts_of_variables_and_constraints")},
+      {"savings that equal replay errors do not show", "convergence_equal_accuracy",
+       set([](const Row& row) { return row.text("quantity") == "replay" && row.text("method") == "tangent"; },
+           "variables_ratio", 0.9),
+       on_orbit("savings_at_equal_replay_error")},
+      {"one way to eliminate that costs no more", "structure_advantage_ratios",
+       set(sparse, "round_ratios", tests::rounds_around(0.98)), on_orbit("collocation_more_expensive")},
+      {"a noisy clock", "structure_advantage_ratios", set(sparse, "round_ratios", noisy_rounds(1.5)),
+       on_orbit("collocation_more_expensive"), ClaimVerdict::undecided},
+      {"a verdict from three rounds", "structure_advantage_ratios", set(sparse, "round_ratios", "1.5 1.5 1.5"),
+       on_orbit("collocation_more_expensive"), ClaimVerdict::undecided},
+      {"a verdict at the threshold", "structure_advantage_ratios",
+       set(sparse, "round_ratios", tests::rounds_around(1.05)), on_orbit("collocation_more_expensive_on_every_grid"),
+       ClaimVerdict::undecided},
+      {"fewer operations by one elimination", "structure_advantage_ratios",
+       set(sparse, "ratio_at_equal_intervals", 0.9), on_orbit("factorisation_more_expensive_by_any_solver")},
+      {"differences that are as fast but for noise", "derivatives",
+       set(differences, "round_seconds", tests::rounds_around(0.01, 2.0)), on_orbit("automatic_differentiation_faster"),
+       ClaimVerdict::undecided},
+      {"differences that are faster", "derivatives", set(differences, "round_seconds", tests::rounds_around(0.002)),
+       on_orbit("automatic_differentiation_faster")},
+      {"ADOL-C measured by a noisy clock", "derivatives",
+       set(has("derivatives", "adolc"), "round_seconds", noisy_rounds(0.03)), on_orbit("adolc_faster_than_differences"),
+       ClaimVerdict::undecided},
+      {"a tolerance at which differences solve as much", "derivatives_cold",
+       set([=](const Row& row) { return differences(row) && row.text("tolerance") == "1e-06"; }, "status", "solved"),
+       on_orbit("automatic_differentiation_more_robust")},
+      {"\"acceptable\" instead of solved", "derivatives_cold", set(has("derivatives", "adolc"), "status", "acceptable"),
+       on_orbit("automatic_differentiation_more_robust")},
+  };
+}
+
+std::map<std::string, JudgedClaim> judged(const std::map<std::string, Rows>& rows) {
+  ResultTables tables;
+  for (const auto& [name, of_table] : rows) {
+    Table table({"problem"});
+    for (const Row& row : of_table) table.append(row);
+    tables.add(name, std::move(table));
+  }
+  std::map<std::string, JudgedClaim> claims;
+  for (const JudgedClaim& claim : judge_claims(tables)) claims[claim.id] = claim;
+  return claims;
+}
+
+class PlantedMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(PlantedMistake, TurnsTheVerdict) {
+  static const std::map<std::string, JudgedClaim> before = judged(tests::all_rows());
+  const Mistake& mistake = GetParam();
+  ASSERT_TRUE(before.contains(mistake.claim)) << mistake.claim;
+  EXPECT_EQ(before.at(mistake.claim).verdict, ClaimVerdict::reproduced) << before.at(mistake.claim).measured;
+  std::map<std::string, Rows> rows = tests::all_rows();
+  ASSERT_TRUE(rows.contains(mistake.table)) << mistake.table;
+  mistake.plant(rows[mistake.table]);
+  const JudgedClaim claim = judged(rows).at(mistake.claim);
+  EXPECT_EQ(name_of(claim.verdict), name_of(mistake.becomes)) << claim.measured << '\n' << claim.reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(Solutions, PlantedMistake, testing::ValuesIn(mistakes_about_solutions()));
+INSTANTIATE_TEST_SUITE_P(Flows, PlantedMistake, testing::ValuesIn(mistakes_about_flows()));
+INSTANTIATE_TEST_SUITE_P(Cost, PlantedMistake, testing::ValuesIn(mistakes_about_cost()));
+
+}  // namespace
+}  // namespace dmocbench
