@@ -65,13 +65,14 @@ do for [name in "convergence convergence_512"] {
         plot for [curve in curves] rows(name, curve, error) using (column("step")):(column(error))\
              with linespoints linetype method_style(entry(curve, "method"))\
              title with_slope(curve_label(name, curve), slope(name."_slopes", curve, quantity)),\
-             for [curve in coarse_curves] coarse_rows(name, curve, error) using (column("step")):(column(error))\
-             with points linetype method_style(entry(curve, "method")) pointtype 6 notitle,\
+             for [k = 1:words(coarse_curves)] coarse_rows(name, word(coarse_curves, k), error)\
+             using (column("step")):(column(error))\
+             with points linetype method_style(entry(word(coarse_curves, k), "method")) pointtype 6 notitle,\
              keyentry with points linetype 8 pointtype 6 title (strlen(coarse_curves) > 0 ? "too coarse to be a motion" : ""),\
-             for [guide in (one_stage ? "h²" : "")] y_guide * (x / x_guide)**2 with lines linetype 8 title "C ".guide,\
-             for [guide in (one_stage && h_ref > 0 ? "h_{ref}²" : "")] x > h_ref\
+             for [k = 1:one_stage] y_guide * (x / x_guide)**2 with lines linetype 8 title "C h²",\
+             for [k = 1:(one_stage && h_ref > 0)] x > h_ref\
              ? y_guide * (x**2 - h_ref**2) / (x_guide**2 - h_ref**2) : NaN with lines linetype 9\
-             title "C (h² − ".guide.")"
+             title "C (h² − h_{ref}²)"
         eval end_figure(kind, figure)
       }
     }

@@ -74,9 +74,9 @@ do for [problem_word in problems] {
                  using (column("intervals")):(column(quantity))\
                  with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
                  pointtype filled(i + 0) pointsize 0.75,\
-             for [i in with_bars] taken("''", where.",".curve_of(i + 0), "seconds_lower_quartile")\
+             for [k = 1:words(with_bars)] taken("''", where.",".curve_of(number_in(word(with_bars, k))), "seconds_lower_quartile")\
                  using (column("intervals")):(column("seconds")):(column("seconds_lower_quartile")):\
-                 (column("seconds_upper_quartile")) with yerrorbars linecolor rgb colour(i + 0) linewidth 1.2 dashtype 1\
+                 (column("seconds_upper_quartile")) with yerrorbars linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.2 dashtype 1\
                  pointtype 0,\
              for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
                  using (column("intervals")):(column(quantity))\
