@@ -16,7 +16,7 @@ do for [where in problems_of("consistency", "momentum_defect_max")] {
   eval set_range("y", y_low, y_high, 10)
   set title title_text(problem_label(problem).": change of the momentum against the force, interval by interval",\
       of_paper(problem, "kepler\\_J", "twolink\\_obj b)").conditions("consistency").".",\
-      "DMOC’s momenta are differences of positions over h: rounding in them grows with N.")
+      "DMOC’s momenta are differences of positions over h: its curve holds their rounding and the solver’s residual.")
   set ylabel axis_label("largest momentum defect of an interval", problem, "momentum_unit")
   # A guide through the coarsest grid of tangent-space collocation.
   tangent = where.",method=tangent"

@@ -41,16 +41,17 @@ do for [problem_word in problems] {
     set multiplot layout 2, columns_of_panels title title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
         timed_conditions("derivatives").".",\
-        "Open markers: not solved to that tolerance; the time spent, which is limited, and the residual reached.")\
+        "Bars: quartiles of the rounds. Open markers: not solved to that tolerance; the time spent and the residual reached.")\
         offset 0, -0.4 margins 0.075, 0.985, 0.17, 0.84 spacing 0.02, 0.03
     do for [q = 1:2] {
       quantity = word(quantities, q)
       do for [m = 1:columns_of_panels] {
         where = everything.",".word(methods, m)
-        solved = ""; unsolved = ""
+        solved = ""; unsolved = ""; with_bars = ""
         do for [i = 1:6] {
           if (counted("''", where.",".curve_of(i), quantity) > 0) { solved = solved." ".i }
           if (counted("unsolved", where.",".curve_of(i), quantity) > 0) { unsolved = unsolved." ".i }
+          if (q == 1 && counted("''", where.",".curve_of(i), "seconds_lower_quartile") > 0) { with_bars = with_bars." ".i }
         }
         unset logscale; set autoscale
         stats taken("all", everything, quantity) using (column("intervals")):(column(quantity)) name 'S' nooutput
@@ -73,6 +74,10 @@ do for [problem_word in problems] {
                  using (column("intervals")):(column(quantity))\
                  with linespoints linecolor rgb colour(i + 0) linewidth 1.5 dashtype dashes(i + 0)\
                  pointtype filled(i + 0) pointsize 0.75,\
+             for [k = 1:words(with_bars)] taken("''", where.",".curve_of(number_in(word(with_bars, k))), "seconds_lower_quartile")\
+                 using (column("intervals")):(column("seconds")):(column("seconds_lower_quartile")):\
+                 (column("seconds_upper_quartile")) with yerrorbars linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.2 dashtype 1\
+                 pointtype 0,\
              for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
                  using (column("intervals")):(column(quantity))\
                  with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9

@@ -18,12 +18,12 @@ do for [where in problems_of("objective", "")] {
   error_curves = errors ? curves_of("convergence", where, "objective_error") : ""
   panels = strlen(error_curves) > 0 ? 2 : 1
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_objective", panels == 2 ? 1100 : 900, 560)
+    eval begin_figure(kind, problem."_objective", panels == 2 ? 1100 : 900, 600)
     figure_title = title_text(problem_label(problem).": cost over the number of intervals",\
         of_paper(problem, "", "twolink\\_obj a)").conditions("objective").".",\
         panels == 2 ? "Right: J_{ref} is that of ".reference_words."; an error that changes its sign dips." : "")
     if (panels == 2) { eval two_panels(0.135) } else { set title figure_title }
-    set key top right
+    if (panels == 2) { eval key_below } else { set key top right }
     eval measure("objective", where, "intervals", "objective")
     eval intervals_axis
     eval set_range("x", x_low, x_high, 1.25)

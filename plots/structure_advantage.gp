@@ -26,17 +26,19 @@ do for [where in problems_of(name, ratio)] {
     set multiplot layout 1, 2 title title_text(problem_label(problem)\
         .": Hamiltonian collocation beside DMOC, by solvers that know more or less of the structure",\
         timed_conditions("structure_advantage").". Above the line DMOC takes less.",\
-        "Ipopt does not tell its linear systems: its curve is time per iteration, without evaluations.")\
+        "Bars: 99 % intervals over the rounds. Ipopt does not tell its linear systems: time per iteration without evaluations.")\
         offset 0, -0.4 margins 0.08, 0.985, 0.26, 0.81 spacing 0.1
     # Both panels have one range, which holds all that is drawn.
     low = 1; high = 1
     do for [panel = 1:2] {
       do for [w = 1:words(ways)] {
         selected = conditions.",".way_of(w).",quantity=".quantity_of(panel, w)
-        if (strlen(distinct(name, "quantity", selected, ratio)) > 0) {
-          eval measure(name, selected, "intervals", ratio)
-          if (y_low < low) { low = y_low }
-          if (y_high > high) { high = y_high }
+        do for [bound in ratio." ratio_lower ratio_upper"] {
+          if (strlen(distinct(name, "quantity", selected, bound)) > 0) {
+            eval measure(name, selected, "intervals", bound)
+            if (y_low < low) { low = y_low }
+            if (y_high > high) { high = y_high }
+          }
         }
       }
     }
@@ -46,10 +48,11 @@ do for [where in problems_of(name, ratio)] {
       eval set_range("x", x_low, x_high, 1.25)
       set logscale y 2
       set ytics (0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 4, 6, 8); set format y '%g'; unset mytics
-      drawn = ""
+      drawn = ""; with_bars = ""
       do for [w = 1:words(ways)] {
         selected = conditions.",".way_of(w).",quantity=".quantity_of(panel, w)
         if (strlen(distinct(name, "quantity", selected, ratio)) > 0) { drawn = drawn." ".w }
+        if (strlen(distinct(name, "quantity", selected, "ratio_lower")) > 0) { with_bars = with_bars." ".w }
       }
       set yrange [low / 1.1:high * 1.1]
       set ylabel "Hamiltonian / DMOC, ".word(panels, panel)
@@ -59,7 +62,10 @@ do for [where in problems_of(name, ratio)] {
              pointtype point(w + 0) pointsize 0.8 title word(way_labels, w + 0),\
            for [w in drawn] rows(name, conditions.",".way_of(w + 0).",quantity=".quantity_of(panel, w + 0), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(w + 0) linewidth 1.8\
-             dashtype 1 pointtype point(w + 0) pointsize 0.8 notitle
+             dashtype 1 pointtype point(w + 0) pointsize 0.8 notitle,\
+           for [k = 1:words(with_bars)] rows(name, conditions.",".way_of(number_in(word(with_bars, k))).",quantity=".quantity_of(panel, number_in(word(with_bars, k))), "ratio_lower")\
+             using (column("intervals")):(column(ratio)):(column("ratio_lower")):(column("ratio_upper")) with yerrorbars\
+             linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.4 dashtype 1 pointtype 0 notitle
     }
     unset multiplot
     eval end_figure(kind, problem."_structure_advantage")

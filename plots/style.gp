@@ -44,6 +44,9 @@ measure(name, where, x, y) = sprintf("unset logscale; set autoscale;\
 number(text) = strstrt(text, "e") == 0 || strstrt(text, ".") > 0 ? real(text)\
     : real(text[1:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):*])
 
+# A whole number from a word; gnuplot looks at the body of an empty loop once, without a word.
+number_in(text) = strlen(text) > 0 ? int(text) : 1
+
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
 slope_fields(name, where, quantity, fields) = exists_table(name) ? system(rows_awk(sprintf(\
     "-v where='problem=%s,method=%s,tableau=%s,stages=%s,quantity=%s'", entry(where, "problem"),\
@@ -139,8 +142,10 @@ set_range(axis, low, high, factor) = sprintf("set %srange [%.6g:%.6g]", axis, lo
 
 error_of(name) = "max_k |".name."_k − ".name."_{ref}(t_k)|"
 
-# To be evaluated: two panels side by side below `figure_title`; `left` is the room for the first panel's labels.
-two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.13, 0.8\
+# To be evaluated: two panels side by side below `figure_title`, room for a key below them; `left` is the room for the first
+# panel's labels.
+key_below = "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2"
+two_panels(left) = sprintf("set multiplot layout 1, 2 title figure_title offset 0, -0.4 margins %g, 0.985, 0.2, 0.8\
     spacing 0.1", left)
 
 # --- Output ----------------------------------------------------------------------------------------------------------

@@ -11,12 +11,11 @@ do for [where in problems_of("convergence", "state_error")] {
   problem = entry(where, "problem")
   curves = curves_of("convergence", where, "state_error")
   do for [kind in kinds] {
-    eval begin_figure(kind, problem."_work_precision", 1100, 560)
+    eval begin_figure(kind, problem."_work_precision", 1100, 600)
     figure_title = title_text(problem_label(problem).": state error over time and over free variables",\
         timed_conditions("convergence").".",\
         "Few iterations from a warm start make short times; counts of variables do not depend on the start.")
     eval two_panels(0.1)
-    set key top right
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
     do for [i = 1:2] {
       work = word(panels, i)
@@ -25,7 +24,7 @@ do for [where in problems_of("convergence", "state_error")] {
       eval finer_tics("x")
       eval set_range("x", x_low, x_high, 1.3)
       set xlabel (i == 1 ? "time of the solver [s]" : "free variables of the program")
-      if (i == 2) { unset ylabel; unset key }
+      if (i == 1) { eval key_below } else { unset ylabel; unset key }
       plot for [curve in curves] rows("convergence", curve, "state_error")\
            using (column(work)):(column("state_error"))\
            with linespoints linetype method_style(entry(curve, "method")) title curve_label("convergence", curve)

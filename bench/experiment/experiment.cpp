@@ -68,7 +68,7 @@ class Run {
       if (!terminal_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
     };
     metadata_["start"] = options_.start;
-    metadata_["tolerance"] = options_.tolerance;
+    if (options_.tolerances.empty()) metadata_["tolerance"] = options_.tolerance;
     metadata_["repeats"] = options_.repeats;
     for (const Case& the_case : cases_) {
       nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
