@@ -168,6 +168,7 @@ int measure_all(CommandLine& line) {
   const auto selected = selected_problems(problems, settings);
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "consistency_order");
   Results results;
   for (const auto& problem : selected) measure(*problem, steps, results);
   const std::filesystem::path errors = out / "consistency_order.csv";
