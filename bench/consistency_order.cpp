@@ -224,6 +224,7 @@ int measure_all(CommandLine& line) {
   const auto selected = selected_problems(problems, settings);
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "consistency_order");
   Results results;
   std::vector<ExactTransform> transforms;
   for (const auto& problem : selected) {

@@ -231,6 +231,7 @@ int evaluate_slips(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "slips");
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");

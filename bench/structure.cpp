@@ -112,6 +112,7 @@ int write_tables(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "structure");
   const Table momentum = noether_table(steps);
   const Table symplecticity = symplecticity_table();
   EnergyResults results;

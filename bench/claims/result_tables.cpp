@@ -146,7 +146,8 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
       check_run(folder, declared.run, file, content);
     } catch (const Error& error) {
       const std::string sentence = error.what();
-      tables.faults_[declared.name] = sentence.find(file) == std::string::npos ? file + ": " + sentence : sentence;
+      const bool names_it = sentence.find(file) != std::string::npos;
+      tables.faults_[declared.name] = names_it ? sentence : fmt::format("{}: {}", file, sentence);
     }
   }
   return tables;
@@ -165,7 +166,7 @@ Selection ResultTables::rows(std::string_view table) const {
 }
 
 Selection ResultTables::rows(std::string_view table, std::string_view problem) const {
-  const Selection of_problem = rows(table).where("problem", problem);
+  Selection of_problem = rows(table).where("problem", problem);
   if (of_problem.empty()) throw Error(fmt::format("{}.csv has no row of {}", table, problem));
   return of_problem;
 }

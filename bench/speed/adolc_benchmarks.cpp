@@ -41,13 +41,13 @@ class AdolcHessian {
         *independent <<= 1.0;
         independents.emplace_back(independent);
       }
-      adouble sum = 0.0;
+      RecordedNumber sum(0.0);
       for (std::size_t k = 0; k < intervals; ++k) {
         const std::span of_interval(&independents[k * inputs.count()], inputs.count());
-        sum += replay<RecordedNumber>(lagrangian, of_interval).front().variable();
+        sum = sum + replay<RecordedNumber>(lagrangian, of_interval).front();
       }
       double value = 0.0;
-      sum >>= value;
+      sum.variable() >>= value;
     }
     trace_off();
   }
