@@ -162,7 +162,8 @@ class Smoothness {
     if (!coarse.trajectory) throw Error(situation.name + " could not be solved: " + coarse.solution.message);
     const SolvedCase fine =
         solve(case_of(situation, "dmoc", 2, finer_intervals), Start{smooth_motion(*coarse.trajectory)});
-    if (!is_solved(fine.solution.status)) throw Error(situation.name + " is not solved: " + fine.solution.message);
+    if (!fine.trajectory || !is_solved(fine.solution.status))
+      throw Error(situation.name + " is not solved: " + fine.solution.message);
     return *fine.trajectory;
   }
   void follow(const Situation& situation, const KnownOptimum& optimum, const Start& start, const std::string& method,
@@ -178,7 +179,7 @@ class Smoothness {
                         .is_exact = optimum.is_exact(),
                         .intervals = intervals,
                         .h = h};
-      if (is_solved(solved.solution.status)) measured.error = optimum.error_of(*solved.trajectory);
+      if (solved.trajectory && is_solved(solved.solution.status)) measured.error = optimum.error_of(*solved.trajectory);
       errors_.push_back(measured);
       if (!measured.error) continue;
       for (std::size_t i = 0; i < quantities.size(); ++i) {

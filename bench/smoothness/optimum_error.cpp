@@ -15,16 +15,29 @@ namespace {
 
 double largest_row(const Eigen::MatrixXd& difference) { return difference.rowwise().norm().maxCoeff(); }
 
+/// Throws `Error` if the problem has no closed form.
+OptimalPoint closed_form_point(const Problem& problem, double t) {
+  const auto* closed = dynamic_cast<const ClosedForm*>(&problem);
+  std::optional<OptimalPoint> point = closed != nullptr ? closed->optimum(t) : std::nullopt;
+  if (!point) throw Error(problem.name() + " knows no optimum in closed form");
+  return *std::move(point);
+}
+
+double closed_form_cost(const Problem& problem) {
+  const std::optional<ReferenceOptimum> reference = problem.card().reference;
+  if (!reference) throw Error(problem.name() + " states no cost of its optimum");
+  return reference->objective;
+}
+
 }  // namespace
 
-KnownOptimum::KnownOptimum(const Problem& problem, std::optional<Trajectory> finer)
-    : problem_(problem), finer_(std::move(finer)) {
-  if (finer_) {
+KnownOptimum::KnownOptimum(const Problem& problem, std::optional<Trajectory> finer) : problem_(problem) {
+  if (finer) {
+    finer_ = std::make_unique<const Trajectory>(*std::move(finer));
     finer_controls_ = minimisers(*finer_);
-    return;
+  } else {
+    static_cast<void>(closed_form_point(problem, 0.0));
   }
-  const auto* closed = dynamic_cast<const ClosedForm*>(&problem_);
-  if (closed == nullptr || !closed->optimum(0.0)) throw Error(problem.name() + " knows no optimum in closed form");
 }
 
 Eigen::MatrixXd KnownOptimum::minimisers(const Trajectory& motion) const {
@@ -38,7 +51,6 @@ Eigen::MatrixXd KnownOptimum::minimisers(const Trajectory& motion) const {
 }
 
 KnownOptimum::Sampled KnownOptimum::closed_form_at(const Trajectory& motion) const {
-  const auto& closed = dynamic_cast<const ClosedForm&>(problem_);
   LegendreTransform legendre{TracedProblem(problem_)};
   Sampled sampled{motion.q,
                   motion.p,
@@ -46,10 +58,10 @@ KnownOptimum::Sampled KnownOptimum::closed_form_at(const Trajectory& motion) con
                   motion.psi_p,
                   Eigen::MatrixXd(motion.q.rows(), motion.stage_u.cols()),
                   motion.stage_u,
-                  problem_.card().reference.value().objective};
+                  closed_form_cost(problem_)};
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
     const double t = motion.node_times[k];
-    const OptimalPoint point = closed.optimum(t).value();
+    const OptimalPoint point = closed_form_point(problem_, t);
     sampled.q.row(k) = point.motion.q.transpose();
     sampled.p.row(k) = legendre.momentum(point.motion.q, point.motion.v, t).transpose();
     sampled.psi_q.row(k) = point.psi_q.transpose();
@@ -57,7 +69,7 @@ KnownOptimum::Sampled KnownOptimum::closed_form_at(const Trajectory& motion) con
     sampled.node_u.row(k) = point.motion.u.transpose();
   }
   for (Eigen::Index i = 0; i < motion.stage_u.rows(); ++i) {
-    sampled.stage_u.row(i) = closed.optimum(motion.stage_times[i])->motion.u.transpose();
+    sampled.stage_u.row(i) = closed_form_point(problem_, motion.stage_times[i]).motion.u.transpose();
   }
   return sampled;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "methods/mechanics/problem.hpp"
@@ -24,7 +25,7 @@ class KnownOptimum {
   /// there is neither.
   KnownOptimum(const Problem& problem, std::optional<Trajectory> finer);
 
-  [[nodiscard]] bool is_exact() const noexcept { return !finer_; }
+  [[nodiscard]] bool is_exact() const noexcept { return finer_ == nullptr; }
   /// The errors of a motion with costates whose nodes are nodes of the finer one.
   [[nodiscard]] OptimumError error_of(const Trajectory& motion) const;
 
@@ -40,7 +41,7 @@ class KnownOptimum {
   [[nodiscard]] Eigen::MatrixXd minimisers(const Trajectory& motion) const;
 
   const Problem& problem_;
-  std::optional<Trajectory> finer_;
+  std::unique_ptr<const Trajectory> finer_;  // null for a closed form
   Eigen::MatrixXd finer_controls_;
 };
 
