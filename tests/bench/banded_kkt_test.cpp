@@ -35,7 +35,7 @@ RandomShape shape_of(unsigned seed) {
   shape.intervals = 2 + turn(17);
   shape.node = 1 + turn(3);
   shape.rows_at_nodes = turn(2) == 0;
-  shape.gradients = turn(5) < 3 ? 0 : 2;
+  shape.rates = turn(5) < 3 ? 0 : 2;
   shape.controls = 1 + turn(2);
   shape.inequalities = turn(4) == 3 ? 2 : 0;
   shape.horizon = turn(3) == 1;
