@@ -1,6 +1,8 @@
 // What automatic differentiation saves: "the optimization process performs in a faster and more robust way when
 // providing the derivatives by automatic differentiation rather than via finite differences" (section 4.1).
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "bench/claims/timed_ratios.hpp"
 #include "bench/experiment/solve_case.hpp"
@@ -16,24 +18,29 @@ Selection with_back_end(const Selection& rows, const std::string& table, const c
   return solves;
 }
 
-/// Adds the ratio of the times of every method on every grid that both back ends solve, and counts the others.
-std::string add_ratios(TimedRatios& ratios, const Selection& rows, const char* slow, const char* fast) {
+/// Adds the ratio of the times by two back ends, round by round the geometric mean over all methods and grids that both
+/// solve, and counts the rows that it leaves out. A single small program would be judged by the clock's noise.
+std::string add_ratio(TimedRatios& ratios, const Selection& rows, const char* slow, const char* fast) {
   const Selection slower = with_back_end(rows, "derivatives", slow);
   const Selection faster = with_back_end(rows, "derivatives", fast).usable();
   Selection timed;
-  std::vector<double> of_all;
-  for (const Selection& method : slower.usable().group_by({"method"})) {
-    std::vector<std::vector<double>> of_grids;
-    for (const Row& row : method) {
-      const Selection partner = faster.matching(row, {"method", "tableau", "stages", "intervals", "tolerance"});
-      if (partner.empty()) continue;
-      const std::vector<double> of_rounds =
-          round_ratios(row.numbers("round_seconds"), partner.front().numbers("round_seconds"));
-      require(!of_rounds.empty(), "{}, column round_seconds: there is no number", row.place());
-      ratios.add(fmt::format("{} {} N = {}", slow, row.text("method"), row.text("intervals")), of_rounds);
-      timed.append(row);
-    }
+  std::vector<std::vector<double>> of_programs;
+  std::size_t rounds = std::numeric_limits<std::size_t>::max();
+  for (const Row& row : slower.usable()) {
+    const Selection partner = faster.matching(row, {"method", "tableau", "stages", "intervals", "tolerance"});
+    if (partner.empty()) continue;
+    of_programs.push_back(round_ratios(row.numbers("round_seconds"), partner.front().numbers("round_seconds")));
+    require(!of_programs.back().empty(), "{}, column round_seconds: there is no number", row.place());
+    rounds = std::min(rounds, of_programs.back().size());
+    timed.append(row);
   }
+  std::vector<double> means;
+  for (std::size_t round = 0; !of_programs.empty() && round < rounds; ++round) {
+    double sum = 0.0;
+    for (const std::vector<double>& of_rounds : of_programs) sum += std::log(of_rounds[round]);
+    means.push_back(std::exp(sum / static_cast<double>(of_programs.size())));
+  }
+  if (!means.empty()) ratios.add(fmt::format("{} on {} programs", slow, of_programs.size()), means);
   return left_out(slower, timed, fmt::format("not solved by {} or {}, in favour of {} by", slow, fast, slow));
 }
 
@@ -79,15 +86,15 @@ constexpr double as_fast = 1.0;
 Finding faster(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("derivatives", problem);
   TimedRatios ratios(as_fast);
-  std::string unsolved = add_ratios(ratios, rows, "finite_differences", "tape");
-  unsolved += add_ratios(ratios, rows, "forward_differences", "tape");
+  std::string unsolved = add_ratio(ratios, rows, "finite_differences", "tape");
+  unsolved += add_ratio(ratios, rows, "forward_differences", "tape");
   require(ratios.rounds() > 0, "derivatives.csv: no program of {} is solved by differences and by the tape", problem);
   return judged(ratios, "solves take this many times those by the tape: ", unsolved);
 }
 
 Finding adolc_faster(const ResultTables& tables, const std::string& problem) {
   TimedRatios ratios(as_fast);
-  const std::string unsolved = add_ratios(ratios, tables.rows("derivatives", problem), "finite_differences", "adolc");
+  const std::string unsolved = add_ratio(ratios, tables.rows("derivatives", problem), "finite_differences", "adolc");
   require(ratios.rounds() > 0, "derivatives.csv: no program of {} is solved by central differences and by ADOL-C",
           problem);
   return judged(ratios, "solves by central differences take this many times those by ADOL-C: ", unsolved);

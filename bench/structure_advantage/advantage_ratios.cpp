@@ -59,15 +59,6 @@ Selection comparable_rows(const Selection& table) {
   });
 }
 
-/// The ratios of the rounds and the interval of their median.
-void set_rounds(Row& result, const std::vector<double>& ratios) {
-  if (ratios.empty()) return;
-  const RatioInterval interval = ratio_interval(ratios);
-  result.set("ratio_lower", interval.lower);
-  result.set("ratio_upper", interval.upper);
-  result.set("round_ratios", joined_numbers(ratios));
-}
-
 }  // namespace
 
 Table advantage_ratios(const Selection& advantage) {

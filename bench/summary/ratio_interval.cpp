@@ -32,6 +32,14 @@ RatioInterval ratio_interval(std::span<const double> ratios) {
   return interval;
 }
 
+void set_rounds(Row& result, std::span<const double> ratios) {
+  if (ratios.empty()) return;
+  const RatioInterval interval = ratio_interval(ratios);
+  result.set("ratio_lower", interval.lower);
+  result.set("ratio_upper", interval.upper);
+  result.set("round_ratios", joined_numbers(ratios));
+}
+
 std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(times.size(), others.size()); ++i) ratios.push_back(times[i] / others[i]);

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/experiment/table.hpp"
+
 namespace dmocbench {
 
 /// Fewer rounds are too few for a verdict on times.
@@ -27,6 +29,9 @@ struct RatioInterval {
 /// The interval of the median of ratios, one of each round. Throws `Error` without ratios or if one is not a finite
 /// number above zero.
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
+
+/// Sets ratio_lower and ratio_upper, the interval, and round_ratios, from which it comes; nothing without rounds.
+void set_rounds(Row& result, std::span<const double> ratios);
 
 /// The quotients of two lists of times, round by round, as far as both reach.
 [[nodiscard]] std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/summary/ratio_interval.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -124,7 +126,7 @@ Table equal_accuracy(const Selection& convergence) {
 
 Table currency_ratios(const Selection& iterations) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_intervals",
-               "ratio_at_equal_accuracy"});
+               "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
   for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
     const Selection dmoc = compared.where("method", "dmoc").usable();
     for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
@@ -134,7 +136,12 @@ Table currency_ratios(const Selection& iterations) {
         for (const Row& row : collocation.usable().where("crash", currency.crash)) {
           Row result = fields_of(row, {"problem", "method", "tableau", "stages", "intervals"});
           result.set("currency", currency.name);
-          set_cost_ratios(result, row, dmoc.where("crash", currency.crash), cost_in(currency.column), "replay_error");
+          const Selection others = dmoc.where("crash", currency.crash);
+          set_cost_ratios(result, row, others, cost_in(currency.column), "replay_error");
+          if (currency.column == std::string_view("seconds")) {
+            const Row& on_same_grid = others.matching(row, {"intervals"}).front();
+            set_rounds(result, round_ratios(row.numbers("round_seconds"), on_same_grid.numbers("round_seconds")));
+          }
           table.append(std::move(result));
         }
       }

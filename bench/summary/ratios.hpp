@@ -37,13 +37,14 @@ void set_cost_ratios(Row& result, const Row& row, const Selection& others, const
 /// What the same accuracy costs each method, from a convergence table:
 /// problem,tableau,stages,quantity,error,method,intervals,variables,seconds,variables_ratio,seconds_ratio.
 ///
-/// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a problem and tableau reaches within its grids, the number of intervals, of
-/// free variables and the seconds of a solve are read off the method's curve (straight lines in logarithms between
-/// grids). Ratios are to dmoc, where it is there.
+/// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a
+/// problem and tableau reaches within its grids, the number of intervals, of free variables and the seconds of a solve
+/// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, where it is there.
 [[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
 /// What collocation costs beside DMOC in every currency of an iterations table:
-/// problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy.
+/// problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy,ratio_lower,
+/// ratio_upper,round_ratios; the last three of seconds that were measured in rounds.
 ///
 /// A currency is a column of the rows of one solver and one kind of start. Accuracy is the replay error. Rows that were
 /// not solved, or lie on another branch, are left out.
