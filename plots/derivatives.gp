@@ -77,7 +77,7 @@ do for [problem_word in problems] {
              for [k = 1:words(with_bars)] taken("''", where.",".curve_of(number_in(word(with_bars, k))), "seconds_lower_quartile")\
                  using (column("intervals")):(column("seconds")):(column("seconds_lower_quartile")):\
                  (column("seconds_upper_quartile")) with yerrorbars linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.2 dashtype 1\
-                 pointtype 0,\
+                 pointtype filled(number_in(word(with_bars, k))) pointsize 0.75,\
              for [i in unsolved] taken("unsolved", where.",".curve_of(i + 0), quantity)\
                  using (column("intervals")):(column(quantity))\
                  with points linecolor rgb colour(i + 0) linewidth 1 pointtype open(i + 0) pointsize 0.9

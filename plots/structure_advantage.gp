@@ -65,7 +65,7 @@ do for [where in problems_of(name, ratio)] {
              dashtype 1 pointtype point(w + 0) pointsize 0.8 notitle,\
            for [k = 1:words(with_bars)] rows(name, conditions.",".way_of(number_in(word(with_bars, k))).",quantity=".quantity_of(panel, number_in(word(with_bars, k))), "ratio_lower")\
              using (column("intervals")):(column(ratio)):(column("ratio_lower")):(column("ratio_upper")) with yerrorbars\
-             linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.4 dashtype 1 pointtype 0 notitle
+             linecolor rgb colour(number_in(word(with_bars, k))) linewidth 1.4 dashtype 1 pointtype point(number_in(word(with_bars, k))) pointsize 0.8 notitle
     }
     unset multiplot
     eval end_figure(kind, problem."_structure_advantage")

@@ -45,7 +45,7 @@ number(text) = strstrt(text, "e") == 0 || strstrt(text, ".") > 0 ? real(text)\
     : real(text[1:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):*])
 
 # A whole number from a word; gnuplot looks at the body of an empty loop once, without a word.
-number_in(text) = strlen(text) > 0 ? int(text) : 1
+number_in(text) = strlen(text) > 0 ? text + 0 : 1
 
 # Fitted slope of a curve with its standard error, as text; empty if the table lacks it or two points are no fit.
 slope_fields(name, where, quantity, fields) = exists_table(name) ? system(rows_awk(sprintf(\
