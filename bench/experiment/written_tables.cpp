@@ -22,16 +22,20 @@ nlohmann::json told_of(const nlohmann::json& metadata, const std::string& table)
   if (tables == metadata.end() || !tables->is_object() || !tables->contains(table)) return {};
   const nlohmann::json& told = tables->at(table);
   const auto has = [&told](const char* name, auto is_of_type) { return told.contains(name) && is_of_type(told[name]); };
-  const bool is_whole = told.is_object() && has("columns", [](const auto& value) { return value.is_array(); }) &&
+  const auto are_texts = [](const nlohmann::json& values) {
+    return values.is_array() && std::ranges::all_of(values, [](const auto& value) { return value.is_string(); });
+  };
+  const bool is_whole = told.is_object() && has("columns", are_texts) &&
                         has("rows", [](const auto& value) { return value.is_number_integer(); }) &&
                         has("crc32", [](const auto& value) { return value.is_string(); });
   return is_whole ? told : nlohmann::json();
 }
 
-/// The first name that the others lack; empty if none.
-std::string lacked(const std::vector<nlohmann::json>& names, const std::vector<nlohmann::json>& others) {
-  const auto found = std::ranges::find_if(names, [&](const auto& name) { return !std::ranges::count(others, name); });
-  return found == names.end() ? "" : found->dump();
+/// The first name that the others lack, in quotes; empty if none.
+std::string lacked(const std::vector<std::string>& names, const std::vector<std::string>& others) {
+  const auto found = std::ranges::find_if(
+      names, [&](const std::string& name) { return std::ranges::find(others, name) == others.end(); });
+  return found == names.end() ? "" : fmt::format("\"{}\"", *found);
 }
 
 }  // namespace
@@ -60,10 +64,10 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
   const nlohmann::json told = told_of(metadata, table);
   if (told.is_null()) throw Error(fmt::format("{} does not tell of {}: they are of different runs", source, table));
   const Table found = Table::from_csv(content);
-  const std::vector<nlohmann::json> columns(found.columns().begin(), found.columns().end());
-  if (const std::string more = lacked(columns, told["columns"]); !more.empty())
+  const auto columns = told["columns"].get<std::vector<std::string>>();
+  if (const std::string more = lacked(found.columns(), columns); !more.empty())
     throw Error(fmt::format("{} has the column {}, of which {} does not tell", table, more, source));
-  if (const std::string missing = lacked(told["columns"], columns); !missing.empty())
+  if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
     throw Error(fmt::format("{} lacks the column {}, of which {} tells", table, missing, source));
   if (told["rows"] != found.rows().size()) {
     throw Error(fmt::format("{} tells of {} rows and {} has {}: they are of different runs, or rows are lost", source,

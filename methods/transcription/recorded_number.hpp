@@ -14,7 +14,9 @@ namespace dmocbench {
 /// so that ADOL-C records no operation on constants. Copies share the variable, so that copying records nothing.
 class RecordedNumber {
  public:
+  /// A constant.
   explicit RecordedNumber(double value) : value_(value) {}
+  /// An independent variable, or a result of ADOL-C's.
   explicit RecordedNumber(std::shared_ptr<const adouble> variable) : variable_(std::move(variable)) {}
 
   /// The result of a function of ADOL-C. (It is never applied to constants, which are folded while formulas are
@@ -31,6 +33,7 @@ class RecordedNumber {
     if (y.variable_) return kept(function(x.value_, *y.variable_));
     return kept(function(x.value_, y.value_));
   }
+  /// A copy that ADOL-C knows, also of a constant.
   [[nodiscard]] adouble variable() const { return variable_ ? *variable_ : adouble(value_); }
 
  private:

@@ -42,11 +42,13 @@ TEST_F(WrittenTables, AreRefusedWithWhatDisagrees) {
   expect("a,b,c\n1,2,0\n3,4,0\n", {"the column \"c\""});
   expect("a,c\n1,2\n3,4\n", {"the column \"c\""});
   expect("a\n1\n3\n", {"lacks the column \"b\""});
+  expect("a,\xff\n1,2\n3,4\n", {"the column \"\xff\""});  // no UTF-8
 }
 
 TEST_F(WrittenTables, AreRefusedWhereTheMetadataTellNothingOfThem) {
   for (const char* const told : {"{}", "[]", "null", R"({"tables": 5})", R"({"tables": {"other.csv": {}}})",
                                  R"({"tables": {"table.csv": {"columns": "a", "rows": 0, "crc32": "0"}}})",
+                                 R"({"tables": {"table.csv": {"columns": [5], "rows": 0, "crc32": "0"}}})",
                                  R"({"tables": {"table.csv": {"columns": ["a"], "rows": {}, "crc32": "0"}}})",
                                  R"({"tables": {"table.csv": {"columns": ["a"], "rows": 0, "crc32": 7}}})"}) {
     expect_error_naming({"table.json does not tell of table.csv"},
