@@ -1,0 +1,90 @@
+// Claims on energy, momentum, smoothness, coercivity and the order theorem: each false number flips the row it should.
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "bench/claims/claim.hpp"
+#include "tests/bench/all_tables_for_claims.hpp"
+
+namespace dmocbench {
+namespace {
+
+struct FalseNumber {
+  std::string table;
+  std::function<bool(const Row&)> where;
+  std::string column;
+  double number;
+  std::string claim;
+};
+
+ClaimVerdict verdict_with(const FalseNumber& doctored) {
+  ResultTables results;
+  for (const auto& [name, rows] : tests::all_rows()) {
+    Table table;
+    for (Row row : rows) {
+      if (name == doctored.table && doctored.where(row)) row.set(doctored.column, doctored.number);
+      table.append(std::move(row));
+    }
+    results.add(name, std::move(table));
+  }
+  for (const JudgedClaim& judged : judge_claims(results)) {
+    if (judged.id == doctored.claim) return judged.verdict;
+  }
+  ADD_FAILURE() << "no claim " << doctored.claim;
+  return ClaimVerdict::not_yet;
+}
+
+auto has(std::string column, std::string text) {
+  return [column = std::move(column), text = std::move(text)](const Row& row) { return row.text(column) == text; };
+}
+
+TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
+  const std::string on_orbit = "orbital_transfer/";
+  const std::vector<FalseNumber> all{
+      {"structure_energy_work", has("method", "dmoc"), "largest_gap", 2e-8, on_orbit + "energy_against_work"},
+      {"structure_energy_work_slopes", has("quantity", "gap_to_modified_work_6"), "slope", 4.0,
+       on_orbit + "modified_energy_and_work"},
+      {"structure_modified_energy_slopes", has("method", "tangent"), "slope", 4.0,
+       "simulations/modified_energy_by_orders"},
+      {"structure_modified_energy_slopes", has("method", "dmoc"), "slope", 2.0,
+       "simulations/modified_energy_by_orders"},
+      {"structure_rotations", has("method", "dmoc"), "defect", 1e-9, "simulations/rotations_about_three_axes"},
+      {"structure_rotations", has("action", "linear"), "work", 0.0, "simulations/rotations_about_three_axes"},
+      {"structure_orthogonal_forces", has("method", "dmoc"), "momentum_deviation", 1e-10,
+       "examples/momentum_of_optimal_motions"},
+      {"structure_orthogonal_forces", has("method", "tangent"), "momentum_deviation", 1e-14,
+       "examples/momentum_of_optimal_motions"},
+      {"consistency_order_transforms", has("problem", orbit), "right_defect", 1e-3,
+       on_orbit + "exact_legendre_transform"},
+      {"consistency_order_slopes", has("quantity", "left_legendre"), "slope", 2.0, on_orbit + "order_theorem"},
+      {"smoothness_slopes", has("active", "control"), "slope", 1.0, "examples/order_within_control_bounds"},
+      {"smoothness_slopes", has("end", "free"), "slope", 1.0, "examples/order_with_a_free_end"},
+      {"smoothness_slopes", has("stages", "2"), "slope", 4.0, "examples/kinks_leave_order_2"},
+      {"smoothness_slopes", has("quantity", "costate_q"), "slope", 2.0, "examples/order_within_a_state_bound"},
+      {"coercivity", has("intervals", "256"), "smallest_curvature", 0.5, on_orbit + "coercive"},
+      {"coercivity", has("intervals", "256"), "smallest_curvature", 1e-3, "examples/brachistochrone_not_coercive"},
+  };
+  for (const FalseNumber& doctored : all) {
+    EXPECT_EQ(verdict_with({doctored.table, [](const Row&) { return false; }, doctored.column, 0.0, doctored.claim}),
+              ClaimVerdict::reproduced)
+        << doctored.claim;
+    EXPECT_EQ(verdict_with(doctored), ClaimVerdict::differs) << doctored.claim << ", " << doctored.column;
+  }
+}
+
+TEST(TheoryClaims, TheOrderTheoremHoldsWithOnePowerLessWhereItFailsAsPrinted) {
+  const auto forces_and_transforms = [](const Row& row) {
+    return row.text("quantity").ends_with("force") || row.text("quantity").ends_with("legendre");
+  };
+  const FalseNumber measured{"consistency_order_slopes", forces_and_transforms, "slope", 2.0, ""};
+  const auto verdict = [&](const char* claim) {
+    FalseNumber of_claim = measured;
+    of_claim.claim = std::string(orbit) + "/" + claim;
+    return verdict_with(of_claim);
+  };
+  EXPECT_EQ(verdict("order_theorem"), ClaimVerdict::differs);
+  EXPECT_EQ(verdict("order_theorem_with_one_power_less"), ClaimVerdict::reproduced);
+}
+
+}  // namespace
+}  // namespace dmocbench
