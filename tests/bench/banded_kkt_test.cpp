@@ -35,7 +35,7 @@ RandomShape shape_of(unsigned seed) {
   shape.intervals = 2 + turn(17);
   shape.node = 1 + turn(3);
   shape.rows_at_nodes = turn(2) == 0;
-  shape.slopes = turn(5) < 3 ? 0 : 2;
+  shape.rates = turn(5) < 3 ? 0 : 2;
   shape.controls = 1 + turn(2);
   shape.inequalities = turn(4) == 3 ? 2 : 0;
   shape.horizon = turn(3) == 1;
@@ -61,10 +61,10 @@ TEST(BandedKkt, SolvesRandomSystemsLikeDenseLinearAlgebra) {
     const DenseKkt::Inertia inertia = dense.inertia();
     if (!(inertia.rank > 1e-9) || !(inertia.smallest > 1e-9 * inertia.largest)) continue;
     BandedKkt kkt(program);
-    Eigen::VectorXd primal(numbers.slope.size());
+    Eigen::VectorXd primal(numbers.gradient.size());
     Eigen::VectorXd multipliers(numbers.rows.size());
     const FactorisationStatus verdict =
-        kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers});
+        kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
     // A band that is singular without its border: too few unknowns for its rows.
     if (verdict == FactorisationStatus::untrusted && kkt.order().border_size > 0) {
       ++untrusted;
@@ -91,13 +91,13 @@ TEST(BandedKkt, SeesCurvatureDownwardsWhereTheSlopePointsThere) {
   RandomStructuredProgram program(shape, 1);
   KktNumbers numbers = SystemChoice(1).numbers(program, shape.hessian);
   BandedKkt kkt(program);
-  Eigen::VectorXd primal(numbers.slope.size());
+  Eigen::VectorXd primal(numbers.gradient.size());
   Eigen::VectorXd multipliers(numbers.rows.size());
   numbers.diagonal.setConstant(-1e3);
-  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
+  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::wrong_inertia);
   numbers.diagonal.setConstant(1e3);
-  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {primal, multipliers}),
+  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers}),
             FactorisationStatus::solved);
 }
 
@@ -128,9 +128,9 @@ TEST(BandedKkt, CountsTheOperationsOfAFactorisation) {
   program->jacobian(sample(*program, tests::common_start(orbit)), numbers.jacobian);
   numbers.diagonal.setOnes(n);
   numbers.compliance.setZero(m);
-  numbers.slope.setOnes(n);
+  numbers.gradient.setOnes(n);
   numbers.rows.setOnes(m);
-  ASSERT_EQ(kkt.solve(numbers.matrix(), {numbers.slope, numbers.rows}, {numbers.slope, numbers.rows}),
+  ASSERT_EQ(kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {numbers.gradient, numbers.rows}),
             FactorisationStatus::solved);
   const auto lines = static_cast<double>(n + m);
   const auto width = static_cast<double>(kkt.order().half_bandwidth);
