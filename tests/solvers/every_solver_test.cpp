@@ -369,44 +369,6 @@ TEST_P(EverySolver, IsCountedByWhatTheProgramSees) {
   }
 }
 
-/// A program whose k-th evaluation of objective or constraints takes longer than the solve may.
-class SlowProgram final : public SmallProgram {
- public:
-  SlowProgram(SmallProgram::Statement statement, int slow) : SmallProgram(std::move(statement)), slow_(slow) {}
-
-  [[nodiscard]] double objective(const VectorIn& x) override {
-    count();
-    return SmallProgram::objective(x);
-  }
-  void constraints(const VectorIn& x, VectorOut result) override {
-    count();
-    SmallProgram::constraints(x, result);
-  }
-
- private:
-  void count() {
-    if (++count_ == slow_) std::this_thread::sleep_for(std::chrono::milliseconds(60));
-  }
-  int slow_;
-  int count_ = 0;
-};
-
-TEST_P(EverySolver, StopsAtTheTimeLimitWhereverTheTimeGoes) {
-  for (const KnownProgram& known : known_programs()) {
-    if (known.number != 71) continue;
-    for (int slow = 1; slow <= 16; ++slow) {
-      SCOPED_TRACE(slow);
-      SlowProgram program(known.statement, slow);
-      SolverOptions limited = options();
-      limited.most_seconds = 0.05;
-      const Solution solution = solve(program, known.start, limited);
-      EXPECT_TRUE(solution.status == Status::time_limit || is_solved(solution.status)) << solution.message;
-      EXPECT_EQ(solution.primal.size(), known.start.size());
-      EXPECT_TRUE(solution.primal.allFinite());
-    }
-  }
-}
-
 TEST_P(EverySolver, RefusesAStartOfTheWrongSize) {
   SmallProgram program = tests::rosenbrock();
   EXPECT_EQ(tests::sentence_of_error([&] { static_cast<void>(solve(program, everywhere(3, 0.0))); }),

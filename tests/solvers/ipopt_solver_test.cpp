@@ -1,6 +1,9 @@
 #include "methods/solvers/ipopt_solver.hpp"
 
+#include <chrono>
 #include <map>
+#include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +32,43 @@ TEST(Ipopt, IsNotBelievedWhereOurResidualIsLarger) {
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_GT(solution.kkt_residual.value(), 1e-9);
   EXPECT_EQ(solution.message, sentence_of(Status::not_confirmed));
+}
+
+/// A program whose k-th evaluation of objective or constraints takes longer than the solve may.
+class SlowProgram final : public SmallProgram {
+ public:
+  SlowProgram(SmallProgram::Statement statement, int slow) : SmallProgram(std::move(statement)), slow_(slow) {}
+  [[nodiscard]] double objective(const VectorIn& x) override {
+    count();
+    return SmallProgram::objective(x);
+  }
+  void constraints(const VectorIn& x, VectorOut result) override {
+    count();
+    SmallProgram::constraints(x, result);
+  }
+
+ private:
+  void count() {
+    if (++count_ == slow_) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  int slow_;
+  int count_ = 0;
+};
+
+TEST(Ipopt, StopsAtTheTimeLimitWhereverTheTimeGoes) {
+  for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
+    if (known.number != 71) continue;
+    for (int slow = 1; slow <= 16; ++slow) {
+      SCOPED_TRACE(slow);
+      SlowProgram program(known.statement, slow);
+      SolverOptions limited;
+      limited.most_seconds = 0.05;
+      const Solution solution = solve_by_ipopt(program, known.start, limited);
+      EXPECT_TRUE(solution.status == Status::time_limit || is_solved(solution.status)) << solution.message;
+      EXPECT_EQ(solution.primal.size(), known.start.size());
+      EXPECT_TRUE(solution.primal.allFinite());
+    }
+  }
 }
 
 TEST(Ipopt, RefusesMoreRowsThanVariables) {
