@@ -99,7 +99,7 @@ struct Claim {
   Wording condition = "";             ///< under which condition it holds; written whatever the verdict
   Wording cause = "";                 ///< why it differs; written where it does
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
-  std::string needs = "";  ///< left out where this table is not there: the experiment is not part of every run
+  std::string needs = {};  ///< left out where this table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.

@@ -15,7 +15,7 @@ constexpr double more_expensive = 1.05;
 
 /// Hamiltonian collocation to DMOC by one quantity.
 Selection hamiltonian_ratios(const ResultTables& tables, const std::string& problem, const std::string& quantity) {
-  const Selection ratios =
+  Selection ratios =
       midpoint(tables.rows("structure_advantage_ratios", problem), "hamiltonian").where("quantity", quantity);
   require(!ratios.empty(), "structure_advantage_ratios.csv has no {} of {} by hamiltonian", quantity, problem);
   return ratios;

@@ -13,7 +13,7 @@ namespace {
 
 /// Solves by Ipopt with one back end and an exact Hessian, or its own.
 Selection with_back_end(const Selection& rows, const std::string& table, const char* derivatives) {
-  const Selection solves = rows.where("solver", "ipopt").where("hessian", "exact").where("derivatives", derivatives);
+  Selection solves = rows.where("solver", "ipopt").where("hessian", "exact").where("derivatives", derivatives);
   require(!solves.empty(), "{}.csv has no solve by ipopt with {} and the Hessian exact", table, derivatives);
   return solves;
 }

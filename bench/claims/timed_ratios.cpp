@@ -26,6 +26,7 @@ ClaimVerdict TimedRatios::verdict() const {
 
 std::string TimedRatios::in_words() const {
   std::vector<std::string> words;
+  words.reserve(ratios_.size());
   for (const auto& [name, interval] : ratios_) {
     words.push_back(fmt::format("{} {:.2f} ({:.2f} to {:.2f})", name, interval.ratio, interval.lower, interval.upper));
   }
