@@ -19,6 +19,12 @@ inline Row row_of_texts(const ColumnNames& columns, const std::vector<std::strin
   return row;
 }
 
+/// Which rows.
+using Where = std::function<bool(const Row&)>;
+inline Where has(const std::string& column, const std::string& text) {
+  return [=](const Row& row) { return row.text(column) == text; };
+}
+
 inline Rows momentum_rows() {
   Rows rows;
   for (const std::string force : {"along", "orthogonal"}) {

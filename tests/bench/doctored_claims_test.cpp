@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 #include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -24,72 +25,17 @@ using tests::Rows;
 const ColumnNames& known_columns() {
   static const ColumnNames columns = [] {
     ColumnNames names = names_of(core_columns());
-    names.insert(names.end(), {"crash",
-                               "hessian",
-                               "predicted_minors",
-                               "quantity",
-                               "slope",
-                               "standard_error",
-                               "coarsest",
-                               "finest",
-                               "points",
-                               "verdict",
-                               "largest_force",
-                               "momentum_defect_max",
-                               "momentum_defect_total",
-                               "momentum_change",
-                               "work",
-                               "work_of_discrete_forces",
-                               "replay_error",
-                               "replay_confirmed",
-                               "round_seconds",
-                               "round_ratios",
-                               "error",
-                               "variables_ratio",
-                               "cost",
-                               "certified_digits",
-                               "rounding_in_rows_of_dmoc",
-                               "rounding_here",
-                               "adjoint_residual",
-                               "adjoint_residual_by_plain_coefficients",
-                               "force",
-                               "steps",
-                               "h",
-                               "defect",
-                               "defect_in_long_double",
-                               "rounding",
-                               "order",
-                               "steps_per_period",
-                               "periods",
-                               "oscillation",
-                               "range",
-                               "change",
-                               "factorisation",
-                               "ratio_at_equal_intervals",
-                               "minimum",
-                               "dmoc",
-                               "hamiltonian",
-                               "tangent",
-                               "start_kind",
-                               "starts",
-                               "confirmed",
-                               "best",
-                               "share_lower",
-                               "share_upper",
-                               "success",
-                               "evaluations",
-                               "situation",
-                               "active",
-                               "end",
-                               "axis",
-                               "action",
-                               "work",
-                               "largest_gap",
-                               "momentum_deviation",
-                               "smallest_curvature",
-                               "left_defect",
-                               "right_defect",
-                               "largest_momentum"});
+    std::istringstream own(
+        "crash hessian predicted_minors quantity slope standard_error coarsest finest points verdict "
+        "largest_force momentum_defect_max momentum_defect_total momentum_change work "
+        "work_of_discrete_forces replay_error replay_confirmed round_seconds round_ratios error "
+        "variables_ratio cost certified_digits rounding_in_rows_of_dmoc rounding_here adjoint_residual "
+        "adjoint_residual_by_plain_coefficients force steps h defect defect_in_long_double rounding "
+        "order steps_per_period periods oscillation range change factorisation ratio_at_equal_intervals "
+        "minimum dmoc hamiltonian tangent start_kind starts confirmed best share_lower share_upper "
+        "success evaluations situation active end axis action largest_gap momentum_deviation "
+        "smallest_curvature left_defect right_defect largest_momentum");
+    for (std::string name; own >> name;) names.push_back(name);
     names.insert(names.end(), tests::differences.begin(), tests::differences.end());
     return names;
   }();

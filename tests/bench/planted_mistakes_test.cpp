@@ -27,11 +27,9 @@ struct Mistake {
 
 void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.what; }
 
-using Where = std::function<bool(const Row&)>;
+using tests::has;
+using tests::Where;
 
-Where has(const std::string& column, const std::string& text) {
-  return [=](const Row& row) { return row.text(column) == text; };
-}
 bool every_row(const Row& /*row*/) { return true; }
 
 /// Changes a field of some rows.

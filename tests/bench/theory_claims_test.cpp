@@ -9,9 +9,11 @@
 namespace dmocbench {
 namespace {
 
+using tests::has;
+
 struct FalseNumber {
   std::string table;
-  std::function<bool(const Row&)> where;
+  tests::Where where;
   std::string column;
   double number;
   std::string claim;
@@ -32,10 +34,6 @@ ClaimVerdict verdict_with(const FalseNumber& doctored) {
   }
   ADD_FAILURE() << "no claim " << doctored.claim;
   return ClaimVerdict::not_yet;
-}
-
-auto has(std::string column, std::string text) {
-  return [column = std::move(column), text = std::move(text)](const Row& row) { return row.text(column) == text; };
 }
 
 TEST(TheoryClaims, DifferByOneFalseNumberOfTheirTables) {
