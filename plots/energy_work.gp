@@ -23,11 +23,12 @@ do for [where in problems_of("structure_modified_energy", "drift")] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_modified_energy", 900, 760)
-    set title title_text(problem_label(problem).", no force: how far the modified energy of the midpoint rule leaves",\
-        "its first value, cut off behind one, two and three terms", "one motion; range over its nodes, long double")
+    set title title_text(problem_label(problem).", no force: range of the modified energy",\
+        "Modified energy of the midpoint rule, cut off behind one, two and three terms.",\
+        "One motion, simulated in long double; range over its nodes.")
     eval power_axis("xy")
     eval step_tics
-    set xlabel "step {/:Italic h}"
+    set xlabel "step {/:Italic h}, in the problem's unit of time"
     set ylabel "max − min over the motion"
     set bmargin at screen 0.35
     set key at screen 0.2, 0.24 left top Left reverse
@@ -51,11 +52,11 @@ do for [where in problems_of("structure_energy_work", "largest_gap")] {
     eval begin_figure(kind, problem."_energy_work", 1200, 740)
     set multiplot layout 1, 2 title title_text(\
         problem_label(problem).": energy against the work of the forces along the optimal motions, midpoint rule",\
-        "", "each method on its own optimal motion; largest difference over the nodes") offset 0, -0.4\
+        "Each method on its own optimal motion; largest difference over the nodes.", "") offset 0, -0.4\
         margins 0.075, 0.985, 0.36, 0.84 spacing 0.1
     eval power_axis("xy")
     eval step_tics
-    set xlabel "step {/:Italic h}"
+    set xlabel "step {/:Italic h}, in the problem's unit of time"
     set ylabel "max_k |change of energy − work|"
     set key at screen 0.05, 0.25 left top Left reverse
     set title "the energy and the virtual work"

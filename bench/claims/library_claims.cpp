@@ -10,21 +10,21 @@ namespace dmocbench {
 
 namespace {
 
-/// Holds if there are at least two minima that a replay confirms and more than one method ends in: a minimum of one
+/// Holds if there are at least two minima that are motions and more than one method ends in: a minimum of one
 /// discretisation alone may be spurious.
 Finding local_minima(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("local_minima_minima", problem);
-  const Selection confirmed = rows.where("replay_confirmed", "yes");
-  const Selection shared = confirmed.where([methods = element_names()](const Row& row) {
+  const Selection motions = rows.where("is_motion", "yes");
+  const Selection shared = motions.where([methods = element_names()](const Row& row) {
     return std::ranges::count_if(methods, [&](const auto& method) { return row.needed(method) > 0.0; }) > 1;
   });
   const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };
   return found(
       shared.size() > 1,
-      "minima that a replay confirms: {}, and more than one method ends in {} of them: J = {}; not counted: {} that "
-      "are no motions but artefacts of the grid",
-      confirmed.size(), shared.size(), shared.empty() ? "(none)" : shared.in_words(", ", objective),
-      rows.size() - confirmed.size());
+      "minima whose intervals join when they are replayed: {}, and more than one method ends in {} of them: J = {}; "
+      "not counted: {} that are no motions but artefacts of the grid",
+      motions.size(), shared.size(), shared.empty() ? "(none)" : shared.in_words(", ", objective),
+      rows.size() - motions.size());
 }
 
 /// A number between 0 and 1.

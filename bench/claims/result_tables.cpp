@@ -124,7 +124,7 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"local_minima_minima",
        "local_minima",
        {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"},
-       {"replay_confirmed"}},
+       {"is_motion"}},
       {"local_minima_shares", "local_minima", solve},
       {"cold_start_shares", "cold_start", solve},
       {"profile", "profile", solve, {"status", "success"}},

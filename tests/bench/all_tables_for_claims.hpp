@@ -181,7 +181,7 @@ inline const ColumnNames of_minima{"problem", "tableau", "stages", "solver", "de
 
 inline Rows minima_rows() {
   ColumnNames columns = of_minima;
-  columns.insert(columns.end(), {"replay_confirmed", "objective", "dmoc", "hamiltonian", "tangent"});
+  columns.insert(columns.end(), {"is_motion", "objective", "dmoc", "hamiltonian", "tangent"});
   return {row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "1", "yes", "80.5", "3", "2", "0"}),
           row_of_texts(columns, {orbit, "gauss", "1", "ipopt", "tape", "48", "2", "yes", "90.5", "3", "2", "0"})};
 }

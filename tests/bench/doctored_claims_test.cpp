@@ -28,7 +28,7 @@ const ColumnNames& known_columns() {
     std::istringstream own(
         "crash hessian predicted_minors quantity slope standard_error coarsest finest points verdict "
         "largest_force momentum_defect_max momentum_defect_total momentum_change work "
-        "work_of_discrete_forces replay_error replay_confirmed round_seconds round_ratios error "
+        "work_of_discrete_forces replay_error is_motion round_seconds round_ratios error "
         "variables_ratio cost certified_digits rounding_in_rows_of_dmoc rounding_here adjoint_residual "
         "adjoint_residual_by_plain_coefficients force steps h defect defect_in_long_double rounding "
         "order steps_per_period periods oscillation range change factorisation ratio_at_equal_intervals "

@@ -20,7 +20,7 @@ ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id
 }
 
 TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
-  const auto verdict = [](double second_by_tangent, const char* confirmed = "yes") {
+  const auto verdict = [](double second_by_tangent, const char* is_motion = "yes") {
     Table minima({"problem"});
     for (const auto& [objective, dmoc, tangent] :
          {std::tuple(80.0, 3.0, 2.0), std::tuple(90.0, 4.0, second_by_tangent), std::tuple(100.0, 1.0, 0.0)}) {
@@ -30,7 +30,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
       row.set("dmoc", dmoc);
       row.set("hamiltonian", 0LL);
       row.set("tangent", tangent);
-      row.set("replay_confirmed", confirmed);
+      row.set("is_motion", is_motion);
       minima.append(row);
     }
     ResultTables results;

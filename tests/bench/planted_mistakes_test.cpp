@@ -100,7 +100,7 @@ std::vector<Mistake> mistakes_about_solutions() {
       {"an adjoint scheme that Lobatto fulfils without the exchange", "equivalence",
        set(has("tableau", "lobatto"), "adjoint_residual_by_plain_coefficients", 1e-12),
        on_orbit("order_of_adjoint_scheme")},
-      {"minima that no replay confirms", "local_minima_minima", set(has("minimum", "2"), "replay_confirmed", "no"),
+      {"minima that are no motions", "local_minima_minima", set(has("minimum", "2"), "is_motion", "no"),
        on_orbit("local_minima")},
       {"shares whose intervals overlap", "local_minima_shares", set(has("method", "tangent"), "share_upper", "0.85"),
        on_orbit("best_minimum_share")},
