@@ -270,14 +270,14 @@ inline std::map<std::string, Rows> all_rows() {
     if (row.text("problem") == oscillator) row.set("method", "tangent");
   }
   for (Row& row : rows["iterations"]) {  // saved from any start, so that all three claims are reproduced
-    row.set("minor_iterations", *row.number("free_variables") + 3.0);
-    row.set("predicted_minors", *row.number("minor_iterations"));
+    row.set("minor_iterations", row.needed("free_variables") + 3.0);
+    row.set("predicted_minors", row.needed("minor_iterations"));
   }
   rows["iterations_limited_memory"] = rows["iterations"];
   rows["iterations_common"] = rows["iterations"];
   for (Row& row : rows["iterations_common"]) {
     row.set("solver", "nlopt");
-    row.set("evaluations", *row.number("minor_iterations"));
+    row.set("evaluations", row.needed("minor_iterations"));
     row.set("minor_iterations", Cell());
   }
   std::erase_if(rows["iterations_common"], [](const Row& row) { return row.text("crash") == "basis"; });

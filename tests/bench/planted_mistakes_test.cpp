@@ -25,6 +25,7 @@ struct Mistake {
   ClaimVerdict becomes = ClaimVerdict::differs;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name
 void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.what; }
 
 using tests::has;
@@ -51,8 +52,8 @@ std::function<void(Rows&)> scale(const Where& where, const std::string& column, 
 
 /// Times of a clock that cannot be relied on: half of the rounds say one thing, half the opposite.
 std::string noisy_rounds(double value) {
-  std::vector<double> times;
-  for (int round = 0; round < 12; ++round) times.push_back(value * (round % 2 == 0 ? 0.4 : 2.5));
+  std::vector<double> times(12);
+  for (std::size_t round = 0; round < times.size(); ++round) times[round] = value * (round % 2 == 0 ? 0.4 : 2.5);
   return joined_numbers(times);
 }
 

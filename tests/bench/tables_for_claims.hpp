@@ -145,8 +145,10 @@ inline Rows iteration_rows() {
 
 /// Times of eleven rounds that scatter by a few percent around a number; those of another phase scatter otherwise.
 inline std::string rounds_around(double seconds, double phase = 0.0) {
-  std::vector<double> times;
-  for (int round = 0; round < 11; ++round) times.push_back(seconds * (1.0 + 0.03 * std::sin(7.0 * round + phase)));
+  std::vector<double> times(11);
+  for (std::size_t round = 0; round < times.size(); ++round) {
+    times[round] = seconds * (1.0 + 0.03 * std::sin(7.0 * static_cast<double>(round) + phase));
+  }
   return joined_numbers(times);
 }
 
