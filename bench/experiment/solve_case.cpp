@@ -91,12 +91,34 @@ void note_cost_scale(SolvedCase& solved) {
                           std::pow(10.0, -std::round(std::log10(cost))), scale));
 }
 
+/// Names what solvers see of the motion at a size that differs from 1 by four orders of magnitude.
+void note_variable_sizes(SolvedCase& solved) {
+  constexpr double far = 1e4;
+  constexpr double zero = 1e-9;  // what is smaller is rounding
+  if (!is_solved(solved.solution.status)) return;
+  std::vector<std::string> found;
+  const auto look = [&](const char* what, const Eigen::MatrixXd& values, const std::vector<std::string>& names) {
+    for (Eigen::Index i = 0; i < values.cols(); ++i) {
+      const double size = values.col(i).cwiseAbs().maxCoeff();
+      if (size >= far || (size > zero && size <= 1.0 / far)) {
+        found.push_back(fmt::format("{}{} ({:.1g})", what, names[static_cast<std::size_t>(i)], size));
+      }
+    }
+  };
+  const Problem& problem = *solved.the_case.problem;
+  look("", solved.trajectory->q, problem.configuration_names());
+  look("the rate of ", solved.trajectory->v, problem.configuration_names());
+  look("", solved.trajectory->stage_u, problem.control_names());
+  if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; other units would suit.", fmt::join(found, ", ")));
+}
+
 /// Judges a solved case as far as the time goes; one whose time is up is not solved.
 void judge_in_time(SolvedCase& solved, const TimeOfCase& time) {
   try {
     const StopScope scope = time.scope();
     judge_accuracy(solved);
     note_cost_scale(solved);
+    note_variable_sizes(solved);
   } catch (const Stopped&) {
     solved.solution.status = time.reason();
     solved.solution.message =

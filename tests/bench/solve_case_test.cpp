@@ -50,5 +50,27 @@ TEST(SolveCase, SaysWhichScaleWouldSuitACostFarFromOne) {
   EXPECT_EQ(solved(1.0, 0.5).solution.message.find("cost_scale"), std::string::npos);
 }
 
+/// From rest to rest over a distance in T = 1: L = ½v², f = u, C = ½u²; |v| is 3/2 of the distance, |u| 6 times it.
+class Shift final : public tests::SmallProblem {
+ public:
+  explicit Shift(double distance) : SmallProblem("shift", at(0.0, 0.0), at(distance, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
+
+TEST(SolveCase, NamesWhatIsFarFromOne) {
+  const auto message_over = [](double distance) {
+    const auto problem = std::make_shared<Shift>(distance);
+    const Case the_case{
+        .problem = problem, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(16)};
+    return solve_case(the_case, {guessed_motion(*problem)}, *make_solver("ipopt"), 1e-6, 1).solution.message;
+  };
+  EXPECT_NE(message_over(4e3).find("Sizes far from 1: u1 (2e+04)"), std::string::npos) << message_over(4e3);
+  EXPECT_NE(message_over(2e-5).find("Sizes far from 1: q1 (2e-05), the rate of q1 (3e-05); "), std::string::npos)
+      << message_over(2e-5);
+  EXPECT_EQ(message_over(1.0).find("Sizes far"), std::string::npos) << message_over(1.0);
+}
+
 }  // namespace
 }  // namespace dmocbench
