@@ -41,12 +41,13 @@ std::string in_shell(const std::vector<std::string>& line) {
     if (plain) continue;
     for (const char letter : word) {
       const auto byte = static_cast<unsigned char>(letter);
-      if (letter == '\'' || letter == '\\')
+      if (letter == '\'' || letter == '\\') {
         text += fmt::format("\\{}", letter);
-      else if (byte < ' ' || byte > '~')
+      } else if (byte < ' ' || byte > '~') {
         text += fmt::format("\\x{:02x}", byte);
-      else
+      } else {
         text += letter;
+      }
     }
     text += '\'';
   }
