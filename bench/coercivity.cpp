@@ -37,6 +37,7 @@ int measure_all(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "coercivity");
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   StartProvider starts({}, options);
@@ -74,7 +75,7 @@ int main(int argc, char** argv) {
   return dmocbench::run_program(
       "coercivity",
       "The smallest curvature of the Lagrangian along motions that keep the linearised equations, against the square "
-      "of "
-      "the control, over the number of intervals: coercivity.csv. It is bounded below where the optimum is coercive.",
+      "of the control, over the number of intervals: coercivity.csv. It is bounded below where the optimum is "
+      "coercive.",
       argc, argv, dmocbench::programs::measure_all);
 }

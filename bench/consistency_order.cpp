@@ -254,7 +254,6 @@ int main(int argc, char** argv) {
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
       "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against those of L, on the coarsest "
-      "and "
-      "the finest step (consistency_order_transforms.csv).",
+      "and the finest step (consistency_order_transforms.csv).",
       argc, argv, dmocbench::programs::measure_all);
 }

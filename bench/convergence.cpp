@@ -36,9 +36,8 @@ class Convergence final : public Experiment {
              .description =
                  "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
                  "indirect solution (NAME_reference.csv, where stage values have errors too; NAME_jumps.csv holds the "
-                 "worst "
-                 "interval against the true error), with fitted slopes "
-                 "(NAME_slopes.csv) and the cost of equal accuracy (NAME_equal_accuracy.csv).",
+                 "worst interval against the true error), with fitted slopes (NAME_slopes.csv) and the cost of equal "
+                 "accuracy (NAME_equal_accuracy.csv).",
              .options = {.intervals = "16:1024"},
              .polishes = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {

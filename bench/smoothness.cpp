@@ -212,6 +212,7 @@ int measure_all(CommandLine& line) {
   const std::vector<std::string> command_line = line.parse();
   listen_for_interrupt();
   const OutputFolder folder(out);
+  const ResultLock lock(out / "smoothness");
   SolverOptions options;
   options.stop_requested = interrupt_requested;
   Smoothness smoothness(options);

@@ -153,16 +153,12 @@ int write_tables(CommandLine& line) {
 int main(int argc, char** argv) {
   return dmocbench::run_program(
       "structure",
-      "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), the "
-      "same for "
-      "rotations about three axes (structure_rotations.csv), the "
-      "momentum along optimal motions whose forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), "
-      "the "
-      "symplectic form (structure_symplecticity.csv), the energy of an eccentric orbit over many periods "
-      "(structure_energy.csv, structure_energy_behaviour.csv), the modified energy of the midpoint rule along free "
-      "motions "
+      "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), "
+      "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
+      "forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), the symplectic form "
+      "(structure_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
+      "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
       "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
-      "paper's "
-      "problems (structure_energy_work.csv, structure_modified_work.csv).",
+      "paper's problems (structure_energy_work.csv, structure_modified_work.csv).",
       argc, argv, dmocbench::programs::write_tables);
 }

@@ -197,8 +197,7 @@ class StartProvider::Search {
     }
     return fmt::format(
         "It began at the guess: {} has no common start, since from its guess no method finds a motion on {} or {} "
-        "intervals "
-        "whose intervals, replayed alone, join, and join better on twice as many.",
+        "intervals whose intervals, replayed alone, join, and join better on twice as many.",
         name, final_intervals, 2 * final_intervals);
   }
 
