@@ -5,6 +5,7 @@
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/solver.hpp"
+#include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 
@@ -63,20 +64,11 @@ TEST(HarmonicOscillator, NeedsNoControlBetweenTheEndsOfAFreeMotion) {
   }
 }
 
-/// Sixteen even intervals and one between them that is a ten-millionth of the horizon.
-Grid grid_with_a_narrow_interval() {
-  Eigen::VectorXd nodes(18);
-  nodes.head(9) = Eigen::VectorXd::LinSpaced(9, 0.0, 0.5);
-  nodes.tail(9) = Eigen::VectorXd::LinSpaced(9, 0.5, 1.0);
-  nodes[9] += 1e-7;
-  return Grid::from_nodes(nodes);
-}
-
 /// Rounding in the narrow interval is 4e-8, and a hundred times less would be a failure elsewhere.
 TEST(NarrowInterval, IsSolvedAndExcusesNoErrorInOtherIntervals) {
   const tests::DoubleIntegrator problem;
   for (const std::string& method : element_names()) {
-    const auto program = tests::transcribe(problem, {method, 1}, grid_with_a_narrow_interval());
+    const auto program = tests::transcribe(problem, {method, 1}, tests::grid_with_a_narrow_interval());
     ASSERT_LT(program->rounding_floors().smallest, 1e-12);
     for (const char* solver : {"ipopt", "interior_point", "sqp"}) {
       SCOPED_TRACE(method + " by " + solver);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/registry.hpp"
+#include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -189,21 +190,12 @@ TEST(Transcription, RoundingFloorGrowsWithTheNumberOfIntervals) {
   EXPECT_LT(floor(1024), 1e-10);
 }
 
-/// Sixteen intervals of 0.1 s or so and one of 1e-7 of the horizon in between.
-Grid grid_with_a_narrow_interval() {
-  Eigen::VectorXd nodes(18);
-  nodes.head(9) = Eigen::VectorXd::LinSpaced(9, 0.0, 0.5);
-  nodes.tail(9) = Eigen::VectorXd::LinSpaced(9, 0.5, 1.0);
-  nodes[9] += 1e-7;
-  return Grid::from_nodes(nodes);
-}
-
 TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
   const auto problem = make_problem("orbital_transfer");
   const double even = tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(16))->rounding_floors().largest;
   for (const std::string& method : element_names()) {
     for (const int stages : {1, 2}) {
-      const auto program = tests::transcribe(*problem, {method, stages}, grid_with_a_narrow_interval());
+      const auto program = tests::transcribe(*problem, {method, stages}, tests::grid_with_a_narrow_interval());
       const RoundingFloors& floors = program->rounding_floors();
       ASSERT_FALSE(floors.are_equal());
       const auto expect = [&](const Places& places, const Eigen::VectorXd& values, double of_border) {
