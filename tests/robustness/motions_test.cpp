@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/robustness/body_by_angles.hpp"
 #include "tests/robustness/cartesian_pendulum.hpp"
 #include "tests/robustness/chain_on_cart.hpp"
 #include "tests/robustness/damped_pendubot.hpp"
@@ -81,6 +82,28 @@ TEST(Robustness, ABodyIsTurnedByQuaternions) {
               {.stages = 1, .intervals = 20, .accuracy = 0.01, .least_at_minimum = 6});
   expect_rows(RigidBodySlew::slanted(), slanted,
               {.stages = 3, .intervals = 20, .accuracy = 1e-8, .least_at_minimum = 6});
+}
+
+/// The costs are those of the same turns by quaternions.
+TEST(Robustness, ABodyIsTurnedByAngles) {
+  const std::vector<double> half_turn = {6.0 * std::numbers::pi * std::numbers::pi};
+  expect_rows(BodyByAngles::roll(), half_turn, {.stages = 1, .intervals = 20, .accuracy = 0.01, .least_at_minimum = 6});
+  expect_rows(BodyByAngles::roll(), half_turn, {.stages = 3, .intervals = 20, .accuracy = 1e-8, .least_at_minimum = 6});
+  const std::vector<double> slanted = {104.0866335};
+  expect_rows(BodyByAngles::slanted(), slanted,
+              {.stages = 1, .intervals = 20, .accuracy = 0.01, .least_at_minimum = 6});
+  expect_rows(BodyByAngles::slanted(), slanted,
+              {.stages = 3, .intervals = 20, .accuracy = 1e-8, .least_at_minimum = 6});
+}
+
+/// The best way leads across the singularity of the angles, where nothing can be replayed: every row, though solved at
+/// the right cost, says that it is no motion.
+TEST(Robustness, ABodyIsPitchedAcrossTheSingularityOfItsAngles) {
+  const std::vector<double> half_turn = {24.0 * std::numbers::pi * std::numbers::pi};
+  expect_rows(BodyByAngles::pitch(), half_turn,
+              {.stages = 1, .intervals = 21, .accuracy = 0.01, .least_at_minimum = 0});
+  expect_rows(BodyByAngles::pitch(), half_turn,
+              {.stages = 3, .intervals = 21, .accuracy = 1e-7, .least_at_minimum = 0});
 }
 
 /// On 20 intervals by one stage the rod's length drifts: only DMOC's rows are motions.
