@@ -61,11 +61,26 @@ class Derivatives final : public Experiment {
     };
   }
 
+  void add_options(CommandLine& line) override {
+    line.list("--hessian", hessians_,
+              "exact: that of the back end; limited_memory: Ipopt's quasi-Newton one, by tape and forward differences");
+  }
+
   [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
     const Case& first = curve.front();
     const bool has_limited_memory =
         first.solver == "ipopt" && (first.derivatives == "tape" || first.derivatives == "forward_differences");
-    return has_limited_memory ? vary(curve, {"", limited_memory}) : curve;
+    std::vector<std::string> variants;
+    for (const std::string& hessian : chosen_of("--hessian", {"exact", limited_memory}, hessians_)) {
+      if (hessian == "exact") variants.emplace_back();
+      if (hessian == limited_memory && has_limited_memory) variants.push_back(hessian);
+    }
+    return vary(curve, variants);
+  }
+  void check(const std::vector<Case>& cases) override {
+    if (cases.empty()) {
+      throw Error("--hessian limited_memory is for --solver ipopt with --derivatives tape or forward_differences");
+    }
   }
 
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
@@ -127,6 +142,7 @@ class Derivatives final : public Experiment {
     return found == answers_.end() ? nullptr : &*found;
   }
 
+  std::vector<std::string> hessians_{"exact", limited_memory};
   std::vector<SolvedCase> answers_;  // by the tape
   struct {
     std::optional<double> jacobian_error;
