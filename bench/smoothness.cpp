@@ -10,10 +10,10 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
+#include "bench/experiment/restated_problem.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/smoothness/optimum_error.hpp"
-#include "bench/smoothness/restated_problem.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 

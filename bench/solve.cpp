@@ -44,10 +44,13 @@ class Solve final : public Experiment {
                     .description =
                         "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
                         "NAME_picture.csv; with several cases each NAME carries the case's label.",
-                    .options = {.intervals = "128", .start = "guess"}}) {}
+                    .options = {.intervals = "128", .start = "guess"},
+                    .takes_costates = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override { return columns_of(checks_); }
   void add_options(CommandLine& line) override {
     line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
+    line.flag("--costates,!--no-costates", card_.takes_costates,
+              "--start FILE brings the file's costates as multipliers, for --solver interior_point and auto");
   }
   void check(const std::vector<Case>& cases) override {
     single_ = cases.size() == 1;

@@ -54,6 +54,7 @@ class Run {
         starts_({.kind = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().tells_branches,
+                 .takes_costates = experiment.card().takes_costates,
                  .tells_branch_from_guess = experiment.card().tells_branches_from_guess},
                 solver_options_),
         columns_(columns_of(experiment)),
@@ -210,7 +211,7 @@ class Run {
     } catch (const NoStart& reason) {
       unsolved.solution.message = reason.what();
     } catch (const Error& error) {
-      if (done_ == 0) throw;
+      if (done_ == 0 && !experiment_.card().cases_stand_alone) throw;
       unsolved.solution.message = error.what();
     } catch (const std::exception& error) {
       unsolved.solution.status = is_out_of_memory(error) ? Status::out_of_memory : Status::solver_error;

@@ -24,6 +24,8 @@ struct ExperimentCard {
                              ///< other load of the machine slows all of them alike
   bool compares_tolerances = false;  ///< several tolerances make several cases: --tolerances is offered
   bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
+  bool takes_costates = false;       ///< a start from a file brings its costates as start multipliers
+  bool cases_stand_alone = false;    ///< what is wrong with the first case is wrong with that one alone
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.

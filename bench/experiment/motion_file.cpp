@@ -30,6 +30,24 @@ Eigen::MatrixXd columns(const Table& table, const std::vector<std::string>& name
   return values;
 }
 
+/// Reads ψ^q and ψ^p where every row has all of them; a table without them is a motion all the same.
+void read_costates(const Table& nodes, const std::vector<std::string>& names, Trajectory& trajectory) {
+  Eigen::MatrixXd psi_q(std::ssize(nodes.rows()), std::ssize(names));
+  Eigen::MatrixXd psi_p = psi_q;
+  for (Eigen::Index k = 0; const Row& row : nodes.rows()) {
+    for (Eigen::Index i = 0; const std::string& name : names) {
+      const auto of_q = row.number("psi_q_" + name);
+      const auto of_p = row.number("psi_p_" + name);
+      if (!of_q || !of_p) return;
+      psi_q(k, i) = *of_q;
+      psi_p(k, i++) = *of_p;
+    }
+    ++k;
+  }
+  trajectory.psi_q = std::move(psi_q);
+  trajectory.psi_p = std::move(psi_p);
+}
+
 /// The table in a file. Throws `Error` that names the file.
 Table table_in(const std::filesystem::path& file) {
   const std::string text = read_file(file);
@@ -152,7 +170,7 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }
 
-Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
+Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
   const std::filesystem::path stages_file = stages_file_of(nodes_file);
   const Table nodes = table_in(nodes_file);
   const Table stages = table_in(stages_file);
@@ -170,7 +188,12 @@ Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_fi
   trajectory.q = columns(nodes, problem.configuration_names(), "", nodes_file);
   trajectory.v = columns(nodes, problem.configuration_names(), "v_", nodes_file);
   trajectory.stage_u = columns(stages, problem.control_names(), "", stages_file);
-  return smooth_motion(trajectory);
+  read_costates(nodes, problem.configuration_names(), trajectory);
+  return trajectory;
+}
+
+Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file) {
+  return smooth_motion(read_motion_tables(problem, nodes_file));
 }
 
 }  // namespace dmocbench

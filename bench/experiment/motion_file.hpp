@@ -29,4 +29,8 @@ namespace dmocbench {
 /// problem's, or less than a tenth of it.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
 
+/// The tables of such a motion as a trajectory: the nodes with their costates, where the file has a number for every
+/// one of them, and the controls; no other stage table, whatever method wrote it. Throws as `read_motion`.
+[[nodiscard]] Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file);
+
 }  // namespace dmocbench

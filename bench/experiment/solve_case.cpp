@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/warm_start.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
@@ -46,10 +47,10 @@ class TimeOfCase {
 };
 
 /// Solves again from the same start; the times become medians of all.
-void repeat(SolvedCase& solved, const Solver& solver, const Solution& first, int repeats) {
+void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const Solution& first, int repeats) {
   std::vector<Solution> solutions{first};
   for (int i = 1; i < repeats && is_solved(first.status); ++i) {
-    const Solution again = solver.solve(*solved.program, solved.start);
+    const Solution again = solve_from(*solved.program, solved.start, start.with_costates, solver);
     if (!is_solved(again.status)) break;
     solutions.push_back(again);
   }
@@ -286,7 +287,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   Solution first;
   {
     const StopScope scope = time.scope();
-    first = solver.solve(program, result.start);
+    first = solve_from(*result.program, result.start, start.with_costates, solver);
     solution = first;
     const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
     if (polishes) result.polish_steps = settling_steps + polish(program, solution);
@@ -309,7 +310,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
   if (!missed.empty()) result.note(missed);
   result.seconds_left = time.left();
-  repeat(result, solver, first, repeats);
+  repeat(result, start, solver, first, repeats);
   return result;
 }
 

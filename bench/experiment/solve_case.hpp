@@ -30,6 +30,8 @@ struct Case {
   std::string variant = {};  ///< a choice that only some experiments vary; empty in others
   CostForm form = CostForm::bolza;
   std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
+  /// The problem of which this is an instance with other values: where its common start is looked for. Null for none.
+  std::shared_ptr<const Problem> nominal = nullptr;
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
   /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
@@ -79,6 +81,8 @@ struct Start {
   Motion motion;
   std::optional<Motion> branch = std::nullopt;
   std::string note = {};  ///< why it is not the motion that was asked for; the row's message ends with it
+  /// The motion with its costates, which become start multipliers of solvers that can use them.
+  std::optional<Trajectory> with_costates = std::nullopt;
 };
 
 /// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is

@@ -262,18 +262,26 @@ void StartProvider::check(const std::vector<Case>& cases) {
   for (const Case& the_case : cases) static_cast<void>(motion_in_file(*the_case.problem));
 }
 
-const Motion& StartProvider::motion_in_file(const Problem& problem) {
+const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
   if (files_.empty()) origin_ = origin_of(rules_.kind);
-  return files_.emplace(problem.name(), read_motion(problem, rules_.kind)).first->second;
+  return files_.emplace(problem.name(), read_motion_tables(problem, rules_.kind)).first->second;
 }
 
 Start StartProvider::start_for(const Case& the_case) {
   const bool from_guess = rules_.kind == "guess";
+  if (the_case.nominal && !from_guess) {
+    Case nominal = the_case;
+    nominal.problem = std::exchange(nominal.nominal, nullptr);
+    return start_for(nominal);
+  }
   if (!from_guess && rules_.kind != "common") {
-    const Motion& motion = motion_in_file(*the_case.problem);
+    const Trajectory& tables = motion_in_file(*the_case.problem);
+    const Motion motion = smooth_motion(tables);
     if (origin_ != scheme_and_grid(the_case.method, the_case.tableau, the_case.stages, the_case.intervals())) {
-      return {motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
+      Start start{motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
+      if (rules_.takes_costates && tables.has_costates()) start.with_costates = tables;
+      return start;
     }
     throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
                               rules_.kind, the_case.label()));

@@ -39,6 +39,7 @@ class StartProvider {
     std::string kind = "common";           ///< common, guess or the name of a node file
     double most_seconds = 30.0;            ///< of the search of one common start
     bool tells_branch = true;              ///< starts come with the motion whose branch a case should be on
+    bool takes_costates = false;           ///< a file's costates come with its motion, where it has them
     bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
   };
   StartProvider(Rules rules, SolverOptions options);
@@ -72,13 +73,13 @@ class StartProvider {
   using Key = std::tuple<std::string, std::string, int>;
   class Search;
   [[nodiscard]] const FoundStart& common_start(const Case& the_case);
-  [[nodiscard]] const Motion& motion_in_file(const Problem& problem);
+  [[nodiscard]] const Trajectory& motion_in_file(const Problem& problem);
 
   Rules rules_;
   SolverOptions options_;
   std::map<Key, FoundStart> common_;
-  std::map<std::string, Motion> files_;  // the file's motion, by the problem it was read for
-  std::string origin_;                   // the scheme and grid of the solve that wrote the file; empty if nothing tells
+  std::map<std::string, Trajectory> files_;  // the file's motion, by the problem it was read for
+  std::string origin_;  // the scheme and grid of the solve that wrote the file; empty if nothing tells
 };
 
 /// A motion with smooth random curves added: to every q_i a sum of three sines that vanish at both ends, their

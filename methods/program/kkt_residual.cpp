@@ -103,20 +103,20 @@ struct Selection {
   [[nodiscard]] bool contains(Eigen::Index i) const { return number_of(i) >= 0; }
 };
 
-bool is_at(double value, double bound) {
-  return std::isfinite(bound) && std::abs(value - bound) <= activity_tolerance * std::max(1.0, std::abs(bound));
+bool is_at(double value, double bound, double activity) {
+  return std::isfinite(bound) && std::abs(value - bound) <= activity * std::max(1.0, std::abs(bound));
 }
 
-bool is_outside_or_at(double value, double lower, double upper) {
-  return is_at(value, lower) || is_at(value, upper) || value < lower || value > upper;
+bool is_outside_or_at(double value, double lower, double upper, double activity) {
+  return is_at(value, lower, activity) || is_at(value, upper, activity) || value < lower || value > upper;
 }
 
 /// The values that are at, or outside, a bound, or those that are not; an equality is always the former.
 Selection selected(bool at_bound, const Eigen::VectorXd& values, const Eigen::VectorXd& lower,
-                   const Eigen::VectorXd& upper) {
+                   const Eigen::VectorXd& upper, double activity) {
   Selection selection;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    selection.append(is_outside_or_at(values[i], lower[i], upper[i]) == at_bound);
+    selection.append(is_outside_or_at(values[i], lower[i], upper[i], activity) == at_bound);
   }
   return selection;
 }
@@ -134,6 +134,41 @@ Eigen::SparseMatrix<double> transposed(const BlockPattern& pattern, const Eigen:
   matrix.setFromTriplets(entries.begin(), entries.end());
   matrix.makeCompressed();
   return matrix;
+}
+
+constexpr double unknown_multiplier = std::numeric_limits<double>::quiet_NaN();
+
+/// The multipliers that are NaN in `known`, by least squares (`complete_multipliers`, whatever their signs).
+Eigen::VectorXd found_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                  const Eigen::VectorXd& known, double activity) {
+  Eigen::VectorXd gradient = gradient_at(program, primal);
+  const Eigen::VectorXd constraints = constraints_at(program, primal);
+  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+  if (!primal.allFinite() || !gradient.allFinite() || !constraints.allFinite() || !jacobian.allFinite()) {
+    return Eigen::VectorXd::Constant(constraints.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  Eigen::VectorXd multipliers = known.array().isNaN().select(0.0, known);
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
+
+  const Selection variables = selected(false, primal, program.variable_lower(), program.variable_upper(), activity);
+  const Selection active =
+      selected(true, constraints, program.constraint_lower(), program.constraint_upper(), activity);
+  Selection wanted;
+  for (Eigen::Index i = 0; i < constraints.size(); ++i) wanted.append(active.contains(i) && std::isnan(known[i]));
+  if (wanted.count == 0 || variables.count == 0) return multipliers;
+
+  const Eigen::SparseMatrix<double> matrix = transposed(program.jacobian_structure(), jacobian, wanted, variables);
+  Eigen::VectorXd chosen_gradient = Eigen::VectorXd::Zero(matrix.rows());
+  for (Eigen::Index i = 0; i < primal.size(); ++i) {
+    if (variables.contains(i)) chosen_gradient[variables.number_of(i)] = gradient[i];
+  }
+  const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factorisation(matrix);
+  const Eigen::VectorXd chosen_multipliers = factorisation.solve(-chosen_gradient);
+  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+    if (wanted.contains(i)) multipliers[i] = chosen_multipliers[wanted.number_of(i)];
+  }
+  return multipliers;
 }
 
 }  // namespace
@@ -182,27 +217,25 @@ double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& pr
 
 Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal) {
   require_size(primal.size(), program.variable_count(), "variables");
-  const Eigen::VectorXd gradient = gradient_at(program, primal);
+  return found_multipliers(
+      program, primal,
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(program.constraint_count()), unknown_multiplier),
+      activity_tolerance);
+}
+
+Eigen::VectorXd complete_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                     const Eigen::VectorXd& known, double activity) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  require_size(known.size(), program.constraint_count(), "multipliers");
+  if (!known.hasNaN()) return known;
+  Eigen::VectorXd multipliers = found_multipliers(program, primal, known, activity);
   const Eigen::VectorXd constraints = constraints_at(program, primal);
-  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
-  if (!primal.allFinite() || !gradient.allFinite() || !constraints.allFinite() || !jacobian.allFinite()) {
-    return Eigen::VectorXd::Constant(constraints.size(), std::numeric_limits<double>::quiet_NaN());
-  }
-
-  const Selection variables = selected(false, primal, program.variable_lower(), program.variable_upper());
-  const Selection active = selected(true, constraints, program.constraint_lower(), program.constraint_upper());
-  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(constraints.size());
-  if (active.count == 0 || variables.count == 0) return multipliers;
-
-  const Eigen::SparseMatrix<double> matrix = transposed(program.jacobian_structure(), jacobian, active, variables);
-  Eigen::VectorXd chosen_gradient = Eigen::VectorXd::Zero(matrix.rows());
-  for (Eigen::Index i = 0; i < primal.size(); ++i) {
-    if (variables.contains(i)) chosen_gradient[variables.number_of(i)] = gradient[i];
-  }
-  const Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factorisation(matrix);
-  const Eigen::VectorXd chosen_multipliers = factorisation.solve(-chosen_gradient);
-  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
-    if (active.contains(i)) multipliers[i] = chosen_multipliers[active.number_of(i)];
+  for (Eigen::Index i = 0; i < known.size(); ++i) {
+    const double lower = program.constraint_lower()[i];
+    const double upper = program.constraint_upper()[i];
+    if (!std::isnan(known[i]) || lower == upper) continue;
+    const bool is_at_lower = constraints[i] - lower < upper - constraints[i];
+    multipliers[i] = is_at_lower ? std::min(multipliers[i], 0.0) : std::max(multipliers[i], 0.0);
   }
   return multipliers;
 }

@@ -5,112 +5,42 @@
 #include <limits>
 #include <utility>
 
-#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 #include "methods/solvers/kkt/sparse_kkt.hpp"
+#include "methods/solvers/kkt_of_conditions.hpp"
 
 namespace dmocbench {
 
 namespace {
 
 using kkt::FactorisationStatus;
-using kkt::IntervalKkt;
 using kkt::KktSystem;
 using kkt::SparseKkt;
-
-/// The least distance to a bound by which a multiplier is divided.
-constexpr double at_bound = 1e-10;
-/// The compliance of an inequality that nothing holds: it takes no part.
-constexpr double no_part = 1e10;
-
-/// The distance from x to the bound that a gradient of this sign presses it against.
-double distance_to_bound(double gradient, double x, double lower, double upper) {
-  return gradient > 0.0 ? x - lower : upper - x;
-}
-
-/// The step is wanted at a point where rounding of the multipliers hides that it is a minimum, too.
-std::unique_ptr<KktSystem> any_point(const NonlinearProgram& program) {
-  return std::make_unique<SparseKkt>(program, SparseKkt::Order::found, SparseKkt::Inertia::any);
-}
-
-/// By intervals where the structure allows it, since that takes time linear in their number.
-std::unique_ptr<KktSystem> make_system(const NonlinearProgram& program) {
-  if (auto by_intervals = IntervalKkt::make(program)) return std::move(*by_intervals);
-  return any_point(program);
-}
-
-/// The linearised conditions at a point.
-struct Linearised {
-  Eigen::VectorXd hessian;
-  Eigen::VectorXd jacobian;
-  Eigen::VectorXd diagonal;
-  Eigen::VectorXd compliance;
-  Eigen::VectorXd gradient_of_cost;
-  Eigen::VectorXd gradient;     // of the Lagrangian
-  Eigen::VectorXd constraints;  // residuals
-
-  Linearised(NonlinearProgram& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers)
-      : hessian(static_cast<Eigen::Index>(program.hessian_structure().size())),
-        jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size())),
-        diagonal(Eigen::VectorXd::Zero(x.size())),
-        compliance(Eigen::VectorXd::Zero(multipliers.size())),
-        gradient_of_cost(x.size()),
-        constraints(multipliers.size()) {
-    program.hessian(x, 1.0, multipliers, hessian);
-    program.jacobian(x, jacobian);
-    program.gradient(x, gradient_of_cost);
-    program.constraints(x, constraints);
-    gradient = gradient_of_cost;
-    program.jacobian_structure().for_each(
-        [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const double distance =
-          distance_to_bound(gradient[j], x[j], program.variable_lower()[j], program.variable_upper()[j]);
-      if (!std::isfinite(distance)) continue;
-      const double counted = std::max(distance, at_bound);
-      diagonal[j] = std::abs(gradient[j]) / counted;
-      gradient[j] *= distance / counted;
-    }
-    for (Eigen::Index i = 0; i < constraints.size(); ++i) {
-      linearise_constraint(i, multipliers[i], program.constraint_lower()[i], program.constraint_upper()[i]);
-    }
-  }
-
- private:
-  void linearise_constraint(Eigen::Index i, double multiplier, double lower, double upper) {
-    const double value = constraints[i];
-    constraints[i] = value - (multiplier < 0.0 ? lower : upper);
-    if (lower == upper) return;
-    const double distance = std::max(distance_to_bound(-multiplier, value, lower, upper), at_bound);
-    compliance[i] = std::min(distance / std::abs(multiplier), no_part);
-    if (!(compliance[i] < no_part)) compliance[i] = no_part;  // also where the multiplier is 0
-    if (compliance[i] == no_part) constraints[i] = 0.0;
-  }
-};
 
 double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
 
 }  // namespace
 
 NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation factorisation)
-    : program_(program), system_(factorisation == Factorisation::sparse ? any_point(program) : make_system(program)) {}
+    : program_(program),
+      system_(factorisation == Factorisation::sparse ? kkt_system_of_any_point(program) : kkt_system_of(program)) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
 std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
                                                       const Eigen::VectorXd& multipliers) {
-  const Linearised at(program_, primal, multipliers);
+  const LinearisedConditions at(program_, primal, multipliers);
   NewtonCorrection correction{.primal = Eigen::VectorXd::Zero(primal.size()),
                               .multipliers = Eigen::VectorXd::Zero(multipliers.size())};
-  if (!at.hessian.allFinite() || !at.jacobian.allFinite() || !at.gradient.allFinite()) {
+  if (!at.is_finite()) {
     correction.length = unbounded;
     return correction;
   }
   const auto solve = [&] {
-    return system_->solve({at.hessian, at.jacobian, at.diagonal, at.compliance}, {at.gradient, at.constraints},
+    return system_->solve(kkt_matrix_of(at), {at.gradient, at.constraints},
                           {correction.primal, correction.multipliers});
   };
   FactorisationStatus status = solve();
   if (status != FactorisationStatus::solved && dynamic_cast<SparseKkt*>(system_.get()) == nullptr) {
-    system_ = any_point(program_);
+    system_ = kkt_system_of_any_point(program_);
     status = solve();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;

@@ -1,46 +1,12 @@
 #include "methods/transcription/costates.hpp"
 
-#include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/mechanics/point_function.hpp"
 #include "methods/numerics/dense_solve.hpp"
+#include "methods/transcription/point_derivatives.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// C_v, F_v, L_vv and L_vq at the stages, F = L_q + f.
-class StageDerivatives {
- public:
-  explicit StageDerivatives(const TracedProblem& problem)
-      : n_(problem.configuration_size()),
-        function_(n_, problem.control_size(),
-                  [&](const ControlledState& x) {
-                    const TracedProblem::Values values = problem.at(x);
-                    ExpressionVector outputs(n_ + 3 * n_ * n_);
-                    outputs << gradient(values.running_cost, x.v), jacobian(values.generalised_force, x.v).reshaped(),
-                        values.mass.reshaped(), values.momentum_by_configuration.reshaped();
-                    return outputs;
-                  }),
-        values_(function_.output_count()) {}
-
-  void evaluate(const Trajectory& trajectory, Eigen::Index stage) {
-    function_.evaluate(trajectory.stage(stage), trajectory.stage_times[stage], values_);
-  }
-  [[nodiscard]] Eigen::VectorXd cost_by_velocity() const { return values_.head(n_); }
-  [[nodiscard]] Eigen::MatrixXd force_by_velocity() const { return matrix(0); }
-  [[nodiscard]] Eigen::MatrixXd mass() const { return matrix(1); }
-  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration() const { return matrix(2); }
-
- private:
-  [[nodiscard]] Eigen::MatrixXd matrix(Eigen::Index which) const {
-    return values_.segment(n_ + which * n_ * n_, n_ * n_).reshaped(n_, n_);
-  }
-
-  Eigen::Index n_;
-  PointFunction function_;
-  Eigen::VectorXd values_;
-};
 
 /// The multipliers of the local rows of interval k, in the order of `Layout::row_places`, for the true cost.
 Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eigen::VectorXd& multipliers,
@@ -137,7 +103,7 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
   const Eigen::Index s = tableau.stages();
   const NodeState family = transcription.layout().node_state();
   const double horizon = trajectory.node_times[trajectory.intervals()];
-  StageDerivatives at_stage(transcription.traced_problem());
+  PointDerivatives at_stage(transcription.traced_problem());
   StageCostates result{Eigen::MatrixXd(trajectory.stage_q.rows(), n), Eigen::MatrixXd(trajectory.stage_q.rows(), n)};
   for (Eigen::Index k = 0; k < trajectory.intervals(); ++k) {
     const double h = horizon * transcription.grid().relative_widths()[k];
@@ -146,7 +112,7 @@ StageCostates stage_costates(const Transcription& transcription, const Eigen::Ve
         family == NodeState::configuration ? as_variation(local, tableau, n, h) : as_pairs(local, tableau, n, h);
     for (Eigen::Index i = 0; i < s; ++i) {
       const Eigen::Index row = k * s + i;
-      at_stage.evaluate(trajectory, row);
+      at_stage.evaluate(trajectory.stage(row), trajectory.stage_times[row]);
       const Eigen::VectorXd psi_p = stages.psi_p.col(i);
       const Eigen::VectorXd other = stages.other.col(i);
       Eigen::VectorXd psi_q;

@@ -10,7 +10,8 @@
 
 namespace dmocbench {
 
-/// A problem with its control bounded, or with its final state free and the distance to it in the cost.
+/// A problem with its control bounded, with its final state free and the distance to it in the cost, or between other
+/// ends.
 class RestatedProblem final : public Problem {
  public:
   /// What differs from the problem.
@@ -18,6 +19,10 @@ class RestatedProblem final : public Problem {
     std::optional<Bounds> control = std::nullopt;
     /// w: the final state is free and the cost has the further term ½w(|q(T) - q^T|² + |q̇(T) - q̇^T|²).
     std::optional<double> final_weight = std::nullopt;
+    /// What is fixed at an end takes these values, what is free stays free. The guess is moved with the ends.
+    std::optional<BoundaryState> initial = std::nullopt;
+    std::optional<BoundaryState> final = std::nullopt;
+    std::optional<double> cost_scale = std::nullopt;
   };
   RestatedProblem(std::shared_ptr<const Problem> base, Changes changes)
       : base_(std::move(base)), changes_(std::move(changes)) {}
@@ -33,11 +38,15 @@ class RestatedProblem final : public Problem {
   [[nodiscard]] Expression lagrangian(const State& x) const override { return base_->lagrangian(x); }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return base_->force(x); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return base_->running_cost(x); }
-  [[nodiscard]] BoundaryState initial_state() const override { return base_->initial_state(); }
-  [[nodiscard]] BoundaryState final_state() const override { return base_->final_state(); }
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return changes_.initial.value_or(base_->initial_state());
+  }
+  [[nodiscard]] BoundaryState final_state() const override { return changes_.final.value_or(base_->final_state()); }
   [[nodiscard]] double horizon() const override { return base_->horizon(); }
   [[nodiscard]] ProblemBounds bounds() const override {
     ProblemBounds bounds = base_->bounds();
+    if (changes_.initial) move(bounds.first, *changes_.initial);
+    if (changes_.final) move(bounds.last, *changes_.final);
     if (changes_.control) bounds.u = *changes_.control;
     if (changes_.final_weight) {
       bounds.last = {.q = Bounds::none(configuration_size()), .v = Bounds::none(configuration_size())};
@@ -61,10 +70,35 @@ class RestatedProblem final : public Problem {
     }
     return cost;
   }
-  [[nodiscard]] double cost_scale() const override { return base_->cost_scale(); }
-  [[nodiscard]] MotionPoint guess(double t) const override { return base_->guess(t); }
+  [[nodiscard]] double cost_scale() const override { return changes_.cost_scale.value_or(base_->cost_scale()); }
+  [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
+    return base_->symmetry(q);
+  }
+  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
+    return base_->picture(x);
+  }
+  /// The base's, with a straight line between the displacements of both ends added to q.
+  [[nodiscard]] MotionPoint guess(double t) const override {
+    MotionPoint point = base_->guess(t);
+    const Eigen::VectorXd first = initial_state().q - base_->initial_state().q;
+    const Eigen::VectorXd last = final_state().q - base_->final_state().q;
+    if (first.isZero(0.0) && last.isZero(0.0)) return point;
+    point.q += first + t / horizon() * (last - first);
+    point.v += (last - first) / horizon();
+    return point;
+  }
 
  private:
+  static void move(EndBounds& end, const BoundaryState& state) {
+    const auto move_part = [](Bounds& bounds, const Eigen::VectorXd& values) {
+      for (Eigen::Index i = 0; i < values.size(); ++i) {
+        if (bounds.is_fixed(i)) bounds.lower[i] = bounds.upper[i] = values[i];
+      }
+    };
+    move_part(end.q, state.q);
+    move_part(end.v, state.v);
+  }
+
   std::shared_ptr<const Problem> base_;
   Changes changes_;
 };

@@ -1,0 +1,78 @@
+#include "bench/sequence/neighbours.hpp"
+
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "bench/experiment/restated_problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+class RecedingHorizon final : public Neighbours {
+ public:
+  RecedingHorizon(std::shared_ptr<const Problem> base, const Trajectory& first_motion, double share, std::uint64_t seed)
+      : base_(std::move(base)),
+        final_(base_->final_state()),
+        range_q_(share * (first_motion.q.colwise().maxCoeff() - first_motion.q.colwise().minCoeff()).transpose()),
+        range_v_(share * (first_motion.v.colwise().maxCoeff() - first_motion.v.colwise().minCoeff()).transpose()),
+        engine_(seed) {}
+
+  [[nodiscard]] std::string name() const override { return "receding_horizon"; }
+  [[nodiscard]] bool moves_on() const override { return true; }
+  [[nodiscard]] std::shared_ptr<const Problem> next(int /*step*/, const Trajectory& last) override {
+    BoundaryState first{last.q.row(1).transpose(), last.v.row(1).transpose()};
+    disturb(first.q, range_q_);
+    disturb(first.v, range_v_);
+    final_.q += last.step(0) * final_.v;
+    return std::make_shared<RestatedProblem>(
+        base_, RestatedProblem::Changes{.initial = first, .final = final_, .cost_scale = base_->cost_scale()});
+  }
+
+ private:
+  /// Evenly in [-1, 1), bit by bit the same everywhere.
+  double even() { return std::ldexp(static_cast<double>(engine_() >> 11U), -52) - 1.0; }
+  void disturb(Eigen::VectorXd& values, const Eigen::VectorXd& range) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += even() * range[i];
+  }
+
+  std::shared_ptr<const Problem> base_;
+  BoundaryState final_;
+  Eigen::VectorXd range_q_;
+  Eigen::VectorXd range_v_;
+  std::mt19937_64 engine_;
+};
+
+class Homotopy final : public Neighbours {
+ public:
+  Homotopy(std::shared_ptr<const Problem> base, std::vector<std::string> settings, SweptQuantity quantity, int steps)
+      : base_(std::move(base)), settings_(std::move(settings)), quantity_(std::move(quantity)), steps_(steps) {}
+
+  [[nodiscard]] std::string name() const override { return "homotopy"; }
+  [[nodiscard]] bool moves_on() const override { return false; }
+  [[nodiscard]] std::shared_ptr<const Problem> next(int step, const Trajectory& /*last*/) override {
+    const double share = static_cast<double>(step) / steps_;
+    return instance_of(base_, settings_, {quantity_}, {(1.0 - share) * quantity_.lower + share * quantity_.upper});
+  }
+
+ private:
+  std::shared_ptr<const Problem> base_;
+  std::vector<std::string> settings_;
+  SweptQuantity quantity_;
+  int steps_;
+};
+
+}  // namespace
+
+std::unique_ptr<Neighbours> receding_horizon(std::shared_ptr<const Problem> base, const Trajectory& first_motion,
+                                             double share, std::uint64_t seed) {
+  return std::make_unique<RecedingHorizon>(std::move(base), first_motion, share, seed);
+}
+
+std::unique_ptr<Neighbours> homotopy(std::shared_ptr<const Problem> base, std::vector<std::string> settings,
+                                     const SweptQuantity& quantity, int steps) {
+  return std::make_unique<Homotopy>(std::move(base), std::move(settings), quantity, steps);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/program/interval_structure.hpp"
+
+namespace dmocbench {
+
+/// Unknowns, or multipliers, of a problem that has moved on by one interval of a uniform grid: what belonged to node or
+/// interval k + 1 belongs to k. The last node and interval keep what they have, as does what belongs to one end or to
+/// the whole horizon. `values` has an entry per place.
+[[nodiscard]] Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values);
+
+}  // namespace dmocbench

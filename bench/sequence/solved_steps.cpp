@@ -1,0 +1,187 @@
+#include "bench/sequence/solved_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "bench/experiment/column.hpp"
+#include "bench/sequence/shifted.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+bool is_solved(const StepSolve& solve) { return solve.status == name_of(Status::solved); }
+
+/// The answer, and how it was reached; its time is the smallest of several solves.
+std::pair<Solution, StepSolve> solve_step(Transcription& program, const Eigen::VectorXd& start,
+                                          const SolverOptions& options, int repeats) {
+  const auto solver = make_solver("interior_point", options);
+  Solution solution = solver->solve(program, start);
+  double seconds = solution.seconds;
+  for (int i = 1; i < repeats && dmocbench::is_solved(solution.status); ++i) {
+    seconds = std::min(seconds, solver->solve(program, start).seconds);
+  }
+  constexpr double micro = 1e6;
+  StepSolve step{.status = std::string(name_of(solution.status)),
+                 .iterations = solution.major_iterations.value_or(0),
+                 .microseconds = micro * seconds};
+  return {std::move(solution), step};
+}
+
+/// The entry below which a share of ascending numbers lies.
+double quantile(const std::vector<double>& sorted, double share) {
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
+
+void set_quantiles(Row& row, const std::string& what, std::vector<double> values) {
+  if (values.empty()) return;
+  std::ranges::sort(values);
+  row.set("median_" + what, quantile(values, 0.5));
+  row.set("p99_" + what, quantile(values, 0.99));
+  row.set("largest_" + what, values.back());
+}
+
+/// A number of every solved step that has such a solve.
+template <class Number>
+std::vector<double> numbers_of(const std::vector<const Step*>& steps, Number number) {
+  std::vector<double> numbers;
+  for (const Step* step : steps) {
+    if (const std::optional<double> value = number(*step)) numbers.push_back(*value);
+  }
+  return numbers;
+}
+
+Row summary_of(const std::vector<const Step*>& steps) {
+  const Step& any = *steps.front();
+  Row row;
+  row.set("problem", any.scheme.problem);
+  row.set("method", any.scheme.method);
+  row.set("tableau", any.scheme.tableau);
+  row.set("stages", any.scheme.stages);
+  row.set("intervals", any.intervals);
+  row.set("sequence", any.sequence);
+  row.set("steps", steps.size());
+  row.set("solved", std::ranges::count_if(steps, [](const Step* step) { return is_solved(step->warm); }));
+  const auto of_warm = [&](auto member) {
+    return numbers_of(steps, [member](const Step& step) -> std::optional<double> {
+      return is_solved(step.warm) ? std::optional<double>(step.warm.*member) : std::nullopt;
+    });
+  };
+  const auto of_cold = [&](auto member) {
+    return numbers_of(steps, [member](const Step& step) -> std::optional<double> {
+      return step.cold && is_solved(*step.cold) ? std::optional<double>((*step.cold).*member) : std::nullopt;
+    });
+  };
+  set_quantiles(row, "iterations", of_warm(&StepSolve::iterations));
+  set_quantiles(row, "microseconds", of_warm(&StepSolve::microseconds));
+  set_quantiles(row, "cold_iterations", of_cold(&StepSolve::iterations));
+  set_quantiles(row, "cold_microseconds", of_cold(&StepSolve::microseconds));
+  const std::vector<double> worse = numbers_of(steps, [](const Step& step) -> std::optional<double> {
+    const std::optional<bool> is_worse = step.is_warm_worse();
+    return is_worse ? std::optional(*is_worse ? 1.0 : 0.0) : std::nullopt;
+  });
+  row.set("compared_with_cold", worse.size());
+  if (!worse.empty()) {
+    row.set("warm_is_worse", static_cast<double>(std::ranges::count(worse, 1.0)) / static_cast<double>(worse.size()));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::optional<bool> Step::is_warm_worse() const {
+  if (!cold) return std::nullopt;
+  if (!is_solved(*cold)) return false;
+  return !is_solved(warm) || warm.iterations > cold->iterations;
+}
+
+SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, SolverOptions options,
+                         int repeats)
+    : case_(solved.the_case),
+      neighbours_(std::move(neighbours)),
+      options_(std::move(options)),
+      repeats_(repeats),
+      trajectory_(*solved.trajectory),
+      primal_(solved.solution.primal),
+      multipliers_(solved.solution.multipliers) {}
+
+Step SequenceRun::next(bool also_cold) {
+  case_.problem = neighbours_->next(++step_, trajectory_);
+  const auto program = case_.transcribe();
+  if (neighbours_->moves_on()) {
+    primal_ = shifted(program->layout().structure().unknowns, primal_);
+    multipliers_ = shifted(program->layout().structure().rows, multipliers_);
+  }
+  const Eigen::VectorXd start = primal_.cwiseMax(program->variable_lower()).cwiseMin(program->variable_upper());
+  SolverOptions warm_options = options_;
+  warm_options.start_multipliers = multipliers_;
+  Step step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
+            .intervals = case_.intervals(),
+            .sequence = neighbours_->name(),
+            .number = step_,
+            .warm = {}};
+  auto [solution, warm] = solve_step(*program, start, warm_options, repeats_);
+  step.warm = warm;
+  if (also_cold || !is_solved(warm)) {
+    auto [cold_solution, cold] =
+        solve_step(*program, sample(*program, guessed_motion(*case_.problem)), options_, repeats_);
+    step.cold = cold;
+    if (!is_solved(warm)) solution = std::move(cold_solution);
+  }
+  if (!dmocbench::is_solved(solution.status)) {
+    is_at_end_ = true;
+    return step;
+  }
+  primal_ = solution.primal;
+  multipliers_ = solution.multipliers;
+  trajectory_ = read_trajectory(*program, primal_, multipliers_);
+  step.objective = trajectory_.cost;
+  return step;
+}
+
+Table step_table(const std::vector<Step>& steps) {
+  const auto of_cold = [](auto member) {
+    return [member](const Step& step) -> Cell { return step.cold ? Cell((*step.cold).*member) : Cell(); };
+  };
+  const Columns<Step> columns =
+      scheme_columns<Step>() +
+      Columns<Step>{
+          {"intervals", "", "number of intervals N", &Step::intervals},
+          {"sequence", "", "receding_horizon or homotopy", &Step::sequence},
+          {"step", "", "number of the step, from 1", &Step::number},
+          {"status", "", "of the warm solve", from(&Step::warm, &StepSolve::status)},
+          {"iterations", "", "of the warm solve", from(&Step::warm, &StepSolve::iterations)},
+          {"microseconds", "us", "of the warm solve, the solver alone", from(&Step::warm, &StepSolve::microseconds)},
+          {"cold_status", "", "of a solve from the guess; empty where none was asked for", of_cold(&StepSolve::status)},
+          {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
+          {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},
+          {"objective", "cost", "of the answer", from(&Step::objective)}};
+  return table_of(columns, steps);
+}
+
+Table sequence_summary(const std::vector<Step>& steps) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::vector<const Step*>> groups;
+  std::vector<std::tuple<std::string, std::string, std::string>> order;
+  for (const Step& step : steps) {
+    const auto key = std::tuple(step.scheme.problem, step.sequence, step.scheme.method);
+    auto& group = groups[key];
+    if (group.empty()) order.push_back(key);
+    group.push_back(&step);
+  }
+  std::vector<std::string> names{"problem", "method", "tableau", "stages", "intervals", "sequence", "steps", "solved"};
+  for (const char* what : {"iterations", "microseconds", "cold_iterations", "cold_microseconds"}) {
+    for (const char* which : {"median_", "p99_", "largest_"}) names.push_back(std::string(which) + what);
+  }
+  names.insert(names.end(), {"compared_with_cold", "warm_is_worse"});
+  Table table(names);
+  for (const auto& key : order) table.append(summary_of(groups.at(key)));
+  return table;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/experiment/solve_case.hpp"
+#include "bench/experiment/table.hpp"
+#include "bench/sequence/neighbours.hpp"
+
+namespace dmocbench {
+
+/// One solve of a step.
+struct StepSolve {
+  std::string status;
+  int iterations = 0;
+  double microseconds = 0.0;  ///< of the solver alone, the smallest of the repeats
+};
+
+/// A step of a sequence.
+struct Step {
+  Scheme scheme;
+  std::size_t intervals = 0;
+  std::string sequence;
+  int number = 0;
+  StepSolve warm;                                ///< from the unknowns and multipliers of the last step
+  std::optional<StepSolve> cold = std::nullopt;  ///< from the problem's guess, where it was asked for
+  std::optional<double> objective = std::nullopt;
+
+  /// Whether the cold start did better: it was solved and the warm one was not, or in fewer iterations.
+  [[nodiscard]] std::optional<bool> is_warm_worse() const;
+};
+
+/// One method on its way through a sequence.
+class SequenceRun {
+ public:
+  /// `solved`: the case of the first problem with its answer.
+  SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, SolverOptions options, int repeats);
+
+  /// Solves the next problem warm, and cold too if it is asked for or the warm start fails. Where both fail the
+  /// sequence ends.
+  [[nodiscard]] Step next(bool also_cold);
+  [[nodiscard]] bool is_at_end() const noexcept { return is_at_end_; }
+
+ private:
+  Case case_;
+  std::unique_ptr<Neighbours> neighbours_;
+  SolverOptions options_;
+  int repeats_;
+  int step_ = 0;
+  bool is_at_end_ = false;
+  Trajectory trajectory_;
+  Eigen::VectorXd primal_;
+  Eigen::VectorXd multipliers_;
+};
+
+/// A row per step.
+[[nodiscard]] Table step_table(const std::vector<Step>& steps);
+/// A row per method and sequence: how many steps were solved, the median, the 99th percentile and the largest number of
+/// iterations and of microseconds of a warm step, the medians of cold ones, the share of steps where warm was worse.
+[[nodiscard]] Table sequence_summary(const std::vector<Step>& steps);
+
+}  // namespace dmocbench

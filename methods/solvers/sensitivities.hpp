@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// What a program says at a point: its Lagrangian φ + λᵀa there, and its bounds.
+struct ProgramValues {
+  double objective = 0.0;
+  Eigen::VectorXd gradient;     ///< of the Lagrangian, one entry per variable
+  Eigen::VectorXd constraints;  ///< a, one entry per constraint
+  Eigen::VectorXd variable_lower;
+  Eigen::VectorXd variable_upper;
+  Eigen::VectorXd constraint_lower;
+  Eigen::VectorXd constraint_upper;
+};
+
+/// `primal` has variable_count() entries, `multipliers` constraint_count().
+[[nodiscard]] ProgramValues values_of(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                      const Eigen::VectorXd& multipliers);
+
+/// The rate at which a program changes with a parameter (a mass, a component of an end state) at a fixed point: the
+/// difference of its values, entry by entry, over `distance`, the difference of the parameter. Central differences are
+/// exact but for rounding where formulas are quadratic in the parameter, as bounds are that the parameter is itself.
+/// Bounds that are infinite stay. The same program, given one value and then the other, or two programs of equal shape.
+[[nodiscard]] ProgramValues rate_of_change(const ProgramValues& below, const ProgramValues& above, double distance);
+
+/// The derivatives of an optimum in a parameter.
+struct Sensitivity {
+  double objective = 0.0;       ///< of the optimal φ, the scaled cost
+  Eigen::VectorXd primal;       ///< of the optimum ξ, variable_count() entries
+  Eigen::VectorXd multipliers;  ///< of λ, constraint_count() entries
+};
+
+/// How an optimum and its cost depend on parameters and end states, to first order.
+///
+/// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (but for fixed variables
+/// and active bounds, which move with their values). The optimum: one linear system with the matrix of the last Newton
+/// step, whose right-hand side is the rate of change of the conditions. Bounds and inequalities are active as they are
+/// at the optimum; where one is about to change, the derivative is that of neither side.
+class Sensitivities {
+ public:
+  /// A solved point of the program (`Solution::primal`, `Solution::multipliers`). The program must outlive this and
+  /// keep its values. Throws `Error` if a size is wrong or a derivative is not finite.
+  Sensitivities(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  ~Sensitivities();
+  Sensitivities(const Sensitivities&) = delete;
+  Sensitivities& operator=(const Sensitivities&) = delete;
+  Sensitivities(Sensitivities&&) = delete;
+  Sensitivities& operator=(Sensitivities&&) = delete;
+
+  /// `rate`: see `rate_of_change`, at the solved point. Throws `Error` if the matrix is singular.
+  [[nodiscard]] Sensitivity along(const ProgramValues& rate);
+
+ private:
+  struct Optimum;
+  std::unique_ptr<Optimum> optimum_;
+};
+
+}  // namespace dmocbench

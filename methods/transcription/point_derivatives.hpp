@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/expression/derivatives.hpp"
+#include "methods/mechanics/point_function.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+/// First derivatives of C and of F = L_q + f at points of a motion, with L_vv and L_vq: what turns costates into
+/// multipliers and back.
+class PointDerivatives {
+ public:
+  explicit PointDerivatives(const TracedProblem& problem)
+      : n_(problem.configuration_size()),
+        function_(n_, problem.control_size(),
+                  [&](const ControlledState& x) {
+                    const TracedProblem::Values values = problem.at(x);
+                    ExpressionVector outputs(2 * n_ + 4 * n_ * n_);
+                    outputs << gradient(values.running_cost, x.q), gradient(values.running_cost, x.v),
+                        jacobian(values.generalised_force, x.q).reshaped(),
+                        jacobian(values.generalised_force, x.v).reshaped(), values.mass.reshaped(),
+                        values.momentum_by_configuration.reshaped();
+                    return outputs;
+                  }),
+        values_(function_.output_count()) {}
+
+  /// Everything below is that of the point evaluated last.
+  void evaluate(const MotionPoint& point, double t) { function_.evaluate(point, t, values_); }
+
+  [[nodiscard]] Eigen::VectorXd cost_by_configuration() const { return values_.head(n_); }
+  [[nodiscard]] Eigen::VectorXd cost_by_velocity() const { return values_.segment(n_, n_); }
+  [[nodiscard]] Eigen::MatrixXd force_by_configuration() const { return matrix(0); }
+  [[nodiscard]] Eigen::MatrixXd force_by_velocity() const { return matrix(1); }
+  [[nodiscard]] Eigen::MatrixXd mass() const { return matrix(2); }
+  [[nodiscard]] Eigen::MatrixXd momentum_by_configuration() const { return matrix(3); }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd matrix(Eigen::Index which) const {
+    return values_.segment(2 * n_ + which * n_ * n_, n_ * n_).reshaped(n_, n_);
+  }
+
+  Eigen::Index n_;
+  PointFunction function_;
+  Eigen::VectorXd values_;
+};
+
+}  // namespace dmocbench

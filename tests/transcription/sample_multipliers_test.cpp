@@ -1,0 +1,145 @@
+#include "methods/transcription/sample_multipliers.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+#include "problems/container_crane.hpp"
+#include "problems/two_link_manipulator.hpp"
+#include "tests/support/all_problems.hpp"
+#include "tests/support/problems_for_tests.hpp"
+#include "tests/support/restated_problems.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::Scheme;
+using tests::Solved;
+
+double largest_multiplier(const Eigen::VectorXd& multipliers) { return multipliers.lpNorm<Eigen::Infinity>(); }
+
+double distance(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  return (one - other).lpNorm<Eigen::Infinity>();
+}
+
+/// Iterations of `interior_point` from a trajectory, with the multipliers that belong to it or without.
+int iterations_from(const Trajectory& trajectory, Transcription& program, bool is_warm) {
+  SolverOptions options;
+  if (is_warm) options.start_multipliers = sample_multipliers(program, trajectory);
+  const Solution solution =
+      make_solver("interior_point", options)->solve(program, sample(program, smooth_motion(trajectory)));
+  EXPECT_EQ(solution.status, Status::solved) << solution.message;
+  return solution.major_iterations.value();
+}
+
+TEST(SampleMultipliers, OfAProgramsOwnSolutionAreItsOwn) {
+  for (const auto& problem : tests::problems()) {
+    for (const Scheme& scheme : tests::all_schemes(3)) {
+      SCOPED_TRACE(problem->name() + " " + scheme.label());
+      const Solved solved = tests::solve(*problem, scheme, tests::graded_grid(16), tests::common_start(*problem));
+      const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
+      EXPECT_LT(distance(sampled, solved.solution.multipliers),
+                1e-10 * largest_multiplier(solved.solution.multipliers));
+    }
+  }
+}
+
+TEST(SampleMultipliers, AreThoseOfTheCostSoFarInMayerForm) {
+  const TwoLinkManipulator problem;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    SCOPED_TRACE(method);
+    const Solved solved = tests::solve(problem, method, make_tableau("gauss", 2), Grid::uniform(16),
+                                       tests::common_start(problem), 1e-10, CostForm::mayer);
+    EXPECT_LT(distance(sample_multipliers(*solved.transcription, solved.trajectory), solved.solution.multipliers),
+              1e-9 * largest_multiplier(solved.solution.multipliers));
+  }
+}
+
+// th:equi: one discrete optimum in two sets of unknowns, and so in two sets of multipliers.
+TEST(SampleMultipliers, OfDmocAreThoseOfHamiltonianCollocationAndTheOtherWayRound) {
+  const Grid grid = tests::graded_grid(16);
+  for (const auto& problem : tests::problems()) {
+    for (const int stages : {1, 2}) {
+      SCOPED_TRACE(problem->name() + " " + std::to_string(stages));
+      const Motion& start = tests::common_start(*problem);
+      const Solved dmoc = tests::solve(*problem, Scheme{"dmoc", stages}, grid, start, 1e-11);
+      const Solved hamiltonian = tests::solve(*problem, Scheme{"hamiltonian", stages}, grid, start, 1e-11);
+      const auto expect_the_same = [](const Solved& from, const Solved& to) {
+        EXPECT_LT(distance(sample_multipliers(*to.transcription, from.trajectory), to.solution.multipliers),
+                  1e-6 * largest_multiplier(to.solution.multipliers));
+      };
+      expect_the_same(dmoc, hamiltonian);
+      expect_the_same(hamiltonian, dmoc);
+    }
+  }
+}
+
+TEST(SampleMultipliers, OfACoarserGridApproachThoseOfAFinerWithOrderTwo) {
+  const TwoLinkManipulator problem;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    SCOPED_TRACE(method);
+    const Motion& start = tests::common_start(problem);
+    const Solved fine = tests::solve(problem, Scheme{method}, Grid::uniform(256), start);
+    const auto error_from = [&](Eigen::Index intervals) {
+      const Solved coarse = tests::solve(problem, Scheme{method}, Grid::uniform(intervals), start);
+      return distance(sample_multipliers(*fine.transcription, coarse.trajectory), fine.solution.multipliers);
+    };
+    EXPECT_GT(std::log2(error_from(32) / error_from(64)), 1.7);
+  }
+}
+
+TEST(SampleMultipliers, LetASolveOnATwiceFinerGridOfAnotherMethodTakeAFewIterations) {
+  for (const std::string& name : paper_problem_names()) {
+    const auto problem = make_problem(name);
+    const Solved coarse = tests::solve(*problem, Scheme{"dmoc"}, Grid::uniform(32), tests::common_start(*problem));
+    for (const Scheme& scheme : tests::all_schemes(2)) {
+      SCOPED_TRACE(name + " " + scheme.label());
+      const auto program = tests::transcribe(*problem, scheme, Grid::uniform(64));
+      EXPECT_LE(iterations_from(coarse.trajectory, *program, true), 6);
+    }
+  }
+}
+
+TEST(SampleMultipliers, LetASolveWithBoundsOnTheControlsStartWarm) {
+  const TwoLinkManipulator base;
+  const Motion& start = tests::common_start(base);
+  const double largest =
+      tests::solve(base, Scheme{"dmoc"}, Grid::uniform(32), start).trajectory.stage_u.cwiseAbs().maxCoeff();
+  const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
+    statement.u = tests::all_between(2, -0.7 * largest, 0.7 * largest);
+  });
+  const Solved coarse = tests::solve(problem, Scheme{"dmoc"}, Grid::uniform(32), start);
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    SCOPED_TRACE(method);
+    const auto program = tests::transcribe(problem, Scheme{method}, Grid::uniform(64));
+    const int warm = iterations_from(coarse.trajectory, *program, true);
+    EXPECT_LT(warm, iterations_from(coarse.trajectory, *program, false));
+    EXPECT_LE(warm, 12);
+  }
+}
+
+// Multipliers of bounds on velocities, path constraints and boundary conditions, of which no costate tells.
+TEST(SampleMultipliers, OfConstraintsWithoutCostatesBalanceTheGradient) {
+  const tests::Everything everything;
+  for (const Scheme& scheme : {Scheme{"dmoc"}, Scheme{"hamiltonian"}, Scheme{"tangent"}, Scheme{"dmoc", 2}}) {
+    SCOPED_TRACE(scheme.label());
+    const Solved solved =
+        tests::solve(everything.problem(), scheme, Grid::uniform(32), guessed_motion(everything.problem()));
+    const Eigen::VectorXd& own = solved.solution.multipliers;
+    const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
+    EXPECT_LT(distance(sampled, own), 0.05 * largest_multiplier(own));
+  }
+}
+
+TEST(SampleMultipliers, NeedCostates) {
+  const tests::DoubleIntegrator problem;
+  const auto program = tests::transcribe(problem, Scheme{"dmoc"}, Grid::uniform(8));
+  const Trajectory without = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
+  EXPECT_THROW((void)sample_multipliers(*program, without), Error);
+}
+
+}  // namespace
+}  // namespace dmocbench
