@@ -122,8 +122,8 @@ int print_all(CommandLine& line) {
   }
   if (!names.empty()) return 0;
   fmt::print("Methods (--method)\n\n");
-  for (const std::string& name : element_names()) {
-    fmt::print("{:<12} {}\n", name, make_element(name)->description());
+  for (const std::string& name : all_element_names()) {
+    fmt::print("{:<28} {}\n", name, make_element(name)->description());
   }
   fmt::print("\nTableaus (--tableau, --stages)\n\n");
   for (const std::string& name : tableau_names()) {

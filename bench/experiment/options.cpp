@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <iterator>
 #include <ranges>
 #include <set>
 
@@ -16,6 +17,8 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
+#include "methods/transcription/explicit_integrator.hpp"
+#include "methods/transcription/shooting_element.hpp"
 #include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
@@ -71,6 +74,47 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
   return grids;
 }
 
+constexpr std::string_view shooting = "multiple_shooting";
+
+/// The names of shooting by every chosen integrator with every chosen number of substeps.
+std::vector<std::string> shooting_names(const ExperimentOptions& options) {
+  const std::vector<std::string> integrators =
+      options.integrators.empty() ? std::vector<std::string>{"rk4"}
+                                  : in_order("integrator", options.integrators, explicit_integrator_names());
+  std::set<int> substeps(options.substeps.begin(), options.substeps.end());
+  if (substeps.empty()) substeps.insert(1);
+  std::vector<std::string> names;
+  for (const std::string& integrator : integrators) {
+    for (const int count : substeps) {
+      if (count < 1 || count > MultipleShootingElement::most_substeps) {
+        throw Error(fmt::format("--substeps takes whole numbers from 1 to {}, got {}",
+                                MultipleShootingElement::most_substeps, count));
+      }
+      names.push_back(multiple_shooting_name(integrator, count));
+    }
+  }
+  return names;
+}
+
+/// The families as chosen, with shooting as its integrators and substeps say.
+std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
+  const bool shoots = std::ranges::count(options.methods, shooting) > 0;
+  if (!shoots && !(options.integrators.empty() && options.substeps.empty())) {
+    throw Error(fmt::format("--integrator and --substeps are those of {0}; add --method {0}", shooting));
+  }
+  std::vector<std::string> known = element_names();
+  known.emplace_back(shooting);
+  std::vector<std::string> methods;
+  for (std::string& name : in_order("method", options.methods.empty() ? element_names() : options.methods, known)) {
+    if (name != shooting) {
+      methods.push_back(std::move(name));
+    } else {
+      std::ranges::move(shooting_names(options), std::back_inserter(methods));
+    }
+  }
+  return methods;
+}
+
 /// The families of tableaus with controls as chosen.
 std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
   if (options.controls == "stage") return options.tableaus;
@@ -112,8 +156,11 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
 
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
-  const std::string unless_given = options.methods.empty() ? "; default: all" : "";
-  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent" + unless_given);
+  line.list("--method", options.methods,
+            "methods: dmoc, hamiltonian, tangent, multiple_shooting" +
+                std::string(options.methods.empty() ? "; default: the first three" : ""));
+  line.list("--integrator", options.integrators, "of multiple_shooting: rk4, midpoint; default: rk4");
+  line.list("--substeps", options.substeps, "steps of the integrator per interval, of multiple_shooting; default: 1");
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.option("--controls", options.controls,
               "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
@@ -190,7 +237,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
 }
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {
-  const auto methods = in_order("method", options.methods, element_names());
+  const std::vector<std::string> methods = chosen_methods(options);
   const auto schemes = chosen_schemes(options);
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));

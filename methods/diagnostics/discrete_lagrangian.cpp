@@ -11,7 +11,7 @@ DiscreteLagrangian::DiscreteLagrangian(const Problem& problem, const Tableau& ta
     : n_(problem.configuration_size()), stages_(tableau.stages()) {
   const TracedProblem traced(problem);
   InputCounter counter;  // q_0, q_1, the interior rates, the stage controls, h, t
-  IntervalUnknowns unknowns = take_unknowns(counter, traced, NodeState::configuration, stages_);
+  IntervalUnknowns unknowns = take_unknowns(counter, traced, DmocElement(), stages_);
   unknowns.h = counter.take();
   unknowns.t = counter.take();
   const IntervalTrace trace = DmocElement().trace(traced, tableau, unknowns);

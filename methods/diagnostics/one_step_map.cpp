@@ -7,11 +7,13 @@ namespace dmocbench {
 
 template <class Scalar>
 OneStepMap<Scalar>::OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau)
-    : n_(problem.configuration_size()), node_state_(element.node_state()), interior_(tableau.stages() - 1) {
+    : n_(problem.configuration_size()),
+      node_state_(element.node_state()),
+      interior_(element.has_stage_unknowns() ? tableau.stages() - 1 : 0) {
   // Inputs: q_0; the unknowns w = (y_0, q_1, y_1, interior rates), y = p or v where nodes carry it; the stage controls;
   // h; t; p_0.
   InputCounter counter;
-  IntervalUnknowns local = take_unknowns(counter, problem, node_state_, tableau.stages());
+  IntervalUnknowns local = take_unknowns(counter, problem, element, tableau.stages());
   unknowns_ = static_cast<Eigen::Index>(counter.taken()) - n_ - tableau.stages() * problem.control_size();
   local.h = counter.take();
   local.t = counter.take();

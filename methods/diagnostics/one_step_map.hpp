@@ -43,7 +43,7 @@ class OneStepMap {
   Eigen::Index n_;
   Eigen::Index unknowns_ = 0;
   NodeState node_state_;
-  Eigen::Index interior_;  // number of interior stages, s - 1
+  Eigen::Index interior_;  // number of stages whose rates are unknowns
   TracedNewton<Scalar> newton_;
   Schedule reading_;      // right momentum, then the impulse
   Schedule derivatives_;  // R by w, R by q_0, right momentum by w, by q_0, column by column

@@ -109,6 +109,10 @@ class Wording {
   [[nodiscard]] std::string stage_equation(Eigen::Index column) const {
     const LayoutShape& shape = layout_->shape();
     const bool is_second = (column / n_) % 2 == 1;
+    if (!shape.has_stage_unknowns) {
+      return std::string("the motion from node to node: ") + (is_second ? "the velocity of " : "") +
+             coordinate(column % n_);
+    }
     switch (shape.node_state) {
       case NodeState::configuration:
         if (shape.stage_equations != (shape.stages - 1) * n_) break;

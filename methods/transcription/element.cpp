@@ -4,17 +4,18 @@
 
 namespace dmocbench {
 
-IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, NodeState node_state,
+IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
                                Eigen::Index stages) {
   const Eigen::Index n = problem.configuration_size();
-  const Eigen::Index second = node_state == NodeState::configuration ? 0 : n;
+  const Eigen::Index second = element.node_state() == NodeState::configuration ? 0 : n;
+  const Eigen::Index interior = element.has_stage_unknowns() ? stages - 1 : 0;
   IntervalUnknowns unknowns;
   unknowns.left_q = counter.take(n);
   unknowns.left_second = counter.take(second);
   unknowns.right_q = counter.take(n);
   unknowns.right_second = counter.take(second);
-  for (Eigen::Index j = 0; j + 1 < stages; ++j) unknowns.rates_q.push_back(counter.take(n));
-  for (Eigen::Index j = 0; j + 1 < stages && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
+  for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_q.push_back(counter.take(n));
+  for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
   for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
   return unknowns;
 }

@@ -22,21 +22,16 @@ enum class NodeState : std::uint8_t {
 
 /// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
 struct IntervalUnknowns {
-  ExpressionVector left_q;                     ///< q_k, n entries
-  ExpressionVector left_second;                ///< p_k or v_k, n entries; empty where nodes carry q alone
-  ExpressionVector right_q;                    ///< q_{k+1}
-  ExpressionVector right_second;               ///< p_{k+1} or v_{k+1}
-  std::vector<ExpressionVector> rates_q;       ///< Q̇_1 .. Q̇_{s-1}; the last stage rate is eliminated
-  std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1
+  ExpressionVector left_q;                ///< q_k, n entries
+  ExpressionVector left_second;           ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;               ///< q_{k+1}
+  ExpressionVector right_second;          ///< p_{k+1} or v_{k+1}
+  std::vector<ExpressionVector> rates_q;  ///< Q̇_1 .. Q̇_{s-1}, the last stage rate is eliminated; none of shooting
+  std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1; none of shooting
   std::vector<ExpressionVector> controls;      ///< U_1 .. U_s, m entries each
   Expression h;                                ///< the step
   Expression t;                                ///< t_k
 };
-
-/// The unknowns of an interval as the next inputs of `counter`, in the order of `IntervalUnknowns`; h and t are left to
-/// the caller.
-[[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, NodeState node_state,
-                                             Eigen::Index stages);
 
 /// The formulas of an element for one interval.
 struct IntervalTrace {
@@ -55,7 +50,7 @@ struct IntervalTrace {
 /// sparsity, derivatives, boundary conditions and costates are generic (`Transcription`). Every element satisfies:
 ///   - on a solution of its stage equations the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
 ///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn equations for DMOC, 2sn + sm and 2sn for
-///     collocation.
+///     collocation; 2n + sm and 2n for shooting.
 class Element {
  public:
   virtual ~Element() = default;
@@ -69,6 +64,9 @@ class Element {
   /// One line.
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] virtual NodeState node_state() const = 0;
+  /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
+  /// left node and controls (shooting).
+  [[nodiscard]] virtual bool has_stage_unknowns() const { return true; }
   [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                             const IntervalUnknowns& unknowns) const = 0;
 
@@ -76,10 +74,23 @@ class Element {
   Element() = default;
 };
 
-/// Names of all families of elements.
+/// The unknowns of an interval of an element as the next inputs of `counter`, in the order of `IntervalUnknowns`; h and
+/// t are left to the caller.
+[[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
+                                             const Element& element, Eigen::Index stages);
+
+/// Names of the families that the paper compares: DMOC, Hamiltonian and tangent-space collocation.
 [[nodiscard]] std::vector<std::string> element_names();
 
-/// The family of that name. Throws `Error` that lists the names if there is none.
+/// These, and the names of shooting (`multiple_shooting_name`).
+[[nodiscard]] std::vector<std::string> all_element_names();
+
+/// "multiple_shooting_INTEGRATOR_SUBSTEPS": the family of shooting by so many steps per interval of an explicit
+/// integrator (`explicit_integrator_names`).
+[[nodiscard]] std::string multiple_shooting_name(std::string_view integrator, int substeps);
+
+/// The family of that name. Throws `Error` that lists the names if there is none, or says what a name of shooting
+/// lacks.
 [[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
 
 // Formulas that the families share.

@@ -10,11 +10,11 @@ struct Unknowns : IntervalUnknowns {
   LocalInputs inputs;
 };
 
-Unknowns make_unknowns(const TracedProblem& problem, NodeState node_state, Eigen::Index stages,
+Unknowns make_unknowns(const TracedProblem& problem, const Element& element, Eigen::Index stages,
                        const IntervalRules& rules) {
   InputCounter counter;
   Unknowns unknowns;
-  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, node_state, stages);
+  static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, stages);
   unknowns.costs = counter.take(rules.mayer ? 2 : 0);
   const Expression horizon = rules.free_horizon ? counter.take() : Expression(1.0);
   unknowns.inputs.unknowns = counter.taken();
@@ -52,7 +52,7 @@ Schedule stage_table(const std::vector<ControlledState>& stages) {
 
 IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
-  const Unknowns unknowns = make_unknowns(problem, element.node_state(), tableau.stages(), rules);
+  const Unknowns unknowns = make_unknowns(problem, element, tableau.stages(), rules);
   const IntervalTrace trace = element.trace(problem, tableau, unknowns);
   const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
   const Expression running = Expression(rules.cost_scale) * trace.cost;
@@ -63,6 +63,7 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
   IntervalFunctions functions;
   const Eigen::Index of_nodes = 2 * (unknowns.left_q.size() + unknowns.left_second.size());
   static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns, of_nodes);
+  functions.has_stage_unknowns = element.has_stage_unknowns();
   functions.node_rows = trace.left_rows.size();
   functions.stage_equations = trace.stage_equations.size();
   functions.path_rows = path.size();

@@ -25,6 +25,7 @@ struct IntervalRules {
 /// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost. `adjoint`
 /// is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
+  bool has_stage_unknowns = true;  ///< of the element
   Eigen::Index node_rows = 0;
   Eigen::Index stage_equations = 0;  ///< those of the element
   Eigen::Index path_rows = 0;

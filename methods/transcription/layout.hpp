@@ -20,6 +20,7 @@ struct LayoutShape {
   NodeState node_state = NodeState::configuration;
   Eigen::Index stages = 1;
   bool shares_controls = false;
+  bool has_stage_unknowns = true;    ///< `Element::has_stage_unknowns`
   Eigen::Index node_rows = 0;        ///< per node
   Eigen::Index stage_equations = 0;  ///< per interval: the element's own
   Eigen::Index path_rows = 0;        ///< per interval
@@ -87,7 +88,10 @@ class Layout {
 
   [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
   [[nodiscard]] NodeState node_state() const noexcept { return shape_.node_state; }
-  [[nodiscard]] Eigen::Index interior_stages() const noexcept { return shape_.stages - 1; }
+  /// Those whose rates are unknowns.
+  [[nodiscard]] Eigen::Index interior_stages() const noexcept {
+    return shape_.has_stage_unknowns ? shape_.stages - 1 : 0;
+  }
   [[nodiscard]] Eigen::Index stages() const noexcept { return shape_.stages; }
   [[nodiscard]] const IntervalStructure& structure() const noexcept { return structure_; }
 

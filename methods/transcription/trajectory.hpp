@@ -28,8 +28,8 @@ struct Trajectory {
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
   Eigen::MatrixXd psi_p;
-  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, and where bounds on velocities
-  /// or path constraints have multipliers of their own there.
+  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities or
+  /// path constraints have multipliers of their own there, and of shooting, whose stages are no unknowns.
   Eigen::MatrixXd stage_psi_q;
   Eigen::MatrixXd stage_psi_p;
 

@@ -84,7 +84,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);
     trajectory.psi_q = std::move(psi.psi_q);
     trajectory.psi_p = std::move(psi.psi_p);
-    if (transcription.functions().path_rows == 0) {
+    if (transcription.functions().path_rows == 0 && transcription.functions().has_stage_unknowns) {
       StageCostates stages = stage_costates(transcription, multipliers, trajectory);
       trajectory.stage_psi_q = std::move(stages.psi_q);
       trajectory.stage_psi_p = std::move(stages.psi_p);

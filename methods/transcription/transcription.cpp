@@ -43,6 +43,7 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .node_state = ends.node_state,
           .stages = tableau.stages(),
           .shares_controls = tableau.shares_controls,
+          .has_stage_unknowns = functions.has_stage_unknowns,
           .node_rows = functions.node_rows,
           .stage_equations = functions.stage_equations,
           .path_rows = functions.path_rows,

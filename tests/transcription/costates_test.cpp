@@ -169,5 +169,10 @@ TEST(Costates, AreLeftOutWithoutMultipliers) {
   EXPECT_FALSE(trajectory.has_costates());
 }
 
+INSTANTIATE_TEST_SUITE_P(OfShooting, CostatesOf,
+                         testing::Combine(testing::Values("moving_frame"), testing::Values("multiple_shooting_rk4_2"),
+                                          testing::Values(NamedTableau{"gauss", 2})),
+                         [](const auto& instance) { return name_of(instance.param); });
+
 }  // namespace
 }  // namespace dmocbench

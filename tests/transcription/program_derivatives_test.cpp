@@ -218,5 +218,14 @@ INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives,
                                   std::to_string(std::get<2>(instance.param).second);
                          });
 
+INSTANTIATE_TEST_SUITE_P(OfShooting, ProgramDerivatives,
+                         testing::Combine(testing::Values("two_link_manipulator", "moving_frame"),
+                                          testing::Values("multiple_shooting_rk4_1", "multiple_shooting_midpoint_3"),
+                                          testing::Values(FamilyAndStages{"gauss", 1}, FamilyAndStages{"gauss", 2})),
+                         [](const auto& instance) {
+                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +
+                                  std::to_string(std::get<2>(instance.param).second);
+                         });
+
 }  // namespace
 }  // namespace dmocbench

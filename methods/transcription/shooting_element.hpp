@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "methods/transcription/element.hpp"
+#include "methods/transcription/explicit_integrator.hpp"
+
+namespace dmocbench {
+
+/// Direct multiple shooting (section 3.3 of the paper; Bock, Plitt 1984): the interval is integrated from its left
+/// node.
+///
+/// Node: (q_k, v_k). With Φ the explicit integrator's `substeps` steps of q̇ = v, v̇ = L_vv⁻¹(L_q + f - L_vq v - L_vt),
+/// the equations of an interval are
+///   (x_{k+1} - Φ(x_k, U))/h = 0        (2n, units: velocity, acceleration).
+/// The control is the polynomial through U_1 .. U_s at the stage times of the tableau, the same as where the controls
+/// of the other families are replayed; the cost is integrated beside the state. No stage is an unknown. At the stage
+/// times q is the cubic through the ends of the step and their velocities, and Q̇_i its derivative; path constraints
+/// hold there. L_vv must have nonzero leading minors (`solve_symmetric`).
+///
+/// With s = 1 the control is constant on an interval: order 2, whatever the integrator's order.
+class MultipleShootingElement final : public Element {
+ public:
+  /// Throws `Error` unless `substeps` is in [1, most_substeps].
+  MultipleShootingElement(ExplicitIntegrator integrator, int substeps);
+
+  static constexpr int most_substeps = 64;
+
+  /// "multiple_shooting_rk4_1": the integrator and the number of its steps per interval.
+  [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
+  [[nodiscard]] bool has_stage_unknowns() const override { return false; }
+  [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
+                                    const IntervalUnknowns& unknowns) const override;
+
+ private:
+  ExplicitIntegrator integrator_;
+  int substeps_;
+};
+
+}  // namespace dmocbench
