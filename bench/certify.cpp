@@ -18,7 +18,7 @@
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::certify_program {
 
 /// A tableau and its number of stages: "lobatto4" is lobatto with four.
 std::pair<std::string, int> parse_route(const std::string& text) {
@@ -236,6 +236,6 @@ class Certify final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Certify(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Certify(), argc, argv); }
+}  // namespace dmocbench::certify_program
