@@ -9,7 +9,6 @@ Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values) {
     const auto first = static_cast<Eigen::Index>(run.first);
     const auto moved = static_cast<Eigen::Index>(run.count) - 1;
     result.segment(first, moved) = values.segment(first + 1, moved);
-    result[first + moved] = 2.0 * values[first + moved] - values[first + moved - 1];
   }
   return result;
 }
