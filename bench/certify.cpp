@@ -5,6 +5,7 @@
 #include <optional>
 #include <ranges>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/tableau.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::certify_program {
 
 /// A tableau and its number of stages: "lobatto4" is lobatto with four.
 std::pair<std::string, int> parse_route(const std::string& text) {
@@ -43,6 +44,7 @@ struct Certificate {
   std::optional<double> replay_error;
   std::optional<double> indirect_objective;
   std::optional<double> indirect_digits;
+  std::optional<int> grid_digits;
   RouteAgreement agreement;
   std::optional<ReferenceOptimum> reference;
   std::string message;
@@ -64,16 +66,27 @@ Certificate certificate_of(const Problem& problem, const Table& table) {
                      .replay_error = best_replay.number("replay_error"),
                      .indirect_objective = rows.with_number("indirect_objective").back().number("indirect_objective"),
                      .indirect_digits = rows.with_number("indirect_digits").back().number("indirect_digits"),
+                     .grid_digits = std::nullopt,
                      .agreement = {},
                      .reference = problem.card().reference,
                      .message = rows.where(has_message).back().text("indirect_message")};
-  for (const Row& row : solved) result.objectives[row.text("tableau") + row.text("stages")] = *row.number("objective");
+  std::map<std::string, double> coarser;  // on the grid before the finest, by route
+  for (const Row& row : solved) {         // the finest grid comes last
+    const double objective = *row.number("objective");
+    const auto [route, is_first] = result.objectives.try_emplace(row.text("tableau") + row.text("stages"), objective);
+    if (is_first) continue;
+    coarser[route->first] = std::exchange(route->second, objective);
+  }
+  for (const auto& [route, objective] : coarser) {
+    const int digits = agreeing_digits(objective, result.objectives.at(route));
+    result.grid_digits = std::min(digits, result.grid_digits.value_or(digits));
+  }
   std::vector<double> costs;
   for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
   for (const auto& cost : {result.replay_objective, result.indirect_objective}) {
     if (cost) costs.push_back(*cost);
   }
-  result.agreement = agreement_of_routes(costs, result.reference);
+  result.agreement = agreement_of_routes(costs, result.reference, result.grid_digits);
   return result;
 }
 
@@ -112,6 +125,7 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
              {"indirect_objective", "cost", "cost by the indirect method", from(&Certificate::indirect_objective)},
              {"indirect_digits", "", "digits of it that are certified", from(&Certificate::indirect_digits)},
              {"agreeing_digits", "", "digits that all routes share", agreeing_digits},
+             {"grid_digits", "", "digits that each route's two finest grids share", from(&Certificate::grid_digits)},
              {"reference", "cost", "cost that the problem states", from(reference, &ReferenceOptimum::objective)},
              {"reference_digits", "", "digits of it that hold", from(reference, &ReferenceOptimum::digits)},
              {"certificate", "", "how it is known", from(reference, &ReferenceOptimum::certificate)},
@@ -236,6 +250,6 @@ class Certify final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Certify(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Certify(), argc, argv); }
+}  // namespace dmocbench::certify_program

@@ -7,7 +7,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/result_file.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::claims_program {
 
 void print(const std::vector<JudgedClaim>& claims) {
   for (const JudgedClaim& claim : claims) {
@@ -33,11 +33,11 @@ int judge_all(CommandLine& line) {
   return missed.empty() ? 0 : 1;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "claims",
       "Judges the claims of the paper by the tables of a results folder; writes claims.md and claims.csv there.", argc,
-      argv, dmocbench::programs::judge_all);
+      argv, judge_all);
 }
+
+}  // namespace dmocbench::claims_program

@@ -13,7 +13,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::coercivity_program {
 
 struct Curvature {
   Scheme scheme;
@@ -69,13 +69,13 @@ int measure_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "coercivity",
       "The smallest curvature of the Lagrangian along motions that keep the linearised equations, against the square "
       "of the control, over the number of intervals: coercivity.csv. It is bounded below where the optimum is "
       "coercive.",
-      argc, argv, dmocbench::programs::measure_all);
+      argc, argv, measure_all);
 }
+
+}  // namespace dmocbench::coercivity_program

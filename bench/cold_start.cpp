@@ -12,7 +12,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/cold_starts.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::cold_start_program {
 
 class ColdStart final : public Experiment {
  public:
@@ -105,6 +105,6 @@ class ColdStart final : public Experiment {
   double objective_tolerance_ = 0.02;
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(ColdStart(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::ColdStart(), argc, argv); }
+}  // namespace dmocbench::cold_start_program

@@ -12,7 +12,7 @@
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::compare_program {
 
 /// FILE,FILE,...
 std::vector<std::filesystem::path> files_of(const std::string& list) {
@@ -50,14 +50,14 @@ int compare_files(CommandLine& line) {
                                                                                                                  : 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "compare",
       "Compares two runs of a program of Google Benchmark with repetitions. A benchmark is faster or slower if the "
       "Mann-Whitney test finds the repetitions apart and the ratio of medians reaches the threshold; it takes 5 "
       "repetitions at least. Noise that lasts for a whole run, such as another program beside it, the test cannot "
       "know.",
-      argc, argv, dmocbench::programs::compare_files);
+      argc, argv, compare_files);
 }
+
+}  // namespace dmocbench::compare_program

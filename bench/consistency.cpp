@@ -7,7 +7,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::consistency_program {
 
 class Consistency final : public Experiment {
  public:
@@ -43,6 +43,6 @@ class Consistency final : public Experiment {
   std::optional<MomentumConsistency> result_;
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Consistency(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Consistency(), argc, argv); }
+}  // namespace dmocbench::consistency_program

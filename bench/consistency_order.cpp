@@ -18,7 +18,7 @@
 #include "bench/structure/one_step_tableaus.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::consistency_order_program {
 
 /// The quantities that are compared with the exact ones, with their names in the tables.
 constexpr std::array<std::pair<const char*, double ConsistencyErrors::*>, 6> quantities{
@@ -246,14 +246,14 @@ int measure_all(CommandLine& line) {
   return failures > 0 ? 1 : 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "consistency_order",
       "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
       "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
       "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against those of L, on the coarsest "
       "and the finest step (consistency_order_transforms.csv).",
-      argc, argv, dmocbench::programs::measure_all);
+      argc, argv, measure_all);
 }
+
+}  // namespace dmocbench::consistency_order_program

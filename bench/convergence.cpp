@@ -15,7 +15,7 @@
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::convergence_program {
 
 /// The value of --reference: N, 0 for the finest grid of each curve, or `exact_reference`.
 long long parse_reference(const std::string& text) {
@@ -155,6 +155,6 @@ class Convergence final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Convergence(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Convergence(), argc, argv); }
+}  // namespace dmocbench::convergence_program

@@ -7,7 +7,7 @@
 #include "bench/experiment/experiment.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::derivatives_program {
 
 const std::string limited_memory = "limited_memory";
 
@@ -152,6 +152,6 @@ class Derivatives final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Derivatives(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Derivatives(), argc, argv); }
+}  // namespace dmocbench::derivatives_program

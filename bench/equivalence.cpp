@@ -16,7 +16,7 @@
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::equivalence_program {
 
 /// Largest difference of two tables relative to the largest entry of the second.
 double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -152,6 +152,6 @@ class Equivalence final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Equivalence(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Equivalence(), argc, argv); }
+}  // namespace dmocbench::equivalence_program

@@ -9,7 +9,7 @@
 #include "methods/diagnostics/kkt_fill.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::iterations_program {
 
 class Iterations final : public Experiment {
  public:
@@ -91,6 +91,6 @@ class Iterations final : public Experiment {
   std::optional<ReplayError> replay_;  // likewise
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Iterations(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Iterations(), argc, argv); }
+}  // namespace dmocbench::iterations_program

@@ -10,7 +10,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::list_program {
 
 std::string listed(const Eigen::VectorXd& vector) { return fmt::format("({:.6g})", fmt::join(vector, ", ")); }
 
@@ -138,10 +138,10 @@ int print_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "list", "What there is: problems with their parameters and guess, methods, tableaus, solvers, derivatives.", argc,
-      argv, dmocbench::programs::print_all);
+      argv, print_all);
 }
+
+}  // namespace dmocbench::list_program

@@ -10,7 +10,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::local_minima_program {
 
 class LocalMinima final : public Experiment {
  public:
@@ -75,6 +75,6 @@ class LocalMinima final : public Experiment {
   IndependentChecks checks_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(LocalMinima(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::LocalMinima(), argc, argv); }
+}  // namespace dmocbench::local_minima_program

@@ -9,7 +9,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/profile_tables.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::profile_program {
 
 class Profile final : public Experiment {
  public:
@@ -85,6 +85,6 @@ class Profile final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Profile(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Profile(), argc, argv); }
+}  // namespace dmocbench::profile_program

@@ -16,7 +16,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::sequence_program {
 
 /// The choices of a user.
 struct SequenceOptions {
@@ -157,13 +157,13 @@ int run_sequences(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "sequence",
       "Problems that follow each other, each started from the unknowns and multipliers of the one before: a receding "
       "horizon with disturbances, and a homotopy in a parameter. sequence.csv: iterations and microseconds of every "
       "step, warm and cold; sequence_summary.csv: median, 99th percentile and largest.",
-      argc, argv, dmocbench::programs::run_sequences);
+      argc, argv, run_sequences);
 }
+
+}  // namespace dmocbench::sequence_program

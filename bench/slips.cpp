@@ -18,7 +18,7 @@
 #include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::slips_program {
 
 struct Slip {
   std::string problem;
@@ -249,10 +249,10 @@ int evaluate_slips(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-      argc, argv, dmocbench::programs::evaluate_slips);
+      argc, argv, evaluate_slips);
 }
+
+}  // namespace dmocbench::slips_program

@@ -17,7 +17,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::smoothness_program {
 
 /// A problem whose optimum is smooth or has kinks.
 struct Situation {
@@ -230,14 +230,14 @@ int measure_all(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "smoothness",
       "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, beside "
       "optima that are smooth, with fixed and with free final state: smoothness.csv, fitted orders in "
       "smoothness_slopes.csv. Errors are those against the closed form, or against DMOC with two stages on 1280 "
       "intervals.",
-      argc, argv, dmocbench::programs::measure_all);
+      argc, argv, measure_all);
 }
+
+}  // namespace dmocbench::smoothness_program

@@ -10,7 +10,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::solve_program {
 
 /// A row per minor iteration. Columns of the quadratic program are named x3 (variable 3 of the program, from 0) or s5
 /// (the slack of constraint 5).
@@ -148,6 +148,6 @@ class Solve final : public Experiment {
   IndependentChecks checks_;         // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Solve(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Solve(), argc, argv); }
+}  // namespace dmocbench::solve_program

@@ -17,7 +17,7 @@
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::structure_program {
 
 /// The energy along the unforced ellipse: of one period, or over all of them.
 template <class Energy>
@@ -148,10 +148,8 @@ int write_tables(CommandLine& line) {
   return 0;
 }
 
-}  // namespace dmocbench::programs
-
-int main(int argc, char** argv) {
-  return dmocbench::run_program(
+int run(int argc, char** argv) {
+  return run_program(
       "structure",
       "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), "
       "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
@@ -160,5 +158,7 @@ int main(int argc, char** argv) {
       "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
       "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
       "paper's problems (structure_energy_work.csv, structure_modified_work.csv).",
-      argc, argv, dmocbench::programs::write_tables);
+      argc, argv, write_tables);
 }
+
+}  // namespace dmocbench::structure_program

@@ -17,7 +17,7 @@
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::structure_advantage_program {
 
 const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
 
@@ -128,8 +128,6 @@ class StructureAdvantage final : public Experiment {
   } measured_;  // of the case that is completed
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(StructureAdvantage(), argc, argv); }
 
-int main(int argc, char** argv) {
-  return dmocbench::run_experiment(dmocbench::programs::StructureAdvantage(), argc, argv);
-}
+}  // namespace dmocbench::structure_advantage_program

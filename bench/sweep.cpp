@@ -11,7 +11,7 @@
 #include "bench/sweep/swept_values.hpp"
 #include "methods/error.hpp"
 
-namespace dmocbench::programs {
+namespace dmocbench::sweep_program {
 
 class Sweep final : public Experiment {
  public:
@@ -96,6 +96,6 @@ class Sweep final : public Experiment {
   mutable std::map<std::shared_ptr<const Problem>, std::vector<std::shared_ptr<const Problem>>> problems_;
 };
 
-}  // namespace dmocbench::programs
+int run(int argc, char** argv) { return run_experiment(Sweep(), argc, argv); }
 
-int main(int argc, char** argv) { return dmocbench::run_experiment(dmocbench::programs::Sweep(), argc, argv); }
+}  // namespace dmocbench::sweep_program

@@ -1,5 +1,6 @@
 # What a solve takes and reaches with each back end of derivatives: section 4.1, "Automatic Differentiation".
 #   gnuplot -e "results='results'" plots/derivatives.gp
+# Reads derivatives.csv, and derivatives_quasi_newton.csv if it is there.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 eval require("derivatives",\
@@ -18,9 +19,12 @@ curve_of(i) = i == 5 ? "derivatives=tape,hessian=limited_memory"\
     : i == 6 ? "derivatives=forward_differences,hessian=limited_memory"\
     : "derivatives=".word(names, i).",hessian=exact"
 
-taken(take, where, need) = "< ".rows_awk("-v take=".take." -v where='".where."' -v need=".need, "derivatives")
-counted(take, where, need) = system(rows_awk("-v take=".take." -v where='".where."' -v need=".need, "derivatives").\
-    " | wc -l") - 1
+further = exists_table("derivatives_quasi_newton") ? "derivatives_quasi_newton" : ""
+picked(take, where, need, name) = rows_awk("-v take=".take." -v where='".where."' -v need=".need, name)
+taken_by(take, where, need) = picked(take, where, need, "derivatives")\
+    .(strlen(further) == 0 ? "" : "; ".picked(take, where, need, further)." | tail -n +2")
+taken(take, where, need) = "< ".taken_by(take, where, need)
+counted(take, where, need) = system("{ ".taken_by(take, where, need)."; } | wc -l") - 1
 
 quantities = "seconds kkt_residual"
 problems = system(rows_awk("-v take=all -v distinct=problem -v need=seconds", "derivatives"))
@@ -41,7 +45,8 @@ do for [problem_word in problems] {
     set multiplot layout 2, columns_of_panels title title_text(problem_label(problem)\
         .": solves by exact derivatives and by differences, ".solver_label(entry(scheme, "solver")),\
         timed_conditions("derivatives").".",\
-        "Bars: quartiles of the rounds. Open markers: not solved to that tolerance; the time spent and the residual reached.")\
+        "Bars: quartiles of the rounds".(strlen(further) > 0 ? " (quasi-Newton: one solve)" : "")\
+        .". Open markers: not solved to that tolerance; the time spent and the residual reached.")\
         offset 0, -0.4 margins 0.075, 0.985, 0.17, 0.84 spacing 0.02, 0.03
     do for [q = 1:2] {
       quantity = word(quantities, q)

@@ -26,8 +26,8 @@ const ColumnNames scheme{"problem", "method", "tableau", "stages"};
 
 /// Columns of keys that count or measure something.
 bool is_number(const std::string& column) {
-  constexpr std::array numbers{"stages",  "intervals", "order",   "steps",     "steps_per_period",
-                               "periods", "h",         "minimum", "tolerance", "error"};
+  constexpr std::array numbers{"stages",  "intervals", "order", "steps", "steps_per_period", "periods", "h",
+                               "minimum", "tolerance", "error", "step"};
   return std::ranges::find(numbers, column) != numbers.end();
 }
 
@@ -127,6 +127,7 @@ const std::vector<DeclaredTable>& declared_tables() {
        {"is_motion"}},
       {"local_minima_shares", "local_minima", solve},
       {"cold_start_shares", "cold_start", solve},
+      {"sequence", "sequence", columns(scheme, {"intervals", "sequence", "step"}), {"status"}},
       {"profile", "profile", solve, {"status", "success"}},
       {"slips", "slips", {"problem", "slip"}},
   };

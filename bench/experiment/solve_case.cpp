@@ -306,6 +306,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
       result.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
       if (start.branch) result.branch = is_on_branch(*result.trajectory, *start.branch) ? "same" : "other";
     } catch (const Error& error) {
+      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing tells whether it is a motion
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }

@@ -22,7 +22,7 @@ int agreeing_digits(double one, double other) {
 }
 
 RouteAgreement agreement_of_routes(const std::vector<double>& objectives,
-                                   const std::optional<ReferenceOptimum>& reference) {
+                                   const std::optional<ReferenceOptimum>& reference, std::optional<int> grid_digits) {
   const auto digits_shared_with = [&](double other) {
     int digits = double_precision;
     for (const double one : objectives) digits = std::min(digits, agreeing_digits(one, other));
@@ -36,7 +36,8 @@ RouteAgreement agreement_of_routes(const std::vector<double>& objectives,
   if (!reference) return agreement;
   if (agreement.reference_digits >= reference->digits) {
     agreement.confirmed = "yes";
-  } else if (agreement.digits > 0 && agreement.reference_digits >= agreement.digits) {
+  } else if (const int certain = std::min(agreement.digits, grid_digits.value_or(double_precision));
+             certain > 0 && agreement.reference_digits >= certain) {
     agreement.confirmed = fmt::format("to {} digits", agreement.reference_digits);
   } else {
     agreement.confirmed = "no";

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/solvers/kkt_of_conditions.hpp"
 
 namespace dmocbench {
@@ -69,7 +68,7 @@ struct Sensitivities::Optimum {
         variable_upper(of.variable_upper()),
         constraint_lower(of.constraint_lower()),
         constraint_upper(of.constraint_upper()),
-        system(kkt_system_of(of)) {}
+        system(kkt_system_of_any_point(of)) {}
 
   [[nodiscard]] bool is_fixed(Eigen::Index j) const { return variable_lower[j] == variable_upper[j]; }
   /// The rate of the bound that the gradient presses a variable against.
@@ -95,15 +94,10 @@ struct Sensitivities::Optimum {
   }
 
   void solve(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints, Sensitivity& result) {
-    const auto step = [&] {
-      return system->solve(kkt_matrix_of(at), {gradient, constraints}, {result.primal, result.multipliers});
-    };
-    kkt::FactorisationStatus status = step();
-    if (status != kkt::FactorisationStatus::solved && dynamic_cast<kkt::SparseKkt*>(system.get()) == nullptr) {
-      system = kkt_system_of_any_point(program);
-      status = step();
+    if (system->solve(kkt_matrix_of(at), {gradient, constraints}, {result.primal, result.multipliers}) ==
+        kkt::FactorisationStatus::solved) {
+      return;
     }
-    if (status == kkt::FactorisationStatus::solved) return;
     throw Error("the optimum has no sensitivities: the matrix of its conditions is singular");
   }
 };

@@ -39,9 +39,10 @@ struct Sensitivity {
 /// How an optimum and its cost depend on parameters and end states, to first order.
 ///
 /// The cost: the derivative of the Lagrangian, as the optimum's own motion does not change it (but for fixed variables
-/// and active bounds, which move with their values). The optimum: one linear system with the matrix of the last Newton
-/// step, whose right-hand side is the rate of change of the conditions. Bounds and inequalities are active as they are
-/// at the optimum; where one is about to change, the derivative is that of neither side.
+/// and active bounds, which move with their values). The optimum: one linear system with the matrix of a Newton step
+/// there, factorised with pivoting since nothing corrects its answer, whose right-hand side is the rate of change of
+/// the conditions. Bounds and inequalities are active as they are at the optimum; where one is about to change, the
+/// derivative is that of neither side.
 class Sensitivities {
  public:
   /// A solved point of the program (`Solution::primal`, `Solution::multipliers`). The program must outlive this and

@@ -36,5 +36,13 @@ TEST(AgreementOfRoutes, ConfirmsAReferenceAsFarAsItGoes) {
   EXPECT_EQ(agreement_of_routes({}, stated(6.0, 8)).confirmed, "");
 }
 
+TEST(AgreementOfRoutes, ConfirmsNoMoreThanIsKeptFromGridToGrid) {
+  const std::vector<double> routes{6.0 + 1e-5, 6.0 + 1e-5};  // both impose a bound at the same points
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "no");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 5).confirmed, "to 5 digits");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.1, 16), 5).confirmed, "no");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 9).confirmed, "no");
+}
+
 }  // namespace
 }  // namespace dmocbench

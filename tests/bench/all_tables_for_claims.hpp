@@ -204,6 +204,23 @@ inline Rows cold_start_rows() {
   return rows;
 }
 
+/// Steps of both sequences, with more iterations and more time by collocation.
+inline Rows sequence_rows() {
+  Rows rows;
+  for (const char* sequence : {"receding_horizon", "homotopy"}) {
+    for (const std::string& method : methods) {
+      for (int step = 1; step <= 12; ++step) {
+        const bool is_dmoc = method == "dmoc";
+        rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "intervals", "sequence", "step",
+                                     "status", "iterations", "microseconds"},
+                                    {orbit, method, "gauss", "1", "64", sequence, std::to_string(step), "solved",
+                                     is_dmoc ? "4" : "5", is_dmoc ? "100" : "150"}));
+      }
+    }
+  }
+  return rows;
+}
+
 inline Rows profile_rows() {
   Rows rows;
   for (const std::string method : {"dmoc", "hamiltonian"}) {
@@ -304,6 +321,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["local_minima_minima"] = minima_rows();
   rows["local_minima_shares"] = share_rows();
   rows["cold_start_shares"] = cold_start_rows();
+  rows["sequence"] = sequence_rows();
   rows["profile"] = profile_rows();
   return rows;
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bench/smoothness/optimum_error.hpp"
 #include "bench/experiment/restated_problem.hpp"
+#include "bench/smoothness/optimum_error.hpp"
 #include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"

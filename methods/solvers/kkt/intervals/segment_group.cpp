@@ -12,6 +12,8 @@ namespace {
 /// Beyond this number of intervals, their records no longer fit the second-level cache, and eliminating once more is no
 /// slower than fetching them (`build/bench/speed/solves` at N = 8192 and 16384).
 constexpr std::size_t most_recorded = 12288;
+/// The same of eight instances: as many records.
+constexpr std::size_t most_recorded_of_instances = most_recorded / lane_count;
 /// Intervals of a group of a long horizon: their numbers fit the second-level cache, and eight segments of an array
 /// fit a few pages of memory.
 constexpr std::size_t intervals_per_group = 1024;
@@ -29,6 +31,22 @@ GroupMemory::GroupMemory(const Shape& shape, std::size_t begin, std::size_t end,
   group_.steps = *std::ranges::max_element(group_.length);
   group_.shortest = *std::ranges::min_element(group_.length);
   group_.recorded_steps = keeps_records ? group_.steps : std::min(group_.steps, steps_per_chunk);
+  allocate(shape);
+}
+
+GroupMemory GroupMemory::of_instances(const Shape& shape, std::size_t intervals) {
+  GroupMemory memory;
+  SegmentGroup& group = memory.group_;
+  group.is_interleaved = true;
+  group.length.fill(static_cast<int>(intervals));
+  group.steps = group.length.front();
+  group.shortest = group.steps;
+  group.recorded_steps = intervals <= most_recorded_of_instances ? group.steps : steps_per_chunk;
+  memory.allocate(shape);
+  return memory;
+}
+
+void GroupMemory::allocate(const Shape& shape) {
   const bool has_checkpoints = group_.recorded_steps < group_.steps;
   const int chunks = (group_.steps + group_.recorded_steps - 1) / group_.recorded_steps;
   const int X = state_size(shape);

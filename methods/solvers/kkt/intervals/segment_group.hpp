@@ -15,6 +15,9 @@ class GroupMemory {
   /// Of the intervals `begin` .. `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
   GroupMemory(const Shape& shape, std::size_t begin, std::size_t end, bool keeps_records);
 
+  /// Of eight instances, one per lane, with as many intervals each.
+  [[nodiscard]] static GroupMemory of_instances(const Shape& shape, std::size_t intervals);
+
   /// Makes room for a plan's sweeps: `numbers` is SegmentKernel::workspace_size of it.
   void make_workspace(std::size_t numbers);
 
@@ -22,6 +25,9 @@ class GroupMemory {
   [[nodiscard]] const SegmentGroup& group() const noexcept { return group_; }
 
  private:
+  GroupMemory() = default;
+  void allocate(const Shape& shape);
+
   /// One number of every lane, aligned as vector registers want them.
   struct alignas(lane_count * sizeof(double)) Line {
     std::array<double, lane_count> numbers;

@@ -9,7 +9,8 @@
 
 namespace dmocbench::kkt {
 
-/// Segments of the horizon that are worked on together, one per lane of a vector register.
+/// Segments of the horizon that are worked on together, one per lane of a vector register; or instances of a program,
+/// one whole horizon per lane (`SegmentGroup::is_interleaved`).
 inline constexpr int lane_count = 8;
 
 /// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
@@ -68,9 +69,15 @@ struct SegmentGroup {
 
   double* state = nullptr;       ///< forward: X at the first node
   double* multiplier = nullptr;  ///< forward: ν
-  bool pivots_hold = false;      ///< all pivots of the free unknowns' Hessians are positive, beyond rounding; if
-                                 ///< not, the sweep ended early and left no value
-  double smallest_ratio = 0.0;   ///< smallest pivot of the equalities, relative to the usual one
+  /// The lanes are eight instances of a program: entry e of lane l of every array, and of every step, stands at
+  /// e * lane_count + l. All have `steps` intervals from 0 on. A lane whose pivots fail stops no other.
+  bool is_interleaved = false;
+  std::array<double, lane_count> lane_pivots_hold{};     ///< of interleaved lanes: 1, or -1 where one did not
+  std::array<double, lane_count> lane_smallest_ratio{};  ///< of interleaved lanes
+
+  bool pivots_hold = false;     ///< all pivots of the free unknowns' Hessians are positive, beyond rounding; if
+                                ///< not, the sweep ended early and left no value
+  double smallest_ratio = 0.0;  ///< smallest pivot of the equalities, relative to the usual one
 };
 
 /// The input of a backward sweep: the arrays by `Source`, and the weights at the end of a segment
@@ -79,7 +86,7 @@ struct NewtonArrays {
   std::array<const double*, source_count> arrays{};
   [[nodiscard]] const double* of(Source source) const { return arrays[static_cast<std::size_t>(source)]; }
   [[nodiscard]] double at(Source source, std::ptrdiff_t entry) const { return of(source)[entry]; }
-  const double* terminal_weights = nullptr;  ///< one per entry of the state
+  const double* terminal_weights = nullptr;  ///< one per entry of the state; of interleaved lanes each its own
 };
 
 /// Both sweeps over a group of segments for one shape and one instruction set.

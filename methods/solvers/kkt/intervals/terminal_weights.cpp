@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "methods/runtime/long_vectors.hpp"
@@ -20,7 +21,6 @@ constexpr std::size_t middle = 2;
 constexpr int patience = 2;
 /// A weight that drowned the stiffness tells that it was at most this share of the weight.
 constexpr double drowned_share = 1e-3;
-constexpr double smallest_curvature = 1e-12;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -67,12 +67,8 @@ double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArra
 /// The harmonic mean, because the most compliant unknowns count most, times the number of intervals, because the
 /// Hessian of an interval is proportional to its length. Unknowns that cost next to nothing, such as stage rates, are
 /// left out: equalities tie them to others that have a cost.
-double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
+double TerminalWeights::stiffness_of_free_unknowns(const std::vector<double>& compliances) const {
   constexpr double next_to_nothing = 1e4;
-  std::vector<double> compliances;
-  for (const Diagonal& diagonal : diagonals_) {
-    if (diagonal.is_free) compliances.push_back(compliance_of(diagonal, arrays));
-  }
   if (compliances.empty()) return 1.0;
   const double largest = next_to_nothing * *std::ranges::min_element(compliances);
   double sum = 0.0;
@@ -86,9 +82,23 @@ double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) c
   return sum > 0.0 ? count * count * kinds / sum : 1.0;
 }
 
+std::vector<TerminalWeights::Diagonal> TerminalWeights::free_diagonals() const {
+  std::vector<Diagonal> free;
+  std::ranges::copy_if(diagonals_, std::back_inserter(free), &Diagonal::is_free);
+  return free;
+}
+
 void TerminalWeights::rescale(const NewtonArrays& arrays) {
+  std::vector<double> compliances;
+  for (const Diagonal& diagonal : diagonals_) {
+    if (diagonal.is_free) compliances.push_back(compliance_of(diagonal, arrays));
+  }
+  rescale(compliances);
+}
+
+void TerminalWeights::rescale(const std::vector<double>& compliances) {
   update();
-  scale_ = stiffness_of_free_unknowns(arrays);
+  scale_ = stiffness_of_free_unknowns(compliances);
   values_ = multiples[level_] * scale_ * stiffness_;
   tried_ = 0;
 }

@@ -26,6 +26,19 @@ class TerminalWeights {
   void use(const EliminationPlan& plan);
   /// Adapts the weights to a new matrix.
   void rescale(const NewtonArrays& arrays);
+  /// The same where the compliances of the free unknowns are known, one per entry of `free_diagonals()`.
+  void rescale(const std::vector<double>& compliances);
+
+  /// The diagonal entry of the matrix that a moving unknown of the intervals has: `added` (of d) and, where it has one,
+  /// that of the Hessian. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + smallest_curvature).
+  struct Diagonal {
+    std::optional<LocalEntry> added;  ///< always there
+    std::optional<LocalEntry> hessian;
+    bool is_free = true;
+  };
+  static constexpr double smallest_curvature = 1e-12;
+  /// Those of unknowns that the order of elimination leaves free.
+  [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
   /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
   [[nodiscard]] bool next_multiple();
   /// All multiples are to be tried after the next failure.
@@ -37,14 +50,8 @@ class TerminalWeights {
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }
 
  private:
-  /// The diagonal entries of the matrix that a moving unknown of the intervals has.
-  struct Diagonal {
-    std::optional<LocalEntry> added;  ///< of d, always there
-    std::optional<LocalEntry> hessian;
-    bool is_free = true;
-  };
   [[nodiscard]] double compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const;
-  [[nodiscard]] double stiffness_of_free_unknowns(const NewtonArrays& arrays) const;
+  [[nodiscard]] double stiffness_of_free_unknowns(const std::vector<double>& compliances) const;
   void update();
 
   Eigen::Index intervals_;

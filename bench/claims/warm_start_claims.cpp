@@ -1,0 +1,128 @@
+// Sequences of problems that start from each other's answers: does DMOC start warm better than collocation?
+#include <algorithm>
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+#include "bench/claims/timed_ratios.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// A method that needs this many times DMOC's iterations needs more of them.
+constexpr double more_iterations = 1.05;
+/// The share of a sequence's steps that both methods have to solve.
+constexpr double enough_steps = 0.9;
+
+/// Collocation's number over DMOC's, at every step of a sequence that both solved.
+struct StepRatios {
+  std::string name;  ///< "hamiltonian, homotopy"
+  std::vector<double> microseconds;
+  double iterations = 0.0;  ///< of all these steps, over DMOC's
+  std::size_t left_out = 0;
+};
+
+double positive(const Row& row, const char* column) {
+  const double value = row.needed(column);
+  require(value > 0.0, "{}: {} is {}, not a positive number", row.place(), column, value);
+  return value;
+}
+
+double count(const Row& row, const char* column) {
+  const double value = row.needed(column);
+  require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, not a count", row.place(), column, value);
+  return value;
+}
+
+StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::string& name) {
+  StepRatios ratios{.name = name, .microseconds = {}};
+  double own_iterations = 0.0;
+  double other_iterations = 0.0;
+  for (const Row& own : dmoc) {
+    const Selection same = others.matching(own, {"tableau", "stages", "intervals", "step"});
+    if (same.size() != 1 || own.text("status") != "solved" || same.front().text("status") != "solved") {
+      ++ratios.left_out;
+      continue;
+    }
+    const Row& other = same.front();
+    own_iterations += count(own, "iterations");
+    other_iterations += count(other, "iterations");
+    ratios.microseconds.push_back(positive(other, "microseconds") / positive(own, "microseconds"));
+  }
+  const auto steps = static_cast<double>(dmoc.size());
+  require(static_cast<double>(ratios.microseconds.size()) >= enough_steps * steps,
+          "sequence.csv: only {} of {} steps of {} are solved by both methods", ratios.microseconds.size(), steps,
+          name);
+  require(own_iterations > 0.0, "sequence.csv: the steps of {} take no iterations", name);
+  ratios.iterations = other_iterations / own_iterations;
+  return ratios;
+}
+
+/// Of every kind of collocation and every sequence.
+std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string& problem) {
+  const Selection rows = tables.rows("sequence", problem);
+  std::vector<StepRatios> all;
+  for (const std::string sequence : {"receding_horizon", "homotopy"}) {
+    const Selection of_sequence = rows.where("sequence", sequence);
+    require(!of_sequence.empty(), "sequence.csv has no {} of {}", sequence, problem);
+    const Selection dmoc = midpoint(of_sequence, "dmoc");
+    require(!dmoc.empty(), "sequence.csv has no {} of {} by dmoc", sequence, problem);
+    for (const std::string method : {"hamiltonian", "tangent"}) {
+      const Selection others = midpoint(of_sequence, method);
+      require(!others.empty(), "sequence.csv has no {} of {} by {}", sequence, problem, method);
+      all.push_back(ratios_of(dmoc, others, method + ", " + sequence));
+    }
+  }
+  return all;
+}
+
+std::string left_out_of(const std::vector<StepRatios>& all) {
+  std::size_t count = 0;
+  for (const StepRatios& ratios : all) count += ratios.left_out;
+  return count == 0 ? "" : fmt::format("; {} steps left out, not solved by both", count);
+}
+
+Finding fewer_iterations(const ResultTables& tables, const std::string& problem) {
+  const std::vector<StepRatios> all = all_ratios(tables, problem);
+  std::string words;
+  for (const StepRatios& ratios : all) {
+    words += fmt::format("{}{} {:.2f}", words.empty() ? "" : ", ", ratios.name, ratios.iterations);
+  }
+  const bool holds =
+      std::ranges::all_of(all, [](const StepRatios& ratios) { return ratios.iterations >= more_iterations; });
+  return found(holds, "iterations over DMOC's: {}{}", words, left_out_of(all));
+}
+
+Finding less_time(const ResultTables& tables, const std::string& problem) {
+  const std::vector<StepRatios> all = all_ratios(tables, problem);
+  TimedRatios timed(1.0);
+  for (const StepRatios& ratios : all) timed.add(ratios.name, ratios.microseconds);
+  return judged(timed, "time of a step over DMOC's: ", left_out_of(all));
+}
+
+}  // namespace
+
+Claims warm_start_claims() {
+  return {{.id = "warm_starts_in_fewer_iterations",
+           .problems = of_paper,
+           .where = "section 4.1, SQP Method",
+           .whose = Whose::ours,
+           .states = "started warm, from unknowns and multipliers of the problem before, DMOC takes fewer iterations "
+                     "than collocation",
+           .judge = fewer_iterations,
+           .condition = "fewer: collocation takes at least 1.05 times as many; by interior_point",
+           .cause = "a warm start brings the multipliers too, and Newton's method needs as many steps from there "
+                    "whatever the unknowns are",
+           .evidence = {"sequence.csv", "figures/{}_sequence.svg"}},
+          {.id = "warm_starts_in_less_time",
+           .problems = of_paper,
+           .where = "section 3.4, rem:savings",
+           .whose = Whose::ours,
+           .states = "started warm, from unknowns and multipliers of the problem before, a step by DMOC takes less "
+                     "time than one by collocation",
+           .judge = less_time,
+           .condition = "by interior_point; each step's time is the smallest of its repeats",
+           .evidence = {"sequence.csv", "figures/{}_sequence.svg"}}};
+}
+
+}  // namespace dmocbench

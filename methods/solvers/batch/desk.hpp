@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+#include "methods/program/solution.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
+
+namespace dmocbench::batch {
+
+/// An instance with its number.
+struct Ticket {
+  std::size_t index = 0;
+  BatchInstance instance;
+};
+
+/// Where the groups of lanes, each on a thread of its own, fetch instances and leave answers.
+class Desk {
+ public:
+  virtual ~Desk() = default;
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+  Desk(Desk&&) = delete;
+  Desk& operator=(Desk&&) = delete;
+
+  /// The next instance that lanes can begin with; false if there is none left.
+  [[nodiscard]] virtual bool fetch(Ticket& ticket) = 0;
+  virtual void deliver(std::size_t index, const Solution& solution) = 0;
+  /// Solves an instance that the lanes cannot finish, and delivers the answer.
+  virtual void solve_one_by_one(const Ticket& ticket, const Solution& so_far) = 0;
+  /// `confirm` of an answer.
+  virtual void confirm(const Ticket& ticket, Solution& solution) = 0;
+  [[nodiscard]] virtual bool is_stopped() = 0;
+  virtual void count_round() = 0;
+
+ protected:
+  Desk() = default;
+};
+
+}  // namespace dmocbench::batch

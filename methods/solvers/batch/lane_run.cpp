@@ -1,0 +1,453 @@
+#include "methods/solvers/batch/lane_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "methods/solvers/confirm.hpp"
+
+namespace dmocbench::batch {
+
+namespace {
+
+using interior_point::Filter;
+
+// Constants of Wächter and Biegler, by their names there.
+constexpr double mu_0 = 0.1;
+constexpr double kappa_1 = 1e-2;
+constexpr double kappa_epsilon = 10.0;
+constexpr double kappa_mu = 0.2;
+constexpr double theta_mu = 1.5;
+constexpr double tau_min = 0.99;
+constexpr double eta_phi = 1e-8;
+constexpr double delta = 1.0;
+constexpr double s_theta = 1.1;
+constexpr double s_phi = 2.3;
+constexpr double gamma_alpha = 0.05;
+constexpr double theta_min_ratio = 1e-4;
+constexpr double theta_max_ratio = 1e4;
+// Those of interior_point_solver.cpp.
+constexpr double of_warm_start = 1e-6;
+constexpr double short_step = 0.1;
+constexpr double runaway = 1e8;
+constexpr double largest_estimate = 1e3;
+/// A step that bounds shorten by less counts as one of Newton's.
+constexpr double nearly_full = 0.9;
+
+Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
+
+LaneValues values_of(const LaneProblem& problem) {
+  return {LaneVector(problem.constraint_count()), OfLanes::Zero(), OfLanes::Zero(), OfLanes::Zero(), OfLanes::Zero()};
+}
+
+}  // namespace
+
+LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
+                 const BatchOptions& options, Desk& desk)
+    : options_(options),
+      desk_(desk),
+      problem_(program, std::move(lanes)),
+      kkt_(std::move(kkt)),
+      allowed_(program, options.tolerance),
+      rounding_of_theta_(program.rounding_floors().norm_of_rows(problem_.constraint_count())),
+      primal_(problem_.primal_count()),
+      multipliers_(problem_.constraint_count()),
+      z_(problem_.bounds().count()),
+      values_(values_of(problem_)),
+      trial_(primal_),
+      trial_values_(values_),
+      step_(primal_),
+      multiplier_step_(multipliers_),
+      z_step_(z_),
+      sigma_(primal_),
+      gradient_(primal_),
+      compliance_(problem_.inequalities().empty() ? 0 : problem_.constraint_count()),
+      residuals_(multipliers_),
+      balanced_(primal_) {}
+
+void LaneRun::run() {
+  for (refill(); !std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.phase == Phase::idle; }); refill()) {
+    solve_systems();
+    search_lines();
+    differentiate();
+    judge();
+    desk_.count_round();
+  }
+}
+
+template <class Value>
+OfLanes LaneRun::of_lanes(const Value& value) const {
+  OfLanes result;
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[index_of(lane)] = value(lanes_[lane]);
+  return result;
+}
+
+bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].ticket.instance.multipliers.size() > 0; }
+
+bool LaneRun::is_anyone(Phase phase) const {
+  return std::ranges::any_of(lanes_, [&](const Lane& lane) { return lane.phase == phase; });
+}
+
+void LaneRun::refill() {
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    if (lanes_[lane].phase != Phase::idle || desk_.is_stopped()) continue;
+    if (!desk_.fetch(lanes_[lane].ticket)) return;
+    begin(lane);
+  }
+}
+
+/// A-1, as far as it needs no value of the program.
+void LaneRun::begin(std::size_t number) {
+  Lane& lane = lanes_[number];
+  const BatchInstance& instance = lane.ticket.instance;
+  lane.phase = Phase::fresh;
+  lane.shift = {};
+  lane.iterations = 0;
+  lane.systems = 0;
+  lane.moves = false;
+  lane.is_newton = false;
+  lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? of_warm_start : mu_0;
+  kkt_->forget(number);
+  problem_.set_rows(number, instance.rows);
+  const Eigen::VectorXd& parameters = instance.parameters;
+  problem_.program().set_parameters(number, {parameters.data(), static_cast<std::size_t>(parameters.size())});
+  primal_.of(number).head(problem_.variable_count()) = instance.start;
+  problem_.bounds().push_inside(number, is_warm(number) ? of_warm_start : kappa_1, 0, problem_.variable_count(),
+                                primal_);
+  if (is_warm(number)) {
+    multipliers_.of(number) = instance.multipliers;
+  } else {
+    multipliers_.of(number).setZero();
+  }
+  z_.of(number).setOnes();
+}
+
+/// Σ, the right-hand side and the compliance of all lanes, with slacks eliminated: ds = E (dλ - ∇_s), E the compliance.
+void LaneRun::assemble_systems() {
+  const Eigen::Index n = problem_.variable_count();
+  const Eigen::Index m = problem_.constraint_count();
+  std::copy_n(problem_.gradient_of_lagrangian().data(), primal_.size() * width, gradient_.data());
+  std::copy_n(values_.constraints.data(), m * width, residuals_.data());
+  std::fill_n(sigma_.data(), sigma_.size() * width, 0.0);
+  if (problem_.has_bounds()) {
+    problem_.bounds().add_barrier(primal_, z_, of_lanes([](const Lane& lane) { return lane.mu; }), sigma_, gradient_);
+  }
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    if (lanes_[lane].phase != Phase::estimating) continue;
+    problem_.hessian().of(lane).setZero();
+    sigma_.of(lane).setZero();
+    residuals_.of(lane).setZero();
+    gradient_.of(lane).setZero();
+    gradient_.of(lane).head(n) = problem_.gradient().of(lane);
+    problem_.bounds().subtract_multipliers(lane, z_, gradient_);
+  }
+  const OfLanes shift =
+      of_lanes([](const Lane& lane) { return lane.phase == Phase::estimating ? 1.0 : lane.shift.value(); });
+  for (Eigen::Index i = 0; i < primal_.size(); ++i) sigma_[i] += shift;
+  for (Eigen::Index j = n; const Eigen::Index row : problem_.inequalities()) {
+    compliance_[row] = 1.0 / sigma_[j];
+    residuals_[row] += compliance_[row] * gradient_[j++];
+  }
+}
+
+/// A lane whose inertia is wrong waits for the next round with a larger shift, by Algorithm IC.
+void LaneRun::solve_systems() {
+  LaneMask wanted{};
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    wanted[lane] = lanes_[lane].phase == Phase::estimating || lanes_[lane].phase == Phase::newton;
+    lanes_[lane].moves = false;
+    lanes_[lane].waits = false;
+  }
+  if (std::ranges::none_of(wanted, std::identity{})) return;
+  problem_.evaluate_hessian(primal_, multipliers_);
+  assemble_systems();
+  const kkt::LaneKkt::Outcomes outcomes = kkt_->solve({.hessian = problem_.hessian().data(),
+                                                       .jacobian = problem_.jacobian().data(),
+                                                       .diagonal = sigma_.data(),
+                                                       .compliance = compliance_.data(),
+                                                       .gradient = gradient_.data(),
+                                                       .constraints = residuals_.data()},
+                                                      wanted, step_.data(), multiplier_step_.data());
+  for (Eigen::Index j = problem_.variable_count(); const Eigen::Index row : problem_.inequalities()) {
+    step_[j] = compliance_[row] * (multiplier_step_[row] - gradient_[j]);
+    ++j;
+  }
+  for (std::size_t number = 0; number < instance_lanes; ++number) {
+    Lane& lane = lanes_[number];
+    if (!wanted[number]) continue;
+    using enum kkt::LaneKkt::Outcome;
+    if (outcomes[number] == again) {
+      lane.waits = true;
+      continue;
+    }
+    ++lane.systems;
+    if (lane.phase == Phase::estimating) {
+      auto estimate = multiplier_step_.of(number);
+      const bool is_usable = outcomes[number] == solved && estimate.lpNorm<Eigen::Infinity>() <= largest_estimate;
+      if (is_usable) multipliers_.of(number) = estimate;
+      if (!is_usable) multipliers_.of(number).setZero();
+    } else if (outcomes[number] == solved) {
+      lane.moves = true;
+    } else if (outcomes[number] == wrong_inertia && lane.shift.raise()) {
+      lane.waits = true;
+    } else {
+      give_up(number);
+    }
+  }
+}
+
+/// From the fraction to the boundary (15a), halve α until filter and decrease accept the point.
+void LaneRun::search_lines() {
+  const OfLanes mu = of_lanes([](const Lane& lane) { return lane.mu; });
+  const OfLanes tau = (1.0 - mu).max(tau_min);  // (8)
+  length_.setZero();
+  if (std::ranges::any_of(lanes_, &Lane::moves)) {
+    OfLanes derivative;
+    lane_loops().dot(problem_.gradient().data(), step_.data(), problem_.variable_count(), derivative.data());
+    share_of_step_ = problem_.length_of(step_, primal_, derivative, values_.objective);
+    OfLanes longest = OfLanes::Ones();
+    if (problem_.has_bounds()) {
+      derivative += mu * problem_.bounds().barrier_derivative(primal_, step_);
+      longest = problem_.bounds().fraction_to_boundary(primal_, step_, tau);
+    }
+    for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+      if (!lanes_[lane].moves) continue;
+      lanes_[lane].derivative = derivative[index_of(lane)];
+      length_[index_of(lane)] = longest[index_of(lane)];
+      begin_search(lane);
+    }
+  }
+  LaneMask fresh{};
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) fresh[lane] = lanes_[lane].phase == Phase::fresh;
+  const OfLanes push =
+      of_lanes([](const Lane& lane) { return lane.ticket.instance.multipliers.size() > 0 ? of_warm_start : kappa_1; });
+  do {
+    lane_loops().set_to_sum(trial_.data(), primal_.data(), length_.data(), step_.data(), primal_.size());
+    problem_.evaluate(fresh, push, trial_, trial_values_);
+    for (std::size_t number = 0; number < instance_lanes; ++number) {
+      Lane& lane = lanes_[number];
+      if (fresh[number]) evaluate_start(number);
+      fresh[number] = false;
+      if (!lane.is_searching) continue;
+      lane.is_searching = !try_step(number);
+      if (!lane.is_searching) continue;
+      length_[index_of(number)] *= 0.5;
+      if (length_[index_of(number)] >= lane.smallest_length) continue;
+      length_[index_of(number)] = 0.0;
+      give_up(number);
+    }
+  } while (std::ranges::any_of(lanes_, &Lane::is_searching));
+  primal_.swap(trial_);
+  std::swap(values_, trial_values_);
+  lane_loops().set_to_sum(multipliers_.data(), multipliers_.data(), length_.data(), multiplier_step_.data(),
+                          multipliers_.size());
+  if (!problem_.has_bounds()) return;
+  // The step of z is that from the point before, which now stands in `trial_`.
+  problem_.bounds().set_multiplier_step(trial_, z_, mu, step_, z_step_);
+  const OfLanes of_z = problem_.bounds().multiplier_fraction_to_boundary(z_, z_step_, tau);
+  problem_.bounds().update_multipliers(primal_, z_step_, (length_ > 0.0).select(of_z, 0.0), mu, z_);
+}
+
+void LaneRun::begin_search(std::size_t number) {
+  constexpr double shortest = 1e-14;
+  Lane& lane = lanes_[number];
+  lane.is_newton = lane.shift.value() == 0.0;
+  lane.shift.keep();
+  lane.is_searching = true;
+  const double theta = values_.theta[index_of(number)];
+  double length = Filter::margin;  // (23)
+  if (lane.derivative < 0.0) {
+    length = std::min(length, -Filter::margin * theta / lane.derivative);
+    if (theta <= lane.theta_min) {
+      length = std::min(length, delta * std::pow(theta, s_theta) / std::pow(-lane.derivative, s_phi));
+    }
+  }
+  lane.smallest_length = std::max(gamma_alpha * length, shortest);
+}
+
+double LaneRun::barrier_function(std::size_t lane, const LaneValues& values) const {
+  return values.objective[index_of(lane)] + lanes_[lane].mu * values.barrier[index_of(lane)];
+}
+
+/// Whether filter and decrease allow the trial point, A-5.2 to. Differences within rounding count as
+/// none.
+bool LaneRun::try_step(std::size_t number) {
+  Lane& lane = lanes_[number];
+  const double length = length_[index_of(number)];
+  const double theta_before = values_.theta[index_of(number)];
+  const double theta = trial_values_.theta[index_of(number)];
+  const double objective = values_.objective[index_of(number)];
+  const double phi_before = barrier_function(number, values_);
+  const double phi = barrier_function(number, trial_values_);
+  if (!std::isfinite(theta) || !std::isfinite(phi)) return false;
+  constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
+  const double rounding = safety * std::sqrt(static_cast<double>(problem_.variable_count())) *
+                          std::numeric_limits<double>::epsilon() *
+                          (std::abs(objective) + std::abs(phi_before - objective));
+  if (!lane.filter.accepts(theta - rounding_of_theta_, phi - rounding)) return false;
+  const bool is_nearer = theta <= (1.0 - Filter::margin) * theta_before;  // (18a)
+  const bool is_rounding = theta <= rounding_of_theta_ && theta_before <= rounding_of_theta_;
+  const bool is_descent = lane.derivative < 0.0 &&
+                          length * std::pow(-lane.derivative, s_phi) > delta * std::pow(theta_before, s_theta);  // (19)
+  if (theta_before <= lane.theta_min && (is_descent || is_rounding)) {
+    // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
+    const bool is_decrease = phi - phi_before <= eta_phi * length * lane.derivative + rounding;  // (20)
+    return is_decrease || (is_rounding && is_nearer);
+  }
+  const bool is_lower = phi - phi_before <= -Filter::margin * theta_before + rounding;  // (18b)
+  if (!is_nearer && !is_lower) return false;
+  lane.filter.add(theta_before, phi_before);  // (22)
+  return true;
+}
+
+/// A-1, with the values at the start.
+void LaneRun::evaluate_start(std::size_t number) {
+  Lane& lane = lanes_[number];
+  const double theta = trial_values_.theta[index_of(number)];
+  if (!std::isfinite(theta) || !std::isfinite(trial_values_.objective[index_of(number)])) return give_up(number);
+  lane.theta_min = theta_min_ratio * std::max(1.0, theta);
+  lane.theta_max = theta_max_ratio * std::max(1.0, theta);
+  lane.filter.reset(lane.theta_max);
+}
+
+void LaneRun::differentiate() {
+  problem_.differentiate(primal_);
+  problem_.find_gradient_of_lagrangian(multipliers_);
+  if (!problem_.has_bounds()) return;
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    const bool is_fresh_and_warm = lanes_[lane].phase == Phase::fresh && is_warm(lane);
+    if (is_fresh_and_warm) {
+      problem_.bounds().balance(lane, lanes_[lane].mu, primal_, problem_.gradient_of_lagrangian(), z_);
+    }
+  }
+}
+
+/// of all lanes.
+void LaneRun::judge() {
+  const bool has_bounds = problem_.has_bounds();
+  const LaneVector& gradient = problem_.gradient_of_lagrangian();
+  OfLanes sum_of_multipliers;
+  lane_loops().magnitudes(multipliers_.data(), multipliers_.size(), sum_of_multipliers.data(),
+                          largest_multiplier_.data());
+  OfLanes sum_of_z = OfLanes::Zero();
+  const LaneVector* slope = &gradient;
+  mean_bound_multiplier_.setZero();
+  smallest_product_.setZero();
+  largest_product_.setZero();
+  if (has_bounds) {
+    std::copy_n(gradient.data(), gradient.size() * width, balanced_.data());
+    problem_.bounds().subtract_multipliers(z_, balanced_);
+    problem_.bounds().products(primal_, z_, smallest_product_, largest_product_);
+    lane_loops().sum(z_.data(), z_.size(), sum_of_z.data());
+    mean_bound_multiplier_ = sum_of_z / static_cast<double>(z_.size());
+    slope = &balanced_;
+  }
+  lane_loops().magnitudes(slope->data(), slope->size(), size_of_gradient_.data(), stationarity_.data());
+  mean_multiplier_ =
+      (sum_of_multipliers + sum_of_z) / std::max(1.0, static_cast<double>(z_.size() + multipliers_.size()));
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    if (lanes_[lane].phase != Phase::idle) judge(lane);
+  }
+}
+
+void LaneRun::judge(std::size_t number) {
+  Lane& lane = lanes_[number];
+  if (lane.waits) {
+    if (desk_.is_stopped()) finish(number, Status::interrupted);
+    return;
+  }
+  if (!std::isfinite(size_of_gradient_[index_of(number)])) return give_up(number);
+  const bool is_cold_start = lane.phase == Phase::fresh && !is_warm(number);
+  // Where bounds allow short steps only, every one of them may multiply the multipliers.
+  const bool has_runaway_multipliers =
+      lane.moves && length_[index_of(number)] <= short_step && largest_multiplier_[index_of(number)] > runaway;
+  if (lane.moves) lane.share_moved = share_of_step_[index_of(number)];
+  lane.is_newton = lane.is_newton && lane.moves && length_[index_of(number)] >= nearly_full;
+  if (is_cold_start || has_runaway_multipliers) {
+    const bool has_gradient = problem_.has_bounds() || !problem_.gradient().of(number).isZero(0.0);
+    lane.phase = has_gradient ? Phase::estimating : Phase::newton;
+    if (has_gradient) return;
+  }
+  lane.phase = Phase::newton;
+  if (is_solved(number)) return finish(number, Status::solved);
+  if (desk_.is_stopped()) return finish(number, Status::interrupted);
+  if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
+  update_barrier_parameter(number);
+  ++lane.iterations;
+  lane.shift.begin();
+}
+
+/// (5) and (6), as `BarrierProgram::meets` tells it.
+bool LaneRun::is_solved(std::size_t number) const {
+  const Eigen::Index lane = index_of(number);
+  const bool by_entries = !allowed_.is_one_for_all();
+  const bool holds = values_.violation[lane] <= allowed_.violation() ||
+                     (by_entries && allowed_.share_of_violation(values_.constraints.of(number)) <= 1.0);
+  if (!holds) return false;
+  const double mean = mean_multiplier_[lane];
+  const double largest = largest_multiplier_[lane];
+  const LaneVector& slope = problem_.has_bounds() ? balanced_ : problem_.gradient_of_lagrangian();
+  const double allowed = allowed_.stationarity(mean, largest);
+  const Eigen::Index n = problem_.variable_count();
+  const auto of_slacks = [&] { return slope.of(number).tail(slope.size() - n).cwiseAbs().sum(); };
+  const bool is_stationary = stationarity_[lane] <= allowed ||
+                             (by_entries && (slope.size() == n || of_slacks() <= allowed) &&
+                              allowed_.share_of_stationarity(slope.of(number).head(n), mean, largest) <= 1.0);
+  return is_stationary && largest_product_[lane] <= allowed_.complementarity(mean_bound_multiplier_[lane]);
+}
+
+/// Lower μ while E_μ <= κ_ε μ, (7).
+void LaneRun::update_barrier_parameter(std::size_t number) {
+  if (!problem_.has_bounds()) return;
+  const Eigen::Index at = index_of(number);
+  Lane& lane = lanes_[number];
+  const double smallest = options_.tolerance / (kappa_epsilon + 1.0);
+  const double without_mu = std::max(stationarity_[at] / StopRule::scale(mean_multiplier_[at]), values_.violation[at]);
+  const auto error = [&] {
+    const double complementarity =
+        std::max(std::abs(largest_product_[at] - lane.mu), std::abs(smallest_product_[at] - lane.mu));
+    return std::max(without_mu, complementarity / StopRule::scale(mean_bound_multiplier_[at]));
+  };
+  while (lane.mu > smallest && without_mu <= kappa_epsilon * lane.mu && error() <= kappa_epsilon * lane.mu) {
+    lane.mu = std::max(smallest, std::min(kappa_mu * lane.mu, std::pow(lane.mu, theta_mu)));
+    lane.filter.reset(lane.theta_max);
+  }
+}
+
+void LaneRun::give_up(std::size_t number) {
+  Lane& lane = lanes_[number];
+  lane.phase = Phase::idle;
+  lane.moves = false;
+  lane.is_searching = false;
+  solution_ = {};
+  solution_.status = Status::step_failed;
+  solution_.solver = "batch";
+  solution_.major_iterations = lane.iterations;
+  solution_.linear_systems = lane.systems;
+  desk_.solve_one_by_one(lane.ticket, solution_);
+}
+
+void LaneRun::finish(std::size_t number, Status status) {
+  const Eigen::Index at = index_of(number);
+  Lane& lane = lanes_[number];
+  lane.phase = Phase::idle;
+  lane.moves = false;
+  solution_.status = status;
+  solution_.message = sentence_of(status);
+  solution_.solver = "batch";
+  solution_.primal = primal_.of(number).head(problem_.variable_count());
+  solution_.multipliers = multipliers_.of(number);
+  solution_.objective = values_.objective[at];
+  solution_.kkt_residual = stationarity_[at];
+  solution_.constraint_violation = values_.violation[at];
+  solution_.correction.reset();
+  solution_.major_iterations = lane.iterations;
+  solution_.linear_systems = lane.systems;
+  // Where the last step was a full one of Newton's and short, the next one is shorter.
+  const bool is_settled = lane.is_newton && lane.share_moved <= settled;
+  if (status == Status::solved && !is_settled) desk_.confirm(lane.ticket, solution_);
+  desk_.deliver(lane.ticket.index, solution_);
+}
+
+}  // namespace dmocbench::batch

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "methods/program/status.hpp"
+#include "methods/solvers/batch/desk.hpp"
+#include "methods/solvers/batch/lane_problem.hpp"
+#include "methods/solvers/batch/lane_vector.hpp"
+#include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/newton_step.hpp"
+#include "methods/solvers/kkt/intervals/lane_kkt.hpp"
+#include "methods/solvers/stop_rule.hpp"
+
+namespace dmocbench::batch {
+
+/// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
+/// with one, without restoration and second-order corrections. Numbers in brackets are the equations, A-1 to A-9 the
+/// steps, of Wächter and Biegler (2006).
+///
+/// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which says what
+/// a round means to it; a lane whose inertia was wrong waits for the next round with a larger shift.
+class LaneRun {
+ public:
+  LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
+          const BatchOptions& options, Desk& desk);
+
+  /// Until the desk has no more instances.
+  void run();
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,        ///< no instance
+    fresh,       ///< its start is to be evaluated
+    estimating,  ///< the next system is that of the least-squares multipliers, (36)
+    newton,      ///< the next system is that of a Newton step, (13)
+  };
+  struct Lane {
+    Phase phase = Phase::idle;
+    Ticket ticket;
+    interior_point::Filter filter;
+    interior_point::InertiaShift shift;
+    double theta_min = 0.0;
+    double theta_max = 0.0;
+    double mu = 0.0;
+    // Of the present step.
+    bool is_searching = false;  ///< its length is not accepted yet
+    bool moves = false;         ///< there is one
+    bool waits = false;         ///< for another attempt at its system in the next round
+    double derivative = 0.0;    ///< of φ along it
+    double smallest_length = 0.0;
+    double share_moved = 0.0;  ///< how far it went, as `NewtonCorrections` measures it
+    bool is_newton = false;    ///< it was a full Newton step
+    int iterations = 0;
+    int systems = 0;
+  };
+
+  void refill();
+  void begin(std::size_t lane);
+  // The parts of a round.
+  void solve_systems();
+  void search_lines();
+  void differentiate();
+  void judge();
+
+  void assemble_systems();
+  void begin_search(std::size_t lane);
+  [[nodiscard]] bool try_step(std::size_t lane);
+  void evaluate_start(std::size_t lane);
+  void judge(std::size_t lane);
+  [[nodiscard]] bool is_solved(std::size_t lane) const;
+  void update_barrier_parameter(std::size_t lane);
+  void begin_iteration(std::size_t lane);
+  void give_up(std::size_t lane);
+  void finish(std::size_t lane, Status status);
+  [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
+  [[nodiscard]] bool is_warm(std::size_t lane) const;
+  [[nodiscard]] bool is_anyone(Phase phase) const;
+  /// A number of every lane, `value(lane)`.
+  template <class Value>
+  [[nodiscard]] OfLanes of_lanes(const Value& value) const;
+
+  const BatchOptions& options_;
+  Desk& desk_;
+  LaneProblem problem_;
+  std::unique_ptr<kkt::LaneKkt> kkt_;
+  StopRule allowed_;
+  double rounding_of_theta_;
+  std::array<Lane, instance_lanes> lanes_;
+
+  // The iterates.
+  LaneVector primal_;
+  LaneVector multipliers_;  // λ
+  LaneVector z_;
+  LaneValues values_;
+  LaneVector trial_;
+  LaneValues trial_values_;
+  // The steps.
+  LaneVector step_;
+  LaneVector multiplier_step_;
+  LaneVector z_step_;
+  OfLanes length_;         // α
+  OfLanes share_of_step_;  // see share_moved
+  // The systems.
+  LaneVector sigma_;       // Σ; later with δ_w, the diagonal
+  LaneVector gradient_;    // of the right-hand side, with the barrier
+  LaneVector compliance_;  // (Σ_s + δ_w)⁻¹, one per constraint
+  LaneVector residuals_;   // of the right-hand side
+  // What a judgement looks at.
+  OfLanes stationarity_;
+  OfLanes size_of_gradient_;  // not finite where an entry is not
+  OfLanes mean_multiplier_;
+  OfLanes largest_multiplier_;
+  OfLanes mean_bound_multiplier_;
+  OfLanes smallest_product_;  // of d z
+  OfLanes largest_product_;
+  LaneVector balanced_;  // the gradient of the Lagrangian with the multipliers of bounds
+  Solution solution_;    // memory of the answer that is delivered
+};
+
+}  // namespace dmocbench::batch

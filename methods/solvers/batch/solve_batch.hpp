@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "methods/program/lane_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/solution.hpp"
+
+namespace dmocbench {
+
+/// One instance of a program: the same structure, other numbers.
+struct BatchInstance {
+  /// Where the solve begins, variable_count() entries. Those of fixed unknowns are the values that they have in this
+  /// instance (the states of clamped ends, `ClampedEnds`).
+  Eigen::VectorXd start;
+  /// The values of equalities, constraint_count() entries; none for those of the program.
+  Eigen::VectorXd rows;
+  /// λ of an instance that is nearly the same, constraint_count() entries: a warm start. None for a cold one.
+  Eigen::VectorXd multipliers;
+  /// As many as `LaneProgram::parameter_count`.
+  Eigen::VectorXd parameters;
+};
+
+/// What a batch understands; the same meaning as in `SolverOptions`.
+struct BatchOptions {
+  double tolerance = 1e-10;
+  int most_iterations = 500;
+  /// Instances that the lanes cannot finish are solved one by one by `interior_point`; if false they keep the status
+  /// "step failed".
+  bool falls_back = true;
+  /// How many threads share the instances; 0 for `thread_count()`.
+  std::size_t threads = 0;
+  /// Asked once per iteration; true ends the batch: instances that are not finished are "interrupted", and no others
+  /// are fetched.
+  std::function<bool()> stop_requested = {};
+  /// Gives the program that evaluates single solves the parameters of an instance; needed where there are any.
+  std::function<void(const Eigen::VectorXd& parameters)> set_parameters = {};
+};
+
+/// How a batch went.
+struct BatchSummary {
+  std::size_t instances = 0;
+  std::size_t solved = 0;
+  /// Finished by `interior_point`, because the lanes have no restoration phase and no sparse factorisation.
+  std::size_t solved_one_by_one = 0;
+  /// Iterations of eight lanes together; those of all instances, divided by eight times this, is how full lanes were.
+  std::size_t rounds = 0;
+};
+
+/// Fetches the next instance into `instance`, whose vectors keep their memory; false if there is none left.
+using NextInstance = std::function<bool(std::size_t index, BatchInstance& instance)>;
+/// Takes the answer of an instance.
+using TakeSolution = std::function<void(std::size_t index, const Solution& solution)>;
+
+/// Solves many instances of a program by the interior-point method, eight at a time in the lanes of vector registers
+/// and several such groups on threads; see README.md. An instance that has converged leaves its lane to the next one.
+///
+/// `next` and `take` are called from several threads, one at a time; answers come in any order, each with the index
+/// that its instance was fetched with: 0, 1, ... Memory does not grow with their number. An answer depends on its
+/// instance alone, to the last digit: neither on its neighbours nor on the number of threads. It is solved only if the
+/// residuals of its optimality conditions are below the tolerance, and a Newton step would not move it (`confirm`).
+/// An instance of wrong sizes is an "invalid program", one with a number that is not finite an "evaluation failed".
+///
+/// `usual` is the start of any ordinary instance: the order of elimination is chosen there. Throws `Error` that says
+/// why, where the structure of the program does not fit: both ends of the horizon must be given, and the horizon. What
+/// `next` and `take` throw ends the batch, and is thrown again.
+BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes, const Eigen::VectorXd& usual,
+                         const NextInstance& next, const TakeSolution& take, const BatchOptions& options = {});
+
+}  // namespace dmocbench

@@ -1,0 +1,257 @@
+#include "methods/solvers/kkt/intervals/lane_kkt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "methods/runtime/lane_loops.hpp"
+
+namespace dmocbench::kkt {
+
+namespace {
+
+static_assert(lane_count == instance_lanes);
+
+/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
+constexpr double smallest_ratio = 1e-7;
+
+/// The reason why the ends of a program do not fit; null if they do.
+const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
+  if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
+  if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
+  if (!entries.end_rows.empty()) return "there are boundary conditions";
+  const auto is_fixed = [&](Eigen::Index i) { return program.variable_lower()[i] == program.variable_upper()[i]; };
+  for (const Eigen::Index first : entries.node_unknowns) {
+    if (!is_fixed(first)) return "the state at the start is not given";
+    if (!is_fixed(first + entries.intervals)) return "the state at the end is not given";
+  }
+  return nullptr;
+}
+
+/// Copies of the runs that some intervals lack, `width` numbers per entry.
+void copy_padded(const IntervalEntries& entries, const NewtonArrays& arrays, Eigen::Index width,
+                 Eigen::VectorXd& padded) {
+  for (const PaddedRun& run : entries.padded) {
+    std::copy_n(arrays.of(run.source) + run.entry * width, run.length * width,
+                padded.data() + (run.padded_first + run.begin) * width);
+  }
+}
+
+Eigen::VectorXd make_padded(const IntervalEntries& entries, Eigen::Index width) {
+  return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entries.padded.size()) * entries.intervals * width);
+}
+
+std::size_t lanes_of(int entries) { return static_cast<std::size_t>(entries) * lane_count; }
+
+}  // namespace
+
+LaneKkt::Made LaneKkt::make(const NonlinearProgram& program, const KktMatrix& usual, SegmentKernelChoice choose) {
+  auto entries = interval_entries(program);
+  if (!entries) return tl::unexpected(std::move(entries).error());
+  if (const char* const refusal = refusal_of_ends(program, *entries)) return tl::unexpected(std::string(refusal));
+  Eigen::VectorXd padded = make_padded(*entries, 1);
+  const NewtonArrays arrays{{usual.jacobian.data(), usual.hessian.data(), usual.diagonal.data(), nullptr, nullptr,
+                             usual.compliance.data(), padded.data()}};
+  copy_padded(*entries, arrays, 1, padded);
+  auto plan = elimination_plan(*entries, arrays, entries->intervals / 2);
+  if (!plan)
+    return tl::unexpected(std::string("the equalities of an interval depend on each other at the usual point"));
+  return std::unique_ptr<LaneKkt>(new LaneKkt(std::move(*entries), std::move(*plan), choose));
+}
+
+LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelChoice choose)
+    : entries_(std::move(entries)),
+      plan_(std::move(plan)),
+      kernel_(choose(plan_.shape)),
+      fresh_weights_(entries_),
+      lane_weights_(lanes_of(state_size(entries_.shape)), 1.0),
+      last_state_(lane_weights_.size(), 0.0),
+      factor_(lane_weights_.size() * static_cast<std::size_t>(state_size(entries_.shape))),
+      end_(lane_weights_.size()),
+      reachability_(state_size(entries_.shape), state_size(entries_.shape)),
+      padded_(make_padded(entries_, lane_count)),
+      memory_(GroupMemory::of_instances(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {
+  fresh_weights_.use(plan_);
+  weights_.assign(lane_count, fresh_weights_);
+  free_diagonals_ = fresh_weights_.free_diagonals();
+  compliances_.resize(free_diagonals_.size() * lane_count);
+  memory_.make_workspace(kernel_.workspace_size(plan_));
+  std::fill_n(memory_.group().state, lane_weights_.size(), 0.0);  // the first state is given
+}
+
+void LaneKkt::forget(std::size_t lane) {
+  weights_[lane] = fresh_weights_;
+  retries_[lane] = false;
+}
+
+NewtonArrays LaneKkt::arrays_of(const Systems& systems) {
+  NewtonArrays arrays{{systems.jacobian, systems.hessian, systems.diagonal, systems.gradient, systems.constraints,
+                       systems.compliance, padded_.data()}};
+  copy_padded(entries_, arrays, lane_count, padded_);
+  arrays.terminal_weights = lane_weights_.data();
+  return arrays;
+}
+
+LaneKkt::Outcomes LaneKkt::solve(const Systems& systems, const std::array<bool, lane_count>& wanted, double* primal,
+                                 double* multipliers) {
+  const NewtonArrays arrays = arrays_of(systems);
+  rescale_weights(arrays, wanted);
+  SegmentGroup& group = memory_.group();
+  kernel_.backward(plan_, arrays, group);
+  factorise_reachability();
+  Outcomes outcomes;
+  outcomes.fill(Outcome::failed);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if (wanted[lane]) outcomes[lane] = outcome_of(lane);
+  }
+  if (std::ranges::find(outcomes, Outcome::solved) == outcomes.end()) return outcomes;
+  find_end_multipliers(systems.constraints);
+  kernel_.forward(plan_, arrays, group, primal, multipliers);
+  write_ends(primal, multipliers);
+  write_inequality_multipliers(systems, primal, multipliers);
+  return outcomes;
+}
+
+void LaneKkt::rescale_weights(const NewtonArrays& arrays, const std::array<bool, lane_count>& wanted) {
+  for (std::size_t i = 0; i < free_diagonals_.size(); ++i) {
+    const TerminalWeights::Diagonal& diagonal = free_diagonals_[i];
+    const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first * lane_count; };
+    lane_loops().sum_of_reciprocals(diagonal.hessian ? numbers(*diagonal.hessian) : nullptr, numbers(*diagonal.added),
+                                    TerminalWeights::smallest_curvature, entries_.intervals,
+                                    &compliances_[i * lane_count]);
+  }
+  std::vector<double> of_lane(free_diagonals_.size());
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if (!wanted[lane]) continue;
+    if (!retries_[lane]) {
+      for (std::size_t i = 0; i < of_lane.size(); ++i) of_lane[i] = compliances_[i * lane_count + lane];
+      weights_[lane].rescale(of_lane);
+    }
+    const Eigen::VectorXd& values = weights_[lane].values();
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      lane_weights_[static_cast<std::size_t>(i) * lane_count + lane] = values[i];
+    }
+  }
+}
+
+/// Γ = LLᵀ in all lanes; L stands where the lower triangle of Γ stood, with the reciprocals of its diagonal.
+void LaneKkt::factorise_reachability() {
+  const auto X = static_cast<std::size_t>(state_size(entries_.shape));
+  const double* const gamma = memory_.group().reachability + X * lane_count;
+  const auto at = [&](std::size_t i, std::size_t j) { return (i + j * X) * lane_count; };
+  const double rounding = 10.0 * static_cast<double>(X) * std::numeric_limits<double>::epsilon();
+  is_definite_.fill(true);
+  for (std::size_t j = 0; j < X; ++j) {
+    for (std::size_t i = j; i < X; ++i) {
+      double* const entry = &factor_[at(i, j)];
+      std::copy_n(gamma + at(i, j), lane_count, entry);
+      for (std::size_t k = 0; k < j; ++k) {
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+          entry[lane] -= factor_[at(i, k) + lane] * factor_[at(j, k) + lane];
+        }
+      }
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        if (i > j) {
+          entry[lane] *= factor_[at(j, j) + lane];
+          continue;
+        }
+        const bool holds = entry[lane] > rounding * gamma[at(j, j) + lane];
+        is_definite_[lane] = is_definite_[lane] && holds;
+        entry[lane] = 1.0 / std::sqrt(holds ? entry[lane] : 1.0);
+      }
+    }
+  }
+}
+
+LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
+  const SegmentGroup& group = memory_.group();
+  retries_[lane] = false;
+  if (!(group.lane_smallest_ratio[lane] > smallest_ratio)) return Outcome::failed;
+  const bool pivots_hold = group.lane_pivots_hold[lane] > 0.0;
+  if (pivots_hold) {
+    const Eigen::Index X = reachability_.rows();
+    for (Eigen::Index i = 0; i < X; ++i) {
+      reachability_(i, i) = group.reachability[(X + i + i * X) * lane_count + static_cast<Eigen::Index>(lane)];
+    }
+    weights_[lane].observe(reachability_);
+    if (is_definite_[lane]) return Outcome::solved;
+    weights_[lane].distrust_next_failure();
+  }
+  retries_[lane] = weights_[lane].next_multiple();
+  if (retries_[lane]) return Outcome::again;
+  return pivots_hold ? Outcome::failed : Outcome::wrong_inertia;
+}
+
+/// d, and ν = Γ⁻¹(γ - d).
+void LaneKkt::find_end_multipliers(const double* constraints) {
+  const auto X = static_cast<std::size_t>(state_size(entries_.shape));
+  const auto node = static_cast<std::size_t>(entries_.shape.node);
+  const auto L = [&](std::size_t i, std::size_t j) { return &factor_[(i + j * X) * lane_count]; };
+  const auto row = [&](std::size_t i) { return &end_[i * lane_count]; };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(entries_.shape.node_sums); ++i) {
+    const double* const residual = constraints + (entries_.equality_rows[i] + entries_.intervals) * lane_count;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) last_state_[(node + i) * lane_count + lane] = -residual[lane];
+  }
+  const double* const gamma = memory_.group().reachability;
+  for (std::size_t i = 0; i < end_.size(); ++i) end_[i] = gamma[i] - last_state_[i];
+  for (std::size_t i = 0; i < X; ++i) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      for (std::size_t k = 0; k < i; ++k) row(i)[lane] -= L(i, k)[lane] * row(k)[lane];
+      row(i)[lane] *= L(i, i)[lane];
+    }
+  }
+  for (std::size_t i = X; i-- > 0;) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      for (std::size_t k = i + 1; k < X; ++k) row(i)[lane] -= L(k, i)[lane] * row(k)[lane];
+      row(i)[lane] *= L(i, i)[lane];
+    }
+  }
+  std::ranges::copy(end_, memory_.group().multiplier);
+}
+
+/// The steps of the ends and of fixed unknowns, which are zero, and the multipliers of the last node's rows, ν + ρ d.
+void LaneKkt::write_ends(double* primal, double* multipliers) const {
+  const Eigen::Index N = entries_.intervals;
+  for (const Eigen::Index first : entries_.node_unknowns) {
+    std::fill_n(primal + first * lane_count, lane_count, 0.0);
+    std::fill_n(primal + (first + N) * lane_count, lane_count, 0.0);
+  }
+  for (int column = 0; column < next_size(entries_.shape); ++column) {
+    if (!entries_.is_fixed_column(column)) continue;
+    std::fill_n(primal + entries_.unknown_in(column) * lane_count, N * lane_count, 0.0);
+  }
+  const auto node = static_cast<std::size_t>(entries_.shape.node);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(entries_.shape.node_sums); ++i) {
+    double* const to = multipliers + (entries_.equality_rows[i] + N) * lane_count;
+    const std::size_t at = (node + i) * lane_count;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      to[lane] = end_[at + lane] + lane_weights_[at + lane] * last_state_[at + lane];
+    }
+  }
+}
+
+/// (J δx + constraints) / e for the rows of every inequality.
+void LaneKkt::write_inequality_multipliers(const Systems& systems, const double* primal, double* multipliers) const {
+  const Eigen::Index count = entries_.intervals * lane_count;
+  using Numbers = Eigen::Map<const Eigen::ArrayXd>;
+  const auto row_of = [&](int inequality) {
+    return entries_.inequality_rows[static_cast<std::size_t>(inequality)] * lane_count;
+  };
+  const auto steps_of = [&](Eigen::Index row) { return Eigen::Map<Eigen::ArrayXd>(multipliers + row, count); };
+  for (const Eigen::Index row : entries_.inequality_rows) {
+    steps_of(row * lane_count) = Numbers(systems.constraints + row * lane_count, count);
+  }
+  const int one = next_size(entries_.shape) + state_size(entries_.shape);
+  for (const LocalEntry& entry : entries_.local) {
+    if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
+    const double* const from = entry.source == Source::padded ? padded_.data() : systems.jacobian;
+    steps_of(row_of(entry.row)) += Numbers(from + entry.first * lane_count, count) *
+                                   Numbers(primal + entries_.unknown_in(entry.column) * lane_count, count);
+  }
+  for (const Eigen::Index row : entries_.inequality_rows) {
+    steps_of(row * lane_count) /= Numbers(systems.compliance + row * lane_count, count);
+  }
+}
+
+}  // namespace dmocbench::kkt

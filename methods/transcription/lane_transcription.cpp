@@ -1,0 +1,195 @@
+#include "methods/transcription/lane_transcription.hpp"
+
+#include <utility>
+
+#include "methods/error.hpp"
+#include "methods/transcription/column_assembly.hpp"
+#include "methods/transcription/local_functions.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+Eigen::VectorXd each_for_all_lanes(const Eigen::VectorXd& values) {
+  return values.transpose().replicate(instance_lanes, 1).reshaped();
+}
+
+Eigen::Map<Eigen::VectorXd> map(double* first, Eigen::Index size) {
+  return {first, size * static_cast<Eigen::Index>(instance_lanes)};
+}
+
+}  // namespace
+
+/// `ProgramPart` on interleaved vectors: eight times as many intervals, everything else eight times as far apart.
+class LaneTranscription::Part {
+ public:
+  Part(const Transcription& program, const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+       const std::vector<ColumnPlace>& rows, bool has_ends_only)
+      : program_(program),
+        intervals_(has_ends_only ? 1 : program.layout().intervals()),
+        mode_(has_ends_only ? AssemblyMode::part : AssemblyMode::whole),
+        numbers_(functions.inputs),
+        unknowns_(heads(unknowns)),
+        rows_(heads(rows)),
+        inputs_(functions.inputs.count()),
+        cost_(functions.cost, plan({{0}}, intervals_, AssemblyMode::whole)),
+        constraints_(functions.rows.schedule, plan(places_of(functions.rows, rows), program.constraint_count(), mode_)),
+        gradient_(functions.gradient.schedule,
+                  plan(places_of(functions.gradient, unknowns), program.variable_count(), mode_)),
+        jacobian_(functions.jacobian.schedule,
+                  plan(places_in(program.jacobian_structure(), functions.jacobian, rows, unknowns, false),
+                       program.jacobian_structure().size(), mode_)),
+        hessian_(functions.hessian.schedule,
+                 plan(places_in(program.hessian_structure(), functions.hessian, unknowns, unknowns, true),
+                      program.hessian_structure().size(), mode_)),
+        costs_(static_cast<Eigen::Index>(intervals_ * instance_lanes)) {}
+
+  void give_times(const Eigen::VectorXd& steps, const Eigen::VectorXd& times) {
+    inputs_[numbers_.step()] = {steps.data(), false};
+    inputs_[numbers_.time()] = {times.data(), false};
+    inputs_[numbers_.objective_factor()] = {&one_, true};
+  }
+
+  void add_objective(const double* x, double* result) {
+    cost_.evaluate(bind(x), costs_);
+    std::array<double, instance_lanes> sums{};
+    lane_loops().sum(costs_.data(), static_cast<std::ptrdiff_t>(intervals_), sums.data());
+    for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] += sums[lane];
+  }
+  void constraints(const double* x, VectorOut result) { constraints_.evaluate(bind(x), result); }
+  void gradient(const double* x, VectorOut result) { gradient_.evaluate(bind(x), result); }
+  void jacobian(const double* x, VectorOut values) { jacobian_.evaluate(bind(x), values); }
+  void hessian(const double* x, const double* multipliers, VectorOut values) {
+    for (std::size_t r = 0; r < numbers_.rows; ++r) inputs_[numbers_.multiplier(r)] = {multipliers + rows_[r], false};
+    hessian_.evaluate(bind(x), values);
+  }
+
+ private:
+  static std::vector<std::size_t> heads(const std::vector<ColumnPlace>& places) {
+    std::vector<std::size_t> heads;
+    for (const ColumnPlace& place : places) heads.push_back(place.first * instance_lanes);
+    return heads;
+  }
+  [[nodiscard]] AssemblyPlan plan(std::vector<ColumnPlace> places, std::size_t size, AssemblyMode mode) const {
+    for (ColumnPlace& place : places) place.first *= instance_lanes;
+    return {.places = std::move(places),
+            .size = size * instance_lanes,
+            .intervals = intervals_ * instance_lanes,
+            .mode = mode};
+  }
+  static std::vector<ColumnPlace> places_of(const LocalVector& vector, const std::vector<ColumnPlace>& all) {
+    std::vector<ColumnPlace> places;
+    for (const std::size_t place : vector.places) places.push_back(all[place]);
+    return places;
+  }
+  /// Where the local entries of interval 0 stand in the program's matrix.
+  static std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalMatrix& matrix,
+                                            const std::vector<ColumnPlace>& rows,
+                                            const std::vector<ColumnPlace>& columns, bool lower_triangle) {
+    std::vector<ColumnPlace> places;
+    for (std::size_t e = 0; e < matrix.rows.size(); ++e) {
+      std::size_t row = rows[matrix.rows[e]].first;
+      std::size_t column = columns[matrix.columns[e]].first;
+      if (lower_triangle && row < column) std::swap(row, column);
+      const auto found = pattern.find(row, column);
+      if (!found) throw Error("an entry of an interval is not in the program's matrix");
+      places.emplace_back(*found);
+    }
+    return places;
+  }
+  std::span<const Tape::Input> bind(const double* x) {
+    for (std::size_t a = 0; a < numbers_.unknowns; ++a) inputs_[a] = {x + unknowns_[a], false};
+    return inputs_;
+  }
+
+  const Transcription& program_;
+  std::size_t intervals_;
+  AssemblyMode mode_;
+  LocalInputs numbers_;
+  std::vector<std::size_t> unknowns_;
+  std::vector<std::size_t> rows_;
+  std::vector<Tape::Input> inputs_;
+  AssembledTape cost_;
+  AssembledTape constraints_;
+  AssembledTape gradient_;
+  AssembledTape jacobian_;
+  AssembledTape hessian_;
+  Eigen::VectorXd costs_;  // per interval
+  double one_ = 1.0;
+};
+
+LaneTranscription::LaneTranscription(const Transcription& program)
+    : variables_(static_cast<Eigen::Index>(program.variable_count())),
+      rows_(static_cast<Eigen::Index>(program.constraint_count())),
+      jacobian_entries_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
+      hessian_entries_(static_cast<Eigen::Index>(program.hessian_structure().size())),
+      steps_(each_for_all_lanes(program.step_inputs())),
+      times_(each_for_all_lanes(program.time_inputs())) {
+  if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
+  const Layout& layout = program.layout();
+  parts_.push_back(
+      std::make_unique<Part>(program, program.functions(), layout.unknown_places(), layout.row_places(), false));
+  if (program.end_functions()) {
+    parts_.push_back(std::make_unique<Part>(program, *program.end_functions(), layout.end_unknown_places(),
+                                            layout.end_row_places(), true));
+  }
+  for (const auto& part : parts_) part->give_times(steps_, times_);
+}
+
+LaneTranscription::~LaneTranscription() = default;
+
+void LaneTranscription::objective(const double* x, double* result) {
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] = 0.0;
+  for (const auto& part : parts_) part->add_objective(x, result);
+}
+
+void LaneTranscription::gradient(const double* x, double* result) {
+  for (const auto& part : parts_) part->gradient(x, map(result, variables_));
+}
+
+void LaneTranscription::constraints(const double* x, double* result) {
+  for (const auto& part : parts_) part->constraints(x, map(result, rows_));
+}
+
+void LaneTranscription::jacobian(const double* x, double* values) {
+  for (const auto& part : parts_) part->jacobian(x, map(values, jacobian_entries_));
+}
+
+void LaneTranscription::hessian(const double* x, const double* multipliers, double* values) {
+  for (const auto& part : parts_) part->hessian(x, multipliers, map(values, hessian_entries_));
+}
+
+MakeLanes lanes_of(const Transcription& program) {
+  return [&program] { return std::make_unique<LaneTranscription>(program); };
+}
+
+ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), legendre_(program.traced_problem()) {
+  const bool are_clamped = program.bounds().first.all_fixed() && program.bounds().last.all_fixed();
+  if (!are_clamped || program.has_free_horizon()) {
+    throw Error("the ends of this problem are not clamped: a batch cannot give every instance its own");
+  }
+}
+
+void ClampedEnds::write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
+                        Eigen::VectorXd& rows) {
+  write_end(first, 0, 0.0, -1.0, x, rows);
+  write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, rows);
+}
+
+void ClampedEnds::write_end(const BoundaryState& end, std::size_t node, double time, double sign, Eigen::VectorXd& x,
+                            Eigen::VectorXd& rows) {
+  const Layout& layout = program_.layout();
+  const auto entry = [&](std::size_t head) { return static_cast<Eigen::Index>(head + node); };
+  const bool is_velocity = layout.node_state() == NodeState::velocity;
+  const Eigen::VectorXd second = is_velocity ? end.v : legendre_.momentum(end.q, end.v, time);
+  for (Eigen::Index i = 0; i < end.q.size(); ++i) {
+    x[entry(layout.configuration_column(i))] = end.q[i];
+    if (layout.node_state() == NodeState::configuration) {
+      rows[entry(layout.node_row_column(i))] = sign * second[i];
+    } else {
+      x[entry(layout.second_column(i))] = second[i];
+    }
+  }
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/program/lane_program.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench {
+
+/// Eight instances of a transcription side by side, by its exact derivatives: the tapes of one interval run over the
+/// intervals of all eight, interval k of lanes 0 .. 7 being neighbours.
+class LaneTranscription final : public LaneProgram {
+ public:
+  /// Reads the program in this call only. Throws `Error` where the horizon is free.
+  explicit LaneTranscription(const Transcription& program);
+  ~LaneTranscription() override;
+  LaneTranscription(const LaneTranscription&) = delete;
+  LaneTranscription& operator=(const LaneTranscription&) = delete;
+  LaneTranscription(LaneTranscription&&) = delete;
+  LaneTranscription& operator=(LaneTranscription&&) = delete;
+
+  void objective(const double* x, double* result) override;
+  void gradient(const double* x, double* result) override;
+  void constraints(const double* x, double* result) override;
+  void jacobian(const double* x, double* values) override;
+  void hessian(const double* x, const double* multipliers, double* values) override;
+
+ private:
+  class Part;
+
+  Eigen::Index variables_;
+  Eigen::Index rows_;
+  Eigen::Index jacobian_entries_;
+  Eigen::Index hessian_entries_;
+  Eigen::VectorXd steps_;  // every entry eight times
+  Eigen::VectorXd times_;
+  std::vector<std::unique_ptr<Part>> parts_;  // the intervals; the ends, unless they add nothing
+};
+
+/// Makes the lanes of a transcription, which must outlive what is returned.
+[[nodiscard]] MakeLanes lanes_of(const Transcription& program);
+
+/// Writes states of the ends into the numbers of an instance: a clamped end fixes q and, where nodes carry it, p or v;
+/// for DMOC the momentum of the end is the value of its row, (eq:gDLOCP3).
+class ClampedEnds {
+ public:
+  /// The program must outlive it. Throws `Error` unless both ends are clamped.
+  explicit ClampedEnds(const Transcription& program);
+
+  /// `x`: the unknowns of a start, variable_count() entries; `rows`: the values that equalities have,
+  /// constraint_count() entries. Only those of the ends are written.
+  void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x, Eigen::VectorXd& rows);
+
+ private:
+  void write_end(const BoundaryState& end, std::size_t node, double time, double sign, Eigen::VectorXd& x,
+                 Eigen::VectorXd& rows);
+
+  const Transcription& program_;
+  LegendreTransform legendre_;
+};
+
+}  // namespace dmocbench

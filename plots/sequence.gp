@@ -1,0 +1,45 @@
+# Time of every step where problems follow each other and each starts from the answer of the one before.
+#   gnuplot -e "results='results'" plots/sequence.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("sequence", "problem,method,intervals,sequence,step,status,iterations,microseconds")
+eval require("sequence_summary",\
+    "problem,method,sequence,median_iterations,p99_iterations,median_microseconds,p99_microseconds,median_cold_iterations")
+
+colour(method) = word(blue." ".vermilion." ".green." ".purple, method_style(method))
+summary(where, column) = entry(distinct("sequence_summary", column, where, ""), column)
+rounded(text) = sprintf("%.0f", number(text))
+label(where) = method_label(entry(where, "method")).sprintf(\
+    ": iterations %s (cold %s), µs %s, 99 %% below %s", rounded(summary(where, "median_iterations")),\
+    summary(where, "median_cold_iterations") eq "" ? "–" : rounded(summary(where, "median_cold_iterations")),\
+    rounded(summary(where, "median_microseconds")), rounded(summary(where, "p99_microseconds")))
+in_words(sequence) = sequence eq "receding_horizon" ? "Receding horizon with disturbances"\
+    : sequence eq "homotopy" ? "Homotopy in a parameter" : sequence
+
+do for [problem_word in problems_of("sequence", "microseconds")] {
+  problem = entry(problem_word, "problem")
+  sequences = distinct("sequence", "sequence", problem_word, "microseconds")
+  grid = entry(distinct("sequence", "intervals", problem_word, ""), "intervals")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_sequence", 1200, 600)
+    set multiplot layout 1, 2 title title_text(problem_label(problem).": time of a step that starts warm",\
+        "Each problem starts from unknowns and multipliers of the one before; interior point, N = ".grid.".",\
+        "Medians of iterations and of times; the time of a step is that of the solver alone, the smallest of its repeats.")\
+        offset 0, -0.4 margins 0.075, 0.985, 0.31, 0.79 spacing 0.1
+    do for [panel = 1:words(sequences)] {
+      where = problem_word.",".word(sequences, panel)
+      methods = distinct("sequence", "method", where, "microseconds")
+      set logscale y 10; set format y "%g"; set ytics autofreq
+      set xlabel "step"
+      set ylabel "microseconds"
+      set key at screen (panel == 1 ? 0.05 : 0.55), 0.2 left top Left reverse font ",11"
+      set title in_words(entry(word(sequences, panel), "sequence"))
+      plot for [method in methods] rows("sequence", where.",".method, "microseconds") using "step":"microseconds"\
+             with points linecolor rgb colour(entry(method, "method")) pointsize 0.5\
+             pointtype int(word("7 6 9 5", method_style(entry(method, "method"))))\
+             title label(where.",".method)
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_sequence")
+  }
+}

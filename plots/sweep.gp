@@ -1,0 +1,47 @@
+# Cost, iterations and status over two quantities that a sweep varies: the first two of its --over.
+#   gnuplot -e "results='results'" plots/sweep.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("sweep", "problem,method,intervals,status,objective,major_iterations,instance")
+# The columns behind `instance` are the quantities.
+quantities = system("awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) { if (found) print $i; if ($i == \"instance\") found = 1 } }' '"\
+    .table("sweep")."'")
+if (words(quantities) < 2) { print "a sweep of one quantity has no map"; exit status 0 }
+x = word(quantities, 1)
+y = word(quantities, 2)
+tried(where) = "< ".rows_awk("-v take=all -v branches=any -v where='".where."'", "sweep")
+answers(where) = "< ".rows_awk("-v take=drawn -v branches=any -v where='".where."'", "sweep")
+is(wanted) = stringcolumn("status") eq wanted ? column(y) : NaN
+other(height) = (stringcolumn("status") eq "solved") || (stringcolumn("status") eq "too coarse") ? NaN : height
+# Squares that touch where there are few values.
+size_of(where) = 16.0 / (1.5 + words(distinct("sweep", y, where, "")))
+
+set palette defined (0 "#0b2a4a", 0.35 blue, 0.7 "#9ecae1", 1 "#f4d35e")
+do for [where in system(rows_awk("-v take=all -v branches=any -v distinct=problem,method,intervals", "sweep"))] {
+  name = entry(where, "problem")."_sweep".(entry(where, "method") eq "dmoc" ? "" : "_".entry(where, "method"))
+  do for [kind in kinds] {
+    eval begin_figure(kind, name, 1500, 560)
+    set multiplot layout 1, 3 title title_text(problem_label(entry(where, "problem")).": a sweep over "\
+        .system("echo '".x." and ".y."' | tr '_' ' '"), method_label(entry(where, "method")).", N = "\
+        .entry(where, "intervals").". ".conditions("sweep"), "") offset 0, -0.4\
+        margins 0.055, 0.965, 0.2, 0.78 spacing 0.1
+    set xlabel system("echo '".x."' | tr '_' ' '")
+    set ylabel system("echo '".y."' | tr '_' ' '")
+    set offsets graph 0.08, graph 0.08, graph 0.1, graph 0.1
+    unset key
+    set title "cost J"
+    plot answers(where) using x:y:"objective" with points pointtype 5 pointsize size_of(where) linecolor palette
+    unset ylabel
+    set title "iterations"
+    plot answers(where) using x:y:"major_iterations" with points pointtype 5 pointsize size_of(where) linecolor palette
+    set title "status"
+    set key at screen 0.835, 0.02 center bottom maxrows 1
+    plot tried(where) using x:(is("solved")) with points pointtype 5 pointsize 1 linecolor rgb blue title "solved",\
+         tried(where) using x:(is("too coarse")) with points pointtype 4 pointsize 1 linecolor rgb green\
+           title "too coarse",\
+         tried(where) using x:(other(column(y))) with points pointtype 2 pointsize 1 linecolor rgb vermilion\
+           title "not solved"
+    unset multiplot
+    eval end_figure(kind, name)
+  }
+}

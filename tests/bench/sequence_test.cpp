@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include "bench/sequence/neighbours.hpp"
+#include "bench/sequence/shifted.hpp"
+#include "bench/sequence/solved_steps.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/solving.hpp"
+
+namespace dmocbench {
+namespace {
+
+TEST(Shifted, BelongsToTheNodeOrIntervalBehind) {
+  Places places;
+  places.append(Place::Kind::node, 0, 3);
+  places.append(Place::Kind::interval, 0, 2);
+  places.append(Place::Kind::node, 2, 1);
+  places.append(Place::Kind::border, 0, 2);
+  Eigen::VectorXd values(8);
+  values << 1, 2, 3, 4, 5, 6, 7, 8;
+  Eigen::VectorXd expected(8);
+  expected << 2, 3, 3, 5, 5, 6, 7, 8;
+  EXPECT_EQ(shifted(places, values), expected);
+}
+
+class SequenceOfProblems : public testing::Test {
+ protected:
+  SolvedCase solved_first(const std::string& method) {
+    const Case the_case{.problem = problem_,
+                        .method = method,
+                        .tableau = "gauss",
+                        .solver = "interior_point",
+                        .grid = Grid::uniform(16)};
+    const Motion start = tests::common_start(*problem_);
+    return solve_case(the_case, {start}, *make_solver("interior_point"), 1e-10, 1);
+  }
+  std::shared_ptr<const Problem> problem_ = make_problem("two_link_manipulator");
+};
+
+TEST_F(SequenceOfProblems, BeginsAtTheSecondNodeOfTheLastSolutionButForTheDisturbance) {
+  const SolvedCase first = solved_first("dmoc");
+  const Trajectory& motion = *first.trajectory;
+  const auto without = receding_horizon(problem_, motion, 0.0, 1)->next(1, motion);
+  EXPECT_EQ(without->initial_state().q, motion.q.row(1).transpose());
+  EXPECT_EQ(without->initial_state().v, motion.v.row(1).transpose());
+  EXPECT_EQ(without->final_state().q, problem_->final_state().q);  // at rest
+  const auto with = receding_horizon(problem_, motion, 0.01, 1)->next(1, motion);
+  const Eigen::VectorXd range = (motion.q.colwise().maxCoeff() - motion.q.colwise().minCoeff()).transpose();
+  const Eigen::VectorXd moved = with->initial_state().q - without->initial_state().q;
+  EXPECT_GT(moved.norm(), 0.0);
+  EXPECT_TRUE((moved.cwiseAbs().array() <= 0.01 * range.array()).all());
+  EXPECT_EQ(receding_horizon(problem_, motion, 0.01, 1)->next(1, motion)->initial_state().q, with->initial_state().q);
+  EXPECT_NE(receding_horizon(problem_, motion, 0.01, 2)->next(1, motion)->initial_state().q, with->initial_state().q);
+}
+
+TEST_F(SequenceOfProblems, OfTheOrbitMovesItsEndAlongTheCircle) {
+  const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
+  Trajectory motion;
+  motion.node_times = Eigen::VectorXd::LinSpaced(3, 0.0, 2.0);
+  motion.q = Eigen::MatrixXd::Ones(3, 2);
+  motion.v = Eigen::MatrixXd::Ones(3, 2);
+  const auto next = receding_horizon(orbit, motion, 0.0, 1)->next(1, motion);
+  EXPECT_EQ(next->final_state().q, orbit->final_state().q + orbit->final_state().v);
+  EXPECT_EQ(next->final_state().v, orbit->final_state().v);
+}
+
+TEST_F(SequenceOfProblems, IsSolvedWarmInFewerIterationsThanCold) {
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    SCOPED_TRACE(method);
+    const SolvedCase first = solved_first(method);
+    SequenceRun run(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, 1);
+    for (int step = 0; step < 5; ++step) {
+      const Step solved = run.next(true);
+      EXPECT_EQ(solved.warm.status, "solved");
+      EXPECT_EQ(solved.is_warm_worse(), false);
+      EXPECT_LE(solved.warm.iterations, 8);
+      EXPECT_EQ(solved.number, step + 1);
+    }
+  }
+}
+
+TEST_F(SequenceOfProblems, GoesFromTheLowerToTheUpperValueOfItsQuantity) {
+  const SweptQuantity quantity{"final_q1", 0.2, 0.7};
+  const auto neighbours = homotopy(problem_, {}, quantity, 5);
+  EXPECT_DOUBLE_EQ(neighbours->next(1, {})->final_state().q[0], 0.3);
+  EXPECT_DOUBLE_EQ(neighbours->next(5, {})->final_state().q[0], 0.7);
+}
+
+Step step_of(int number, int iterations, const std::optional<StepSolve>& cold, const std::string& status = "solved") {
+  return {.scheme = {"orbital_transfer", "dmoc", "gauss", 1},
+          .intervals = 64,
+          .sequence = "homotopy",
+          .number = number,
+          .warm = {.status = status, .iterations = iterations, .microseconds = 10.0 * iterations},
+          .cold = cold};
+}
+
+TEST(SequenceSummary, TellsQuantilesAndHowOftenWarmIsWorse) {
+  std::vector<Step> steps;
+  for (int i = 1; i <= 200; ++i) steps.push_back(step_of(i, i, std::nullopt));
+  steps[0].cold = StepSolve{.status = "solved", .iterations = 0};                                   // warm is worse
+  steps[1].cold = StepSolve{.status = "solved", .iterations = 30};                                  // better
+  steps[2].cold = StepSolve{.status = "step failed", .iterations = 1};                              // better
+  steps.push_back(step_of(201, 7, StepSolve{.status = "solved", .iterations = 9}, "step failed"));  // worse
+  const Table table = sequence_summary(steps);
+  ASSERT_EQ(table.rows().size(), 1U);
+  const Row& row = table.rows().front();
+  EXPECT_EQ(row.text("steps"), "201");
+  EXPECT_EQ(row.text("solved"), "200");
+  EXPECT_EQ(row.number("median_iterations"), 100.0);
+  EXPECT_EQ(row.number("p99_iterations"), 198.0);
+  EXPECT_EQ(row.number("largest_iterations"), 200.0);
+  EXPECT_EQ(row.number("p99_microseconds"), 1980.0);
+  EXPECT_EQ(row.number("compared_with_cold"), 4.0);
+  EXPECT_EQ(row.number("warm_is_worse"), 0.5);
+}
+
+}  // namespace
+}  // namespace dmocbench
