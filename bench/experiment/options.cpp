@@ -1,6 +1,7 @@
 #include "bench/experiment/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <functional>
 #include <iterator>
@@ -74,10 +75,12 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
   return grids;
 }
 
-constexpr std::string_view shooting = "multiple_shooting";
+/// The families of shooting as a command line names them.
+constexpr std::array shooting_families{std::pair{std::string_view("multiple_shooting"), Shooting::multiple},
+                                       std::pair{std::string_view("single_shooting"), Shooting::single}};
 
 /// The names of shooting by every chosen integrator with every chosen number of substeps.
-std::vector<std::string> shooting_names(const ExperimentOptions& options) {
+std::vector<std::string> shooting_names(Shooting shooting, const ExperimentOptions& options) {
   const std::vector<std::string> integrators =
       options.integrators.empty() ? std::vector<std::string>{"rk4"}
                                   : in_order("integrator", options.integrators, explicit_integrator_names());
@@ -86,11 +89,11 @@ std::vector<std::string> shooting_names(const ExperimentOptions& options) {
   std::vector<std::string> names;
   for (const std::string& integrator : integrators) {
     for (const int count : substeps) {
-      if (count < 1 || count > MultipleShootingElement::most_substeps) {
-        throw Error(fmt::format("--substeps takes whole numbers from 1 to {}, got {}",
-                                MultipleShootingElement::most_substeps, count));
+      if (count < 1 || count > ShootingElement::most_substeps) {
+        throw Error(
+            fmt::format("--substeps takes whole numbers from 1 to {}, got {}", ShootingElement::most_substeps, count));
       }
-      names.push_back(multiple_shooting_name(integrator, count));
+      names.push_back(shooting_name(shooting, integrator, count));
     }
   }
   return names;
@@ -98,19 +101,22 @@ std::vector<std::string> shooting_names(const ExperimentOptions& options) {
 
 /// The families as chosen, with shooting as its integrators and substeps say.
 std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
-  const bool shoots = std::ranges::count(options.methods, shooting) > 0;
-  if (!shoots && !(options.integrators.empty() && options.substeps.empty())) {
-    throw Error(fmt::format("--integrator and --substeps are those of {0}; add --method {0}", shooting));
-  }
   std::vector<std::string> known = element_names();
-  known.emplace_back(shooting);
+  for (const auto& [name, shooting] : shooting_families) known.emplace_back(name);
   std::vector<std::string> methods;
+  bool shoots = false;
   for (std::string& name : in_order("method", options.methods.empty() ? element_names() : options.methods, known)) {
-    if (name != shooting) {
+    const auto* const family =
+        std::ranges::find(shooting_families, name, [](const auto& entry) { return entry.first; });
+    if (family == shooting_families.end()) {
       methods.push_back(std::move(name));
     } else {
-      std::ranges::move(shooting_names(options), std::back_inserter(methods));
+      std::ranges::move(shooting_names(family->second, options), std::back_inserter(methods));
+      shoots = true;
     }
+  }
+  if (!shoots && !(options.integrators.empty() && options.substeps.empty())) {
+    throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
   }
   return methods;
 }
@@ -157,10 +163,10 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
   line.list("--method", options.methods,
-            "methods: dmoc, hamiltonian, tangent, multiple_shooting" +
+            "methods: dmoc, hamiltonian, tangent, multiple_shooting, single_shooting" +
                 std::string(options.methods.empty() ? "; default: the first three" : ""));
-  line.list("--integrator", options.integrators, "of multiple_shooting: rk4, midpoint; default: rk4");
-  line.list("--substeps", options.substeps, "steps of the integrator per interval, of multiple_shooting; default: 1");
+  line.list("--integrator", options.integrators, "of shooting: rk4, midpoint; default: rk4");
+  line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.option("--controls", options.controls,
               "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "

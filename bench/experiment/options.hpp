@@ -15,8 +15,8 @@ namespace dmocbench {
 struct ExperimentOptions {
   std::vector<std::string> problems = paper_problem_names();  ///< "all" alone: every problem there is
   std::vector<std::string> methods = {};                      ///< empty: the families that the paper compares
-  std::vector<std::string> integrators = {};                  ///< of multiple_shooting; empty: rk4
-  std::vector<int> substeps = {};                             ///< of multiple_shooting per interval; empty: 1
+  std::vector<std::string> integrators = {};                  ///< of shooting; empty: rk4
+  std::vector<int> substeps = {};                             ///< of shooting per interval; empty: 1
   std::vector<std::string> tableaus{"gauss"};
   std::string controls = "stage";  ///< stage, or shared: one control where two intervals meet
   std::vector<int> stages{1};

@@ -18,6 +18,7 @@
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/describe_violation.hpp"
+#include "methods/transcription/shooting_element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -46,11 +47,17 @@ class TimeOfCase {
   Clock::time_point begin_ = Clock::now();
 };
 
+Solution solve_once(const SolvedCase& solved, const Start& start, const Solver& solver) {
+  if (!solved.condensed) return solve_from(*solved.program, solved.start, start.with_costates, solver);
+  SingleShooting& program = *solved.condensed;
+  return program.expanded(solver.solve(program, program.reduced(solved.start)));
+}
+
 /// Solves again from the same start; the times become medians of all.
 void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const Solution& first, int repeats) {
   std::vector<Solution> solutions{first};
   for (int i = 1; i < repeats && is_solved(first.status); ++i) {
-    const Solution again = solve_from(*solved.program, solved.start, start.with_costates, solver);
+    const Solution again = solve_once(solved, start, solver);
     if (!is_solved(again.status)) break;
     solutions.push_back(again);
   }
@@ -141,8 +148,8 @@ void note_solver(SolvedCase& solved) {
 }
 
 /// A column's getter: a number of the program's.
-auto count(std::size_t (*of_program)(const Transcription&)) {
-  return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(*solved.program)) : Cell(); };
+auto count(std::size_t (*of_program)(const NonlinearProgram&)) {
+  return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(solved.solved_program())) : Cell(); };
 }
 
 /// A number of seconds; no case that could not start has any.
@@ -198,7 +205,7 @@ bool Case::same_curve(const Case& other) const {
 }
 
 const Columns<SolvedCase>& core_columns() {
-  using P = const Transcription&;
+  using P = const NonlinearProgram&;
   static const Columns<SolvedCase> columns{
       {"problem", "", "name of the problem", [](const SolvedCase& s) { return s.the_case.problem->name(); }},
       {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method)},
@@ -274,6 +281,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
     const StopScope scope = time.scope();
     const Clock::time_point begin = Clock::now();
     result.program = the_case.transcribe();
+    if (is_single_shooting(the_case.method)) result.condensed = std::make_shared<SingleShooting>(*result.program);
     result.setup_seconds = seconds_since(begin);
   } catch (const Stopped&) {
     result.solution.status = time.reason();
@@ -287,7 +295,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   Solution first;
   {
     const StopScope scope = time.scope();
-    first = solve_from(*result.program, result.start, start.with_costates, solver);
+    first = solve_once(result, start, solver);
     solution = first;
     const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
     if (polishes) result.polish_steps = settling_steps + polish(program, solution);

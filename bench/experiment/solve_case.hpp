@@ -13,6 +13,7 @@
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/grid.hpp"
 #include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/single_shooting.hpp"
 #include "methods/transcription/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
@@ -56,6 +57,8 @@ struct SolveTimes {
 struct SolvedCase {
   Case the_case;
   std::shared_ptr<Transcription> program = nullptr;  ///< null if the case could not start
+  /// What the solver sees instead, by single shooting; null of all other methods. The solution is that of `program`.
+  std::shared_ptr<SingleShooting> condensed = nullptr;
   Solution solution = {};
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
@@ -68,6 +71,10 @@ struct SolvedCase {
   std::optional<int> polish_steps = std::nullopt;  ///< none if the answer was not to be polished
   double seconds_left = unbounded;                 ///< of the solver's limit, for what is measured of the answer
 
+  /// The program that the solver sees, unless the case could not start.
+  [[nodiscard]] const NonlinearProgram& solved_program() const {
+    return condensed ? static_cast<const NonlinearProgram&>(*condensed) : *program;
+  }
   /// Adds a sentence to the message of the row.
   void note(const std::string& sentence) { solution.message += " " + sentence; }
 };

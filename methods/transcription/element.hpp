@@ -82,12 +82,8 @@ class Element {
 /// Names of the families that the paper compares: DMOC, Hamiltonian and tangent-space collocation.
 [[nodiscard]] std::vector<std::string> element_names();
 
-/// These, and the names of shooting (`multiple_shooting_name`).
+/// These, and the names of shooting by one step per interval (`shooting_name`).
 [[nodiscard]] std::vector<std::string> all_element_names();
-
-/// "multiple_shooting_INTEGRATOR_SUBSTEPS": the family of shooting by so many steps per interval of an explicit
-/// integrator (`explicit_integrator_names`).
-[[nodiscard]] std::string multiple_shooting_name(std::string_view integrator, int substeps);
 
 /// The family of that name. Throws `Error` that lists the names if there is none, or says what a name of shooting
 /// lacks.

@@ -151,6 +151,18 @@ void write_stage(const SampledCostates& sampled, PointDerivatives& at_point, Nod
   }
 }
 
+/// The equations (x_{k+1} - Φ)/h of shooting: -h times the costate of (q, v) at node k + 1.
+void write_shooting(const SampledCostates& sampled, PointDerivatives& at_point, const Eigen::VectorXd& times,
+                    MultiplierWriter& writer) {
+  for (Eigen::Index k = 0; k + 1 < times.size(); ++k) {
+    const double h = times[k + 1] - times[k];
+    const AdjointPoint point = sampled.at(times[k + 1]);
+    at_point.evaluate(point.motion, times[k + 1]);
+    writer.write_interval(0, k, -h * (point.psi_q + at_point.momentum_by_configuration().transpose() * point.psi_p));
+    writer.write_interval(1, k, -h * (at_point.mass() * point.psi_p));
+  }
+}
+
 }  // namespace
 
 Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& trajectory) {
@@ -173,7 +185,9 @@ Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& tra
   }
   const Tableau& tableau = program.tableau();
   const Eigen::Index s = tableau.stages();
-  for (Eigen::Index row = 0; row < widths.size() * s; ++row) {
+  const bool has_stages = program.functions().has_stage_unknowns;
+  if (!has_stages) write_shooting(sampled, at_point, times, writer);
+  for (Eigen::Index row = 0; has_stages && row < widths.size() * s; ++row) {
     const Eigen::Index k = row / s;
     const Eigen::Index i = row % s;
     write_stage(sampled, at_point, family, row, times[k] + tableau.c[i] * widths[k], s, widths[k] * tableau.b[i],

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,10 +12,14 @@
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/numerics/lagrange_basis.hpp"
+#include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
 
 namespace {
+
+constexpr std::string_view multiple_prefix = "multiple_shooting_";
+constexpr std::string_view single_prefix = "single_shooting_";
 
 /// State and cost along an interval, or their rates.
 struct Flow {
@@ -88,24 +94,23 @@ State on_cubic(const Flow& left, const Flow& right, const Expression& h, double 
 
 }  // namespace
 
-MultipleShootingElement::MultipleShootingElement(ExplicitIntegrator integrator, int substeps)
-    : integrator_(std::move(integrator)), substeps_(substeps) {
+ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
+    : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
   if (substeps < 1 || substeps > most_substeps) {
     throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most_substeps, substeps));
   }
 }
 
-std::string MultipleShootingElement::name() const {
-  return fmt::format("multiple_shooting_{}_{}", integrator_.name, substeps_);
+std::string ShootingElement::name() const { return shooting_name(shooting_, integrator_.name, substeps_); }
+
+std::string ShootingElement::description() const {
+  return fmt::format("direct {} shooting on (q, v), {} step{} of {} per interval",
+                     shooting_ == Shooting::single ? "single" : "multiple", substeps_, substeps_ == 1 ? "" : "s",
+                     integrator_.name);
 }
 
-std::string MultipleShootingElement::description() const {
-  return fmt::format("direct multiple shooting on (q, v), {} step{} of {} per interval", substeps_,
-                     substeps_ == 1 ? "" : "s", integrator_.name);
-}
-
-IntervalTrace MultipleShootingElement::trace(const TracedProblem& problem, const Tableau& tableau,
-                                             const IntervalUnknowns& unknowns) const {
+IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau& tableau,
+                                     const IntervalUnknowns& unknowns) const {
   const ControlledFlow flow(problem, tableau, unknowns);
   const double width = 1.0 / substeps_;
   const Expression h = Expression(width) * unknowns.h;
@@ -132,5 +137,24 @@ IntervalTrace MultipleShootingElement::trace(const TracedProblem& problem, const
   trace.right_momentum = problem.at(State{unknowns.right_q, unknowns.right_second, unknowns.t + unknowns.h}).momentum;
   return trace;
 }
+
+std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps) {
+  return fmt::format("{}{}_{}", shooting == Shooting::single ? single_prefix : multiple_prefix, integrator, substeps);
+}
+
+std::unique_ptr<Element> make_shooting_element(std::string_view name) {
+  const bool is_single = is_single_shooting(name);
+  if (!is_single && !name.starts_with(multiple_prefix)) return nullptr;
+  const std::string_view rest = name.substr((is_single ? single_prefix : multiple_prefix).size());
+  const std::size_t bar = rest.rfind('_');
+  const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(rest.substr(bar + 1));
+  if (!substeps) {
+    throw Error(fmt::format("\"{}\" names no number of substeps; \"{}_1\" does", name, name));
+  }
+  return std::make_unique<ShootingElement>(is_single ? Shooting::single : Shooting::multiple,
+                                           explicit_integrator(rest.substr(0, bar)), *substeps);
+}
+
+bool is_single_shooting(std::string_view name) { return name.starts_with(single_prefix); }
 
 }  // namespace dmocbench

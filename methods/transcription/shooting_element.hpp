@@ -1,14 +1,22 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/explicit_integrator.hpp"
 
 namespace dmocbench {
 
-/// Direct multiple shooting (section 3.3 of the paper; Bock, Plitt 1984): the interval is integrated from its left
-/// node.
+/// What becomes of the nodes in between.
+enum class Shooting : std::uint8_t {
+  multiple,  ///< they are unknowns
+  single,    ///< they are simulated: `SingleShooting` condenses the program
+};
+
+/// Direct shooting (section 3.3 of the paper; Bock, Plitt 1984): the interval is integrated from its left node.
 ///
 /// Node: (q_k, v_k). With Φ the explicit integrator's `substeps` steps of q̇ = v, v̇ = L_vv⁻¹(L_q + f - L_vq v - L_vt),
 /// the equations of an interval are
@@ -19,14 +27,14 @@ namespace dmocbench {
 /// hold there. L_vv must have nonzero leading minors (`solve_symmetric`).
 ///
 /// With s = 1 the control is constant on an interval: order 2, whatever the integrator's order.
-class MultipleShootingElement final : public Element {
+class ShootingElement final : public Element {
  public:
   /// Throws `Error` unless `substeps` is in [1, most_substeps].
-  MultipleShootingElement(ExplicitIntegrator integrator, int substeps);
+  ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps);
 
   static constexpr int most_substeps = 64;
 
-  /// "multiple_shooting_rk4_1": the integrator and the number of its steps per interval.
+  /// "multiple_shooting_rk4_1" or "single_shooting_rk4_1": the integrator and the number of its steps per interval.
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
@@ -35,8 +43,18 @@ class MultipleShootingElement final : public Element {
                                     const IntervalUnknowns& unknowns) const override;
 
  private:
+  Shooting shooting_;
   ExplicitIntegrator integrator_;
   int substeps_;
 };
+
+/// "multiple_shooting_INTEGRATOR_SUBSTEPS", or "single_shooting_…".
+[[nodiscard]] std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps);
+
+/// The element of such a name; null if the name begins otherwise. Throws `Error` that says what it lacks.
+[[nodiscard]] std::unique_ptr<Element> make_shooting_element(std::string_view name);
+
+/// True of the names of single shooting.
+[[nodiscard]] bool is_single_shooting(std::string_view name);
 
 }  // namespace dmocbench

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,9 @@ int iterations_from(const Trajectory& trajectory, Transcription& program, bool i
 
 TEST(SampleMultipliers, OfAProgramsOwnSolutionAreItsOwn) {
   for (const auto& problem : tests::problems()) {
-    for (const Scheme& scheme : tests::all_schemes(3)) {
+    std::vector<Scheme> schemes = tests::all_schemes(3);
+    schemes.push_back({"multiple_shooting_rk4_1", 2});
+    for (const Scheme& scheme : schemes) {
       SCOPED_TRACE(problem->name() + " " + scheme.label());
       const Solved solved = tests::solve(*problem, scheme, tests::graded_grid(16), tests::common_start(*problem));
       const Eigen::VectorXd sampled = sample_multipliers(*solved.transcription, solved.trajectory);
