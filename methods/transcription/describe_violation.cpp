@@ -215,24 +215,39 @@ std::string describe_unknown(const Problem& problem, const Transcription& transc
   return Wording(problem, transcription, x).unknown(unknown);
 }
 
+namespace {
+
+/// A sentence on the formula that is not a number where a solve ended. No method evaluates L itself, so that a solver
+/// may have wandered off where it is not defined, and failed there for another reason.
+std::string undefined_formula(const Problem& problem, Transcription& transcription, const Solution& solution) {
+  const bool has_failed_there = solution.status == Status::evaluation_failed;
+  const bool has_wandered = solution.status == Status::step_failed || solution.status == Status::infeasible ||
+                            solution.status == Status::iteration_limit || solution.status == Status::diverged;
+  if (!solution.primal.allFinite() || (!has_failed_there && !has_wandered)) return "";
+  const auto up_to = has_failed_there ? FormulaCheck::Derivatives::second : FormulaCheck::Derivatives::first;
+  const std::string undefined = undefined_stage(problem, transcription, solution.primal, up_to);
+  return undefined.empty() ? "" : "At its last point " + undefined + ".";
+}
+
+}  // namespace
+
 std::string describe_violation(const Problem& problem, Transcription& transcription, const Solution& solution,
                                double tolerance) {
   const Eigen::VectorXd& x = solution.primal;
   if (is_solved(solution.status) || static_cast<std::size_t>(x.size()) != transcription.variable_count()) return "";
-  if (solution.status == Status::evaluation_failed && x.allFinite()) {
-    const std::string undefined = undefined_stage(problem, transcription, x);
-    if (!undefined.empty()) return "At its last point " + undefined + ".";
-  }
+  const bool has_failed_there = solution.status == Status::evaluation_failed;
+  std::string text = undefined_formula(problem, transcription, solution);
+  if (has_failed_there && !text.empty()) return text;
   Eigen::VectorXd rows(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, rows);
   const Worst row = farthest_outside(rows, transcription.constraint_lower(), transcription.constraint_upper());
   const Worst unknown = farthest_outside(x, transcription.variable_lower(), transcription.variable_upper());
   const bool is_unknown = std::isnan(unknown.amount) || unknown.amount > row.amount;
   const Worst worst = is_unknown ? unknown : row;
-  if (worst.amount <= tolerance) return "";
-  std::string text = missed(is_unknown ? describe_unknown(problem, transcription, x, worst.entry)
-                                       : describe_constraint(problem, transcription, x, worst.entry),
-                            worst.amount);
+  if (worst.amount <= tolerance) return text;
+  text += (text.empty() ? "" : " ") + missed(is_unknown ? describe_unknown(problem, transcription, x, worst.entry)
+                                                        : describe_constraint(problem, transcription, x, worst.entry),
+                                             worst.amount);
   if (std::isnan(worst.amount)) return text;
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);
   if (solution.status == Status::infeasible) text += contradiction(transcription);

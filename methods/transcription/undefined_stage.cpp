@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "methods/mechanics/formula_check.hpp"
-
 namespace dmocbench {
 
-std::string undefined_stage(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x) {
+std::string undefined_stage(const Problem& problem, Transcription& transcription, const Eigen::VectorXd& x,
+                            FormulaCheck::Derivatives up_to) {
   const Layout& layout = transcription.layout();
   const Eigen::Index n = problem.configuration_size();
   const Eigen::MatrixXd stages = transcription.tabulate(transcription.functions().stages, x);
-  FormulaCheck check(problem, FormulaCheck::Derivatives::second);
+  FormulaCheck check(problem, up_to);
   for (Eigen::Index k = 0; k < stages.rows(); ++k) {
     for (Eigen::Index i = 0; i < layout.stages(); ++i) {
       const auto stage = stages.row(k).segment(i * (2 * n + 1), 2 * n + 1);

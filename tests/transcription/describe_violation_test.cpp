@@ -159,6 +159,30 @@ TEST_P(ViolationInWords, NamesTheFormulaThatIsNotANumberAndTheInterval) {
   EXPECT_PRED2(says, ended.words(), "At its last point running_cost is not a number in interval 3 (t = 0.");
 }
 
+/// Below q = -1/2 the Lagrangian has slopes, but no value.
+class WithALogarithm final : public tests::SmallProblem {
+ public:
+  WithALogarithm() : SmallProblem("with_a_logarithm", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v[0] * x.v[0] + 0.01 * log(x.q[0] + 0.5);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
+/// No row of any method contains L itself, so that a solver fails there for another reason.
+TEST_P(ViolationInWords, NamesALagrangianThatIsNotANumberWhereverASolveEnds) {
+  const WithALogarithm problem;
+  for (const Status status : {Status::iteration_limit, Status::step_failed, Status::infeasible, Status::diverged}) {
+    Ended ended(problem, GetParam(), status);
+    EXPECT_FALSE(says(ended.words(), "not a number")) << ended.words();
+    const auto q = static_cast<Eigen::Index>(ended.transcription->layout().configuration_column(0));
+    ended.solution.primal.segment(q + 4, 3).setConstant(-2.0);
+    EXPECT_PRED2(says, ended.words(), "At its last point lagrangian is not a number in interval ");
+    EXPECT_PRED2(says, ended.words(), "Missed most is ");
+  }
+}
+
 TEST_P(ViolationInWords, NamesWhatIsNotANumber) {
   const tests::MovingFrame problem;
   Ended ended(problem, GetParam(), Status::evaluation_failed);

@@ -9,6 +9,12 @@
 
 #include "methods/error.hpp"
 
+/// MUMPS calls its subroutine of this name where an allocation fails that it does not report; its own ends the process
+/// with exit code 0. This one takes its place, as the dynamic linker looks into the program first: the exception passes
+/// through MUMPS, and through Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
+extern "C" void mumps_abort_();  // NOLINT(readability-identifier-naming)
+extern "C" void mumps_abort_() { throw std::bad_alloc(); }
+
 namespace dmocbench {
 
 namespace {

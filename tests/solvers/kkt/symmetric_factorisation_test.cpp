@@ -1,9 +1,11 @@
 #include "methods/solvers/kkt/symmetric_factorisation.hpp"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
 #include <Eigen/Eigenvalues>
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
@@ -30,6 +32,13 @@ TEST(SymmetricFactorisation, CountsNegativeEigenvaluesAndSolves) {
     const Eigen::VectorXd right_hand_side = random_matrix(size, 1, generator);
     EXPECT_LT((matrix * factorisation.solve(right_hand_side) - right_hand_side).lpNorm<Eigen::Infinity>(), 1e-9);
   }
+}
+
+/// What MUMPS calls is the subroutine that the dynamic linker finds first.
+TEST(SymmetricFactorisation, ThrowsWhereMumpsWouldEndTheProcess) {
+  auto* const abort = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "mumps_abort_"));
+  ASSERT_NE(abort, nullptr);
+  EXPECT_THROW(abort(), std::bad_alloc);
 }
 
 TEST(SymmetricFactorisation, FindsTheSameInAnyOrder) {
