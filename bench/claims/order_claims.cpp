@@ -86,7 +86,7 @@ std::string in_words(const Selection& orders) {
 }
 
 /// Whether orders are as expected, if other things hold too; `floor` if less than half of them could be fitted, or none
-/// of a tableau of second and of fourth order.
+/// of a quantity, or none of a tableau of second and of fourth order. An error that never falls looks like a floor.
 ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true) {
   const Selection fitted = fitted_of(orders);
   const auto is_expected = [](const Row& row) { return has_order(row, expected_order(row)); };
@@ -96,6 +96,8 @@ ClaimVerdict verdict_on_orders(const Selection& orders, bool others_hold = true)
     if (std::ranges::any_of(orders, is_of_order) && std::ranges::none_of(fitted, is_of_order))
       return ClaimVerdict::floor;
   }
+  const auto has_no_fit = [](const Selection& of_quantity) { return fitted_of(of_quantity).empty(); };
+  if (std::ranges::any_of(orders.group_by({"quantity"}), has_no_fit)) return ClaimVerdict::floor;
   return 2 * fitted.size() < orders.size() ? ClaimVerdict::floor : ClaimVerdict::reproduced;
 }
 
