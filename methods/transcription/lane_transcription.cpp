@@ -172,6 +172,13 @@ ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), lege
 
 void ClampedEnds::write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
                         Eigen::VectorXd& rows) {
+  const Eigen::VectorXd& times = program_.grid().relative_times();
+  for (Eigen::Index i = 0; i < first.q.size(); ++i) {
+    auto nodes = x.segment(static_cast<Eigen::Index>(program_.layout().configuration_column(i)), times.size());
+    const double at_first = first.q[i] - nodes[0];
+    const double at_last = last.q[i] - nodes[times.size() - 1];
+    nodes.array() += at_first + (at_last - at_first) * times.array();
+  }
   write_end(first, 0, 0.0, -1.0, x, rows);
   write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, rows);
 }

@@ -53,7 +53,8 @@ class ClampedEnds {
   explicit ClampedEnds(const Transcription& program);
 
   /// `x`: the unknowns of a start, variable_count() entries; `rows`: the values that equalities have,
-  /// constraint_count() entries. Only those of the ends are written.
+  /// constraint_count() entries, of which those of the ends are written. The configurations between are moved with the
+  /// ends, linearly in time: q_k += (1 - t_k/T) δq_0 + (t_k/T) δq_N, as the default guess of a problem would be.
   void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x, Eigen::VectorXd& rows);
 
  private:

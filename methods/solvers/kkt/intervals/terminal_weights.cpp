@@ -121,6 +121,8 @@ bool TerminalWeights::next_multiple() {
   return true;
 }
 
+void TerminalWeights::prefer_middle() noexcept { level_ = middle; }
+
 void TerminalWeights::observe(const Eigen::MatrixXd& Gamma) {
   for (Eigen::Index i = 0; i < values_.size(); ++i) {
     if (!(Gamma(i, i) > 0.0)) continue;

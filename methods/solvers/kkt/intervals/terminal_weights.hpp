@@ -41,6 +41,9 @@ class TerminalWeights {
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
   /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
   [[nodiscard]] bool next_multiple();
+  /// Begins with the multiple whose failure says most. For a segment that is the whole horizon: nothing is joined, so
+  /// the digits that a large weight takes from the reachability are not missed.
+  void prefer_middle() noexcept;
   /// All multiples are to be tried after the next failure.
   void distrust_next_failure() noexcept { believed_ = 0; }
   /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
