@@ -50,6 +50,14 @@ void TerminalWeights::use(const EliminationPlan& plan) {
   for (Diagonal& diagonal : diagonals_) diagonal.is_free = !some_are_free || is_free(diagonal);
 }
 
+void TerminalWeights::forget() {
+  level_ = 0;
+  tried_ = 0;
+  believed_ = 0;
+  stiffness_.setOnes();
+  observed_.setConstant(unknown);
+}
+
 /// Σ 1/|curvature| over the intervals.
 double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const {
   const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first; };
@@ -67,17 +75,17 @@ double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArra
 /// The harmonic mean, because the most compliant unknowns count most, times the number of intervals, because the
 /// Hessian of an interval is proportional to its length. Unknowns that cost next to nothing, such as stage rates, are
 /// left out: equalities tie them to others that have a cost.
-double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) const {
+double TerminalWeights::stiffness_of_free_unknowns(const NewtonArrays& arrays) {
   constexpr double next_to_nothing = 1e4;
-  std::vector<double> compliances;
+  compliances_.clear();
   for (const Diagonal& diagonal : diagonals_) {
-    if (diagonal.is_free) compliances.push_back(compliance_of(diagonal, arrays));
+    if (diagonal.is_free) compliances_.push_back(compliance_of(diagonal, arrays));
   }
-  if (compliances.empty()) return 1.0;
-  const double largest = next_to_nothing * *std::ranges::min_element(compliances);
+  if (compliances_.empty()) return 1.0;
+  const double largest = next_to_nothing * *std::ranges::min_element(compliances_);
   double sum = 0.0;
   double kinds = 0.0;
-  for (const double compliance : compliances) {
+  for (const double compliance : compliances_) {
     if (!(compliance <= largest)) continue;
     sum += compliance;
     kinds += 1.0;
