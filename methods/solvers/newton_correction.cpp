@@ -38,8 +38,12 @@ std::unique_ptr<KktSystem> make_system(const NonlinearProgram& program) {
   return any_point(program);
 }
 
+double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
+
+}  // namespace
+
 /// The linearised conditions at a point.
-struct Linearised {
+struct NewtonCorrections::Linearised {
   Eigen::VectorXd hessian;
   Eigen::VectorXd jacobian;
   Eigen::VectorXd diagonal;
@@ -48,13 +52,13 @@ struct Linearised {
   Eigen::VectorXd gradient;     // of the Lagrangian
   Eigen::VectorXd constraints;  // residuals
 
-  Linearised(NonlinearProgram& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers)
-      : hessian(static_cast<Eigen::Index>(program.hessian_structure().size())),
-        jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size())),
-        diagonal(Eigen::VectorXd::Zero(x.size())),
-        compliance(Eigen::VectorXd::Zero(multipliers.size())),
-        gradient_of_cost(x.size()),
-        constraints(multipliers.size()) {
+  void compute(NonlinearProgram& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers) {
+    hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
+    jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+    diagonal.setZero(x.size());
+    compliance.setZero(multipliers.size());
+    gradient_of_cost.resize(x.size());
+    constraints.resize(multipliers.size());
     program.hessian(x, 1.0, multipliers, hessian);
     program.jacobian(x, jacobian);
     program.gradient(x, gradient_of_cost);
@@ -87,26 +91,22 @@ struct Linearised {
   }
 };
 
-double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0.0; }
-
-}  // namespace
-
 NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation factorisation)
-    : program_(program), system_(factorisation == Factorisation::sparse ? any_point(program) : make_system(program)) {}
+    : program_(program),
+      system_(factorisation == Factorisation::sparse ? any_point(program) : make_system(program)),
+      linearised_(std::make_unique<Linearised>()) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
-std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
-                                                      const Eigen::VectorXd& multipliers) {
-  const Linearised at(program_, primal, multipliers);
-  NewtonCorrection correction{.primal = Eigen::VectorXd::Zero(primal.size()),
-                              .multipliers = Eigen::VectorXd::Zero(multipliers.size())};
-  if (!at.hessian.allFinite() || !at.jacobian.allFinite() || !at.gradient.allFinite()) {
-    correction.length = unbounded;
-    return correction;
-  }
+std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+  Linearised& at = *linearised_;
+  at.compute(program_, primal, multipliers);
+  step_.primal.setZero(primal.size());
+  step_.multipliers.setZero(multipliers.size());
+  if (!at.hessian.allFinite() || !at.jacobian.allFinite() || !at.gradient.allFinite()) return unbounded;
   const auto solve = [&] {
+    system_->begin_solve();
     return system_->solve({at.hessian, at.jacobian, at.diagonal, at.compliance}, {at.gradient, at.constraints},
-                          {correction.primal, correction.multipliers});
+                          {step_.primal, step_.multipliers});
   };
   FactorisationStatus status = solve();
   if (status != FactorisationStatus::solved && dynamic_cast<SparseKkt*>(system_.get()) == nullptr) {
@@ -114,9 +114,16 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
     status = solve();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
-  correction.length = length_of(primal, correction.primal, at.gradient_of_cost);
-  if (!std::isfinite(correction.length)) return std::nullopt;
-  return correction;
+  const double length = length_of(primal, step_.primal, at.gradient_of_cost);
+  return std::isfinite(length) ? std::optional(length) : std::nullopt;
+}
+
+std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
+                                                      const Eigen::VectorXd& multipliers) {
+  const std::optional<double> length = length_at(primal, multipliers);
+  if (!length) return std::nullopt;
+  step_.length = *length;
+  return step_;
 }
 
 double NewtonCorrections::length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,

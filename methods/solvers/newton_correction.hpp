@@ -46,6 +46,9 @@ class NewtonCorrections {
   NewtonCorrections(NewtonCorrections&&) = delete;
   NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
+  /// The length of the step from `primal`, see `at`. Allocates nothing after the first time unless the sparse
+  /// factorisation is asked.
+  [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
   /// length where a derivative is not finite; none where the matrix is singular.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
@@ -56,8 +59,12 @@ class NewtonCorrections {
   [[nodiscard]] double length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
                                  const Eigen::VectorXd& gradient);
 
+  struct Linearised;
+
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> system_;
+  std::unique_ptr<Linearised> linearised_;
+  NewtonCorrection step_;  // the last one
 };
 
 }  // namespace dmocbench

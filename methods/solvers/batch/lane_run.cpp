@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
 
 namespace dmocbench::batch {
@@ -91,9 +92,14 @@ bool LaneRun::is_anyone(Phase phase) const {
 
 void LaneRun::refill() {
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    if (lanes_[lane].phase != Phase::idle || desk_.is_stopped()) continue;
-    if (!desk_.fetch(lanes_[lane].ticket)) return;
-    begin(lane);
+    while (lanes_[lane].phase == Phase::idle && !desk_.is_stopped()) {
+      if (!desk_.fetch(lanes_[lane].ticket)) return;
+      try {
+        begin(lane);
+      } catch (const Error& error) {
+        refuse(lane, error.what());
+      }
+    }
   }
 }
 
@@ -437,6 +443,16 @@ void LaneRun::update_barrier_parameter(std::size_t number) {
     lane.mu = std::max(smallest, std::min(kappa_mu * lane.mu, std::pow(lane.mu, theta_mu)));
     lane.filter.reset(lane.theta_max);
   }
+}
+
+/// An instance whose parameters are not allowed.
+void LaneRun::refuse(std::size_t number, const char* reason) {
+  lanes_[number].phase = Phase::idle;
+  solution_ = {};
+  solution_.status = Status::invalid_program;
+  solution_.message = reason;
+  solution_.solver = "batch";
+  desk_.deliver(lanes_[number].ticket.index, solution_);
 }
 
 void LaneRun::give_up(std::size_t number) {

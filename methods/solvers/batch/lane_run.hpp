@@ -75,6 +75,7 @@ class LaneRun {
   [[nodiscard]] bool is_solved(std::size_t lane) const;
   void update_barrier_parameter(std::size_t lane);
   void begin_iteration(std::size_t lane);
+  void refuse(std::size_t lane, const char* reason);
   void give_up(std::size_t lane);
   void finish(std::size_t lane, Status status);
   [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;

@@ -24,6 +24,8 @@ class TerminalWeights {
   /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
   /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
   void use(const EliminationPlan& plan);
+  /// Forgets what was observed and tried.
+  void forget();
   /// Adapts the weights to a new matrix.
   void rescale(const NewtonArrays& arrays);
   /// The same where the compliances of the free unknowns are known, one per entry of `free_diagonals()`.
@@ -59,9 +61,10 @@ class TerminalWeights {
 
   Eigen::Index intervals_;
   std::vector<Diagonal> diagonals_;
-  std::size_t level_ = 0;  // which multiple
-  std::size_t tried_ = 0;  // others, for this matrix
-  int believed_ = 0;       // next failures that are believed without further multiples
+  std::vector<double> compliances_;  // of the free ones, for the last matrix
+  std::size_t level_ = 0;            // which multiple
+  std::size_t tried_ = 0;            // others, for this matrix
+  int believed_ = 0;                 // next failures that are believed without further multiples
   double scale_ = 1.0;
   Eigen::VectorXd stiffness_;  // relative to the scale
   Eigen::VectorXd observed_;   // since the last matrix
