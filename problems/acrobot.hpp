@@ -49,7 +49,7 @@ class Acrobot final : public Problem {
     return kinetic + upper_weight() * cos(x.q[0]) + lower_weight() * cos(x.q[0] + x.q[1]);
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    const double b = parameter("friction");
+    const Expression b = varying("friction");
     return ExpressionVector{{-b * x.v[0], x.u[0] - b * x.v[1]}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }

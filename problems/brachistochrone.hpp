@@ -36,7 +36,7 @@ class Brachistochrone final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) - parameter("gravity") * x.q[1];
+    return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) - varying("gravity") * x.q[1];
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{-x.u[0] * x.v[1], x.u[0] * x.v[0]}};

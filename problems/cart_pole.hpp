@@ -49,14 +49,14 @@ class CartPole final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const double m1 = parameter("cart_mass");
-    const double m2 = parameter("bob_mass");
-    const double l = parameter("length");
+    const Expression m1 = varying("cart_mass");
+    const Expression m2 = varying("bob_mass");
+    const Expression l = varying("length");
     const Expression& x_dot = x.v[0];
     const Expression& theta_dot = x.v[1];
     const Expression kinetic = 0.5 * (m1 + m2) * x_dot * x_dot + m2 * l * x_dot * theta_dot * cos(x.q[1]) +
                                0.5 * m2 * l * l * theta_dot * theta_dot;
-    return kinetic + m2 * parameter("gravity") * l * cos(x.q[1]);
+    return kinetic + m2 * varying("gravity") * l * cos(x.q[1]);
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{{x.u[0], 0.0}};

@@ -47,7 +47,7 @@ class ContainerCrane final : public Problem {
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
-    return 0.5 * (x.q[2] * x.q[2] + x.v[2] * x.v[2] + parameter("control_weight") * x.u.dot(x.u));
+    return 0.5 * (x.q[2] * x.q[2] + x.v[2] * x.v[2] + varying("control_weight") * x.u.dot(x.u));
   }
 
   [[nodiscard]] BoundaryState initial_state() const override {

@@ -47,13 +47,13 @@ class DoubleOscillator final : public Problem {
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const Expression between = x.q[1] - x.q[0];
-    return 0.5 * parameter("mass_1") * x.v[0] * x.v[0] + 0.5 * parameter("mass_2") * x.v[1] * x.v[1] -
-           0.5 * parameter("stiffness_1") * x.q[0] * x.q[0] - 0.5 * parameter("stiffness_2") * between * between;
+    return 0.5 * varying("mass_1") * x.v[0] * x.v[0] + 0.5 * varying("mass_2") * x.v[1] * x.v[1] -
+           0.5 * varying("stiffness_1") * x.q[0] * x.q[0] - 0.5 * varying("stiffness_2") * between * between;
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     return ExpressionVector{
-        {sin(2.0 * std::numbers::pi / horizon() * x.t), -parameter("damping") * (1.0 - x.u[0]) * x.v[1]}};
+        {sin(2.0 * std::numbers::pi / horizon() * x.t), -varying("damping") * (1.0 - x.u[0]) * x.v[1]}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {

@@ -40,7 +40,7 @@ class HangGlider final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"c_l"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * x.v.dot(x.v) - parameter("gravity") * x.q[1];
+    return 0.5 * x.v.dot(x.v) - varying("gravity") * x.q[1];
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
@@ -48,7 +48,7 @@ class HangGlider final : public Problem {
     constexpr double drag_0 = 0.034;
     constexpr double drag_1 = 0.069662;
     // ½ρS/m times the square of the unit of velocity.
-    const double factor = 0.5 * air_density / parameter("wing_load") * velocity_unit * velocity_unit;
+    const Expression factor = 0.5 * air_density / varying("wing_load") * velocity_unit * velocity_unit;
     const Expression& lift = x.u[0];
     const Expression drag = drag_0 + drag_1 * lift * lift;
     const Expression& forward = x.v[0];
@@ -131,7 +131,7 @@ class HangGlider final : public Problem {
   /// U(x), x in r_c.
   [[nodiscard]] Expression updraft(const Expression& x) const {
     const Expression e = (x - 2.5) * (x - 2.5);
-    return parameter("updraft") / velocity_unit * (1.0 - e) * exp(-e);
+    return varying("updraft") / velocity_unit * (1.0 - e) * exp(-e);
   }
 };
 

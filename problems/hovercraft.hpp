@@ -40,14 +40,14 @@ class Hovercraft final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    return 0.5 * parameter("mass") * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * parameter("inertia") * x.v[2] * x.v[2];
+    return 0.5 * varying("mass") * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * varying("inertia") * x.v[2] * x.v[2];
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression cosine = cos(x.q[2]);
     const Expression sine = sin(x.q[2]);
     return ExpressionVector{
-        {cosine * x.u[0] - sine * x.u[1], sine * x.u[0] + cosine * x.u[1], -parameter("lever") * x.u[1]}};
+        {cosine * x.u[0] - sine * x.u[1], sine * x.u[0] + cosine * x.u[1], -varying("lever") * x.u[1]}};
   }
 
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u.dot(x.u); }

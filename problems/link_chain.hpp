@@ -43,21 +43,21 @@ class LinkChain final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("tau_"); }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const double m = parameter("mass");
-    const double l = parameter("length");
+    const Expression m = varying("mass");
+    const Expression l = varying("length");
     const Eigen::Index n = links();
     Expression kinetic = 0.0;
     Expression height = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto beyond = static_cast<double>(n - 1 - i);  // rods that hang on rod i
-      const double own = m * l * l * (beyond + 0.25) + m * l * l / 12.0;
+      const Expression own = m * l * l * (beyond + 0.25) + m * l * l / 12.0;
       kinetic += 0.5 * own * x.v[i] * x.v[i];
       for (Eigen::Index j = 0; j < i; ++j) {
         kinetic += m * l * l * (beyond + 0.5) * cos(x.q[i] - x.q[j]) * x.v[i] * x.v[j];
       }
       height += l * (beyond + 0.5) * sin(x.q[i]);
     }
-    return kinetic - m * parameter("gravity") * height;
+    return kinetic - m * varying("gravity") * height;
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {

@@ -36,7 +36,7 @@ class ParticleSteering final : public Problem {
     return 0.5 * (x.v[0] * x.v[0] + x.v[1] * x.v[1]);
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    const double a = parameter("thrust");
+    const Expression a = varying("thrust");
     return ExpressionVector{{a * cos(x.u[0]), a * sin(x.u[0])}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& /*x*/) const override { return 0.0; }

@@ -36,13 +36,13 @@ class PlanarQuadrotor : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const double m = parameter("mass");
-    return 0.5 * m * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * parameter("inertia") * x.v[2] * x.v[2] -
-           m * parameter("gravity") * x.q[1];
+    const Expression m = varying("mass");
+    return 0.5 * m * (x.v[0] * x.v[0] + x.v[1] * x.v[1]) + 0.5 * varying("inertia") * x.v[2] * x.v[2] -
+           m * varying("gravity") * x.q[1];
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     const Expression thrust = x.u[0] + x.u[1];
-    return ExpressionVector{{-thrust * sin(x.q[2]), thrust * cos(x.q[2]), parameter("arm") * (x.u[0] - x.u[1])}};
+    return ExpressionVector{{-thrust * sin(x.q[2]), thrust * cos(x.q[2]), varying("arm") * (x.u[0] - x.u[1])}};
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override {
     return x.u[0] * x.u[0] + x.u[1] * x.u[1];

@@ -39,13 +39,13 @@ class RobotArm final : public Problem {
   [[nodiscard]] Expression lagrangian(const State& x) const override {
     const Expression sine = sin(x.q[2]);
     const Expression inertia = inertia_of(x.q[0]);
-    return 0.5 * parameter("length") * x.v[0] * x.v[0] + 0.5 * inertia * sine * sine * x.v[1] * x.v[1] +
+    return 0.5 * varying("length") * x.v[0] * x.v[0] + 0.5 * inertia * sine * sine * x.v[1] * x.v[1] +
            0.5 * inertia * x.v[2] * x.v[2];
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
     if (parameter("euler_lagrange") == 1.0) return x.u;
-    const double length = parameter("length");
+    const Expression length = varying("length");
     const Expression& rho = x.q[0];
     const Expression sine = sin(x.q[2]);
     const Expression inertia = inertia_of(rho);
@@ -123,7 +123,7 @@ class RobotArm final : public Problem {
 
   /// I_φ(ρ).
   [[nodiscard]] Expression inertia_of(const Expression& rho) const {
-    const Expression other = parameter("length") - rho;
+    const Expression other = varying("length") - rho;
     return (other * other * other + rho * rho * rho) / 3.0;
   }
 };

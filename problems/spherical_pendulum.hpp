@@ -39,11 +39,11 @@ class SphericalPendulum final : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_theta", "u_phi"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const double m = parameter("mass");
-    const double l = parameter("length");
+    const Expression m = varying("mass");
+    const Expression l = varying("length");
     const Expression sine = sin(x.q[0]);
     return 0.5 * m * l * l * (x.v[0] * x.v[0] + sine * sine * x.v[1] * x.v[1]) +
-           m * parameter("gravity") * l * cos(x.q[0]);
+           m * varying("gravity") * l * cos(x.q[0]);
   }
 
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }

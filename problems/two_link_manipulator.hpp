@@ -43,11 +43,11 @@ class TwoLinkManipulator : public Problem {
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau_1", "tau_2"}; }
 
   [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const double m1 = parameter("mass_1");
-    const double m2 = parameter("mass_2");
-    const double l1 = parameter("length_1");
-    const double l2 = parameter("length_2");
-    const double g = parameter("gravity");
+    const Expression m1 = varying("mass_1");
+    const Expression m2 = varying("mass_2");
+    const Expression l1 = varying("length_1");
+    const Expression l2 = varying("length_2");
+    const Expression g = varying("gravity");
     const Expression& theta_1 = x.q[0];
     const Expression& theta_2 = x.q[1];
     const Expression& omega_1 = x.v[0];
@@ -55,7 +55,7 @@ class TwoLinkManipulator : public Problem {
     const Expression kinetic =
         0.125 * (m1 + 4.0 * m2) * l1 * l1 * omega_1 * omega_1 + 0.125 * m2 * l2 * l2 * omega_2 * omega_2 +
         0.5 * m2 * l1 * l2 * cos(theta_1 - theta_2) * omega_1 * omega_2 +
-        0.5 * parameter("inertia_1") * omega_1 * omega_1 + 0.5 * parameter("inertia_2") * omega_2 * omega_2;
+        0.5 * varying("inertia_1") * omega_1 * omega_1 + 0.5 * varying("inertia_2") * omega_2 * omega_2;
     const Expression potential = (0.5 * m1 + m2) * g * l1 * sin(theta_1) + 0.5 * m2 * g * l2 * sin(theta_2);
     return kinetic - potential;
   }

@@ -52,20 +52,22 @@ using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynami
   return inputs;
 }
 
-/// Hands out consecutive inputs, from number 0 on.
+/// Hands out consecutive inputs, from number `first` on.
 class InputCounter {
  public:
+  explicit InputCounter(std::size_t first = 0) : taken_(first) {}
+
   [[nodiscard]] ExpressionVector take(Eigen::Index count) {
     ExpressionVector inputs = input_vector(taken_, count);
     taken_ += static_cast<std::size_t>(count);
     return inputs;
   }
   [[nodiscard]] Expression take() { return Expression::input(taken_++); }
-  /// The number of inputs handed out so far: the number of the next one.
+  /// The number of the next input: with `first` = 0, how many were handed out so far.
   [[nodiscard]] std::size_t taken() const noexcept { return taken_; }
 
  private:
-  std::size_t taken_ = 0;
+  std::size_t taken_;
 };
 
 /// Appends the entries, column by column.

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 
 namespace dmocbench {
@@ -109,16 +109,24 @@ std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
   return quantities;
 }
 
-std::size_t Problem::parameter_index(std::string_view name) const {
-  const auto found = std::ranges::find(parameters_, name, &Parameter::name);
-  if (found != parameters_.end()) return static_cast<std::size_t>(found - parameters_.begin());
-  return position_of(parameters_, &Parameter::name, name, this->name() + " has no parameter");  // throws
+double Problem::parameter(std::string_view name) const {
+  const std::size_t number = parameter_number(*this, name);
+  ParameterScope* const scope = ParameterScope::of(*this);
+  if (scope == nullptr) return parameters_[number].value;
+  scope->read_as_number(number);
+  return scope->value(number);
 }
 
-double Problem::parameter(std::string_view name) const { return parameters_[parameter_index(name)].value; }
+Expression Problem::varying(std::string_view name) const {
+  const std::size_t number = parameter_number(*this, name);
+  ParameterScope* const scope = ParameterScope::of(*this);
+  if (scope == nullptr) return {parameters_[number].value};
+  const auto input = scope->read_varying(number);
+  return input ? Expression::input(*input) : Expression(scope->value(number));
+}
 
 void Problem::set_parameter(std::string_view name, double value) {
-  Parameter& parameter = parameters_[parameter_index(name)];
+  Parameter& parameter = parameters_[parameter_number(*this, name)];
   parameter.check(value);
   parameter.value = value;
 }

@@ -112,8 +112,11 @@ class Problem {
   [[nodiscard]] Eigen::Index control_size() const;
 
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
-  /// The value of a parameter. Throws `Error` if there is none of that name.
+  /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if there is none of that name.
   [[nodiscard]] double parameter(std::string_view name) const;
+  /// A parameter as formulas read it that other values may be put into later: in a transcription that keeps it open an
+  /// input of the trace, elsewhere its value. Throws as `parameter`.
+  [[nodiscard]] Expression varying(std::string_view name) const;
   /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
   void set_parameter(std::string_view name, double value);
   /// True if every parameter has its default value, those in `except` apart: a certified optimum holds for the data
@@ -124,7 +127,6 @@ class Problem {
   explicit Problem(std::vector<Parameter> parameters = {});
 
  private:
-  [[nodiscard]] std::size_t parameter_index(std::string_view name) const;
   std::vector<Parameter> parameters_;
   std::vector<double> defaults_;
 };

@@ -10,6 +10,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 
 namespace dmocbench {
 
@@ -45,9 +46,25 @@ class FormulaReader {
 
 }  // namespace
 
-TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_size()), m_(problem.control_size()) {
+TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters)
+    : n_(problem.configuration_size()), m_(problem.control_size()) {
   if (n_ == 0) throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
-  InputCounter inputs;
+  const Eigen::VectorXd values = parameter_values(problem);
+  const ParameterTrace parameters(problem, open_parameters);
+  open_ = parameters.open();
+  open_values_.resize(static_cast<Eigen::Index>(open_.size()));
+  set_parameters(values);
+  trace_formulas(problem);
+  trace_ends(problem);
+  are_constants_ = parameters.are_constants();
+  const std::vector<bool> varying = parameters.are_varying();
+  for (std::size_t i = 0; i < varying.size(); ++i) {
+    if (varying[i]) varying_.push_back(problem.parameters()[i].name);
+  }
+}
+
+void TracedProblem::trace_formulas(const Problem& problem) {
+  InputCounter inputs(open_.size());
   const ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), inputs.take()};
   const Expression lagrangian = problem.lagrangian(point.state());
   const ExpressionVector force = problem.force(point);
@@ -86,11 +103,10 @@ TracedProblem::TracedProblem(const Problem& problem) : n_(problem.configuration_
   }
   schedule_ = Schedule(formulas);
   tape_ = Tape(schedule_);
-  trace_ends(problem);
 }
 
 void TracedProblem::trace_ends(const Problem& problem) {
-  InputCounter inputs;
+  InputCounter inputs(open_.size());
   const State first{inputs.take(n_), inputs.take(n_), Expression(0.0)};
   const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
   const ExpressionVector conditions = problem.boundary_conditions(first, last);
@@ -99,6 +115,30 @@ void TracedProblem::trace_ends(const Problem& problem) {
   append(formulas, conditions);
   formulas.push_back(problem.final_cost(last));
   ends_ = Schedule(formulas);
+}
+
+bool TracedProblem::ends_read(Eigen::Index first, Eigen::Index count) const {
+  const auto begin = open_.size() + static_cast<std::size_t>(first);
+  return std::ranges::any_of(ends_.steps(), [&](const Schedule::Step& step) {
+    return step.operation == Operation::input && step.input_index >= begin &&
+           step.input_index < begin + static_cast<std::size_t>(count);
+  });
+}
+
+void TracedProblem::set_parameters(const Eigen::VectorXd& values) {
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    open_values_[static_cast<Eigen::Index>(i)] = values[static_cast<Eigen::Index>(open_[i])];
+  }
+}
+
+TracedProblem TracedProblem::with_open_inputs() const {
+  TracedProblem open = *this;
+  open.has_open_inputs_ = true;
+  return open;
+}
+
+ExpressionVector TracedProblem::parameters() const {
+  return has_open_inputs_ ? input_vector(0, open_values_.size()) : ExpressionVector(open_values_.cast<Expression>());
 }
 
 Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const Eigen::VectorXd& times) const {
@@ -110,6 +150,7 @@ Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const 
   Eigen::MatrixXd values(times.size(), static_cast<Eigen::Index>(tape_.output_count()));
   std::vector<Tape::Input> columns;
   std::vector<double*> results;
+  for (const double& value : open_values_) columns.push_back({&value, true});
   for (const auto& column : inputs.colwise()) columns.push_back({column.data(), false});
   for (auto column : values.colwise()) results.push_back(column.data());
   Tape::Workspace workspace(tape_);
@@ -118,7 +159,8 @@ Eigen::MatrixXd TracedProblem::table(std::span<const MotionPoint> points, const 
 }
 
 TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State& last) const {
-  FormulaReader read(ends_, {&first.q, &first.v, &last.q, &last.v}, last.t);
+  const ExpressionVector parameters = this->parameters();
+  FormulaReader read(ends_, {&parameters, &first.q, &first.v, &last.q, &last.v}, last.t);
   EndValues values;
   values.conditions = read.vector(boundary_conditions_);
   values.final_cost = read.scalar();
@@ -126,7 +168,8 @@ TracedProblem::EndValues TracedProblem::at_ends(const State& first, const State&
 }
 
 TracedProblem::Values TracedProblem::at(const ControlledState& point) const {
-  FormulaReader read(schedule_, {&point.q, &point.v, &point.u}, point.t);
+  const ExpressionVector parameters = this->parameters();
+  FormulaReader read(schedule_, {&parameters, &point.q, &point.v, &point.u}, point.t);
   Values values;
   values.momentum = read.vector(n_);
   values.configuration_force = read.vector(n_);

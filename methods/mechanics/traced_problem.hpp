@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -40,14 +43,31 @@ class TracedProblem {
   };
 
   /// Calls each formula of the problem once. Throws `Error` that names the formula if a dimension is wrong or the
-  /// Lagrangian does not depend on a velocity.
-  explicit TracedProblem(const Problem& problem);
+  /// Lagrangian does not depend on a velocity; or as `ParameterTrace` does about the parameters that are kept open.
+  explicit TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters = {});
+
+  /// The parameters that are kept open, by their numbers among all of the problem.
+  [[nodiscard]] const std::vector<std::size_t>& open_parameters() const noexcept { return open_; }
+  /// Per parameter of the problem, whether a formula contains its value, which can then not be changed.
+  [[nodiscard]] const std::vector<bool>& are_constants() const noexcept { return are_constants_; }
+  /// The names of those that could be kept open: formulas read them, and only by `Problem::varying`.
+  [[nodiscard]] const std::vector<std::string>& varying_parameters() const noexcept { return varying_; }
+  /// The present values of the open ones.
+  [[nodiscard]] const Eigen::VectorXd& open_values() const noexcept { return open_values_; }
+  /// Sets the values of open parameters from those of all parameters. Allocates nothing.
+  void set_parameters(const Eigen::VectorXd& values);
+  /// The same problem whose formulas `at` have the open parameters as inputs 0, 1, ..., not as their present values.
+  [[nodiscard]] TracedProblem with_open_inputs() const;
 
   [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }
   [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }
   [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
   [[nodiscard]] Eigen::Index boundary_condition_count() const noexcept { return boundary_conditions_; }
+  /// True if the conditions or the cost of the ends depend on the velocity of the first or the last end, or on T.
+  [[nodiscard]] bool ends_read_first_velocity() const { return ends_read(n_, n_); }
+  [[nodiscard]] bool ends_read_last_velocity() const { return ends_read(3 * n_, n_); }
+  [[nodiscard]] bool ends_read_horizon() const { return ends_read(4 * n_, 1); }
   /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }
 
@@ -63,7 +83,12 @@ class TracedProblem {
   [[nodiscard]] Values at(const State& point) const;
 
  private:
+  void trace_formulas(const Problem& problem);
   void trace_ends(const Problem& problem);
+  /// Whether an input of the ends' formulas is read, numbered without the parameters.
+  [[nodiscard]] bool ends_read(Eigen::Index first, Eigen::Index count) const;
+  /// What `at` puts in place of the open parameters.
+  [[nodiscard]] ExpressionVector parameters() const;
 
   Eigen::Index n_;
   Eigen::Index m_;
@@ -71,6 +96,12 @@ class TracedProblem {
   Eigen::Index boundary_conditions_ = 0;
   bool has_symmetry_ = false;
   bool momentum_depends_on_time_ = false;
+  // The inputs of all formulas begin with the open parameters.
+  std::vector<std::size_t> open_;
+  std::vector<bool> are_constants_;
+  std::vector<std::string> varying_;
+  Eigen::VectorXd open_values_;
+  bool has_open_inputs_ = false;
   Schedule schedule_;
   Tape tape_;  // of the schedule
   Schedule ends_;

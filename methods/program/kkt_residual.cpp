@@ -70,22 +70,28 @@ double stationarity(double gradient, double x, double lower, double upper) {
   return std::abs(gradient) * std::min(1.0, distance);
 }
 
-double largest_stationarity(const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, const Eigen::VectorXd& lower,
-                            const Eigen::VectorXd& upper) {
+double largest_stationarity(double sign, const Eigen::VectorXd& gradient, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    worst = largest(worst, stationarity(gradient[i], x[i], lower[i], upper[i]));
+    worst = largest(worst, stationarity(sign * gradient[i], x[i], lower[i], upper[i]));
   }
   return worst;
 }
 
-Eigen::VectorXd gradient_of_lagrangian(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                       const Eigen::VectorXd& multipliers) {
-  Eigen::VectorXd gradient = gradient_at(program, primal);
-  const Eigen::VectorXd jacobian = jacobian_at(program, primal);
+/// The constraints and the gradient of the Lagrangian.
+void evaluate(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+              KktMemory& at) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  require_size(multipliers.size(), program.constraint_count(), "multipliers");
+  resize_unwritten(at.constraints, multipliers.size());
+  resize_unwritten(at.gradient, primal.size());
+  resize_unwritten(at.jacobian, static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.constraints(primal, at.constraints);
+  program.gradient(primal, at.gradient);
+  program.jacobian(primal, at.jacobian);
   program.jacobian_structure().for_each(
-      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
-  return gradient;
+      [&](Eigen::Index e, int row, int column) { at.gradient[column] += at.jacobian[e] * multipliers[row]; });
 }
 
 double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal,
@@ -173,41 +179,36 @@ Eigen::VectorXd found_multipliers(NonlinearProgram& program, const Eigen::Vector
 
 }  // namespace
 
-KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
-  require_size(primal.size(), program.variable_count(), "variables");
-  require_size(multipliers.size(), program.constraint_count(), "multipliers");
-  const Eigen::VectorXd constraints = constraints_at(program, primal);
+KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                         KktMemory& memory) {
+  evaluate(program, primal, multipliers, memory);
   KktResidual residual;
-  residual.constraint_violation = violation_of(program, primal, constraints);
-
-  const Eigen::VectorXd gradient = gradient_of_lagrangian(program, primal, multipliers);
+  residual.constraint_violation = violation_of(program, primal, memory.constraints);
   // The multiplier of an inequality is the gradient of its slack but for the sign; that of an equality is free.
   residual.stationarity =
-      largest(largest_stationarity(gradient, primal, program.variable_lower(), program.variable_upper()),
-              largest_stationarity(-multipliers, constraints, program.constraint_lower(), program.constraint_upper()));
+      largest(largest_stationarity(1.0, memory.gradient, primal, program.variable_lower(), program.variable_upper()),
+              largest_stationarity(-1.0, multipliers, memory.constraints, program.constraint_lower(),
+                                   program.constraint_upper()));
   return residual;
 }
 
-KktEntries kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
-  require_size(primal.size(), program.variable_count(), "variables");
-  require_size(multipliers.size(), program.constraint_count(), "multipliers");
-  const Eigen::VectorXd constraints = constraints_at(program, primal);
-  const Eigen::VectorXd gradient = gradient_of_lagrangian(program, primal, multipliers);
-  KktEntries entries{.gradient = Eigen::VectorXd(primal.size()),
-                     .multipliers = Eigen::VectorXd(constraints.size()),
-                     .rows = Eigen::VectorXd(constraints.size()),
-                     .bounds = largest_outside(primal, program.variable_lower(), program.variable_upper())};
+void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                 KktMemory& memory, KktEntries& entries) {
+  evaluate(program, primal, multipliers, memory);
+  entries.gradient.resize(primal.size());
+  entries.multipliers.resize(multipliers.size());
+  entries.rows.resize(multipliers.size());
+  entries.bounds = largest_outside(primal, program.variable_lower(), program.variable_upper());
   for (Eigen::Index j = 0; j < primal.size(); ++j) {
     entries.gradient[j] =
-        stationarity(gradient[j], primal[j], program.variable_lower()[j], program.variable_upper()[j]);
+        stationarity(memory.gradient[j], primal[j], program.variable_lower()[j], program.variable_upper()[j]);
   }
-  for (Eigen::Index i = 0; i < constraints.size(); ++i) {
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
     const double lower = program.constraint_lower()[i];
     const double upper = program.constraint_upper()[i];
-    entries.multipliers[i] = stationarity(-multipliers[i], constraints[i], lower, upper);
-    entries.rows[i] = outside(constraints[i], lower, upper);
+    entries.multipliers[i] = stationarity(-multipliers[i], memory.constraints[i], lower, upper);
+    entries.rows[i] = outside(memory.constraints[i], lower, upper);
   }
-  return entries;
 }
 
 double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal) {

@@ -25,14 +25,26 @@ struct KktEntries {
   double bounds = 0.0;          ///< largest violation of a bound of a variable
 };
 
+/// Memory for residuals that are computed again and again: after the first time nothing is allocated.
+struct KktMemory {
+  Eigen::VectorXd constraints;
+  Eigen::VectorXd gradient;  ///< of the Lagrangian
+  Eigen::VectorXd jacobian;
+};
+
 /// The residual at `primal` (variable_count() entries) with `multipliers` (constraint_count() entries).
 /// NaN where the program gives NaN. Throws `Error` if a size is wrong, as all functions here do.
 [[nodiscard]] KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                       const Eigen::VectorXd& multipliers);
+                                       const Eigen::VectorXd& multipliers, KktMemory& memory);
+[[nodiscard]] inline KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                              const Eigen::VectorXd& multipliers) {
+  KktMemory memory;
+  return kkt_residual(program, primal, multipliers, memory);
+}
 
 /// The same entry by entry, where rows and variables are allowed residuals of their own (`RoundingFloors`).
-[[nodiscard]] KktEntries kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                     const Eigen::VectorXd& multipliers);
+void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                 KktMemory& memory, KktEntries& entries);
 
 /// The constraint violation alone.
 [[nodiscard]] double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);

@@ -25,7 +25,8 @@ class LaneProgram {
 
   /// How many parameters an instance has: inputs of the formulas beside the unknowns.
   [[nodiscard]] virtual std::size_t parameter_count() const { return 0; }
-  /// Gives the instance in a lane its parameters, `parameter_count()` of them.
+  /// Gives the instance in a lane its parameters: `parameter_count()` of them, or none for the usual ones. Throws
+  /// `Error` if they are not allowed.
   virtual void set_parameters(std::size_t lane, std::span<const double> values) {
     static_cast<void>(lane);
     static_cast<void>(values);

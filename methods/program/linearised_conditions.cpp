@@ -17,14 +17,14 @@ double distance_to_bound(double gradient, double x, double lower, double upper) 
 
 }  // namespace
 
-LinearisedConditions::LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                           const Eigen::VectorXd& multipliers)
-    : hessian(static_cast<Eigen::Index>(program.hessian_structure().size())),
-      jacobian(static_cast<Eigen::Index>(program.jacobian_structure().size())),
-      diagonal(Eigen::VectorXd::Zero(primal.size())),
-      compliance(Eigen::VectorXd::Zero(multipliers.size())),
-      gradient_of_cost(primal.size()),
-      constraints(multipliers.size()) {
+void LinearisedConditions::compute(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                   const Eigen::VectorXd& multipliers) {
+  hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  diagonal.setZero(primal.size());
+  compliance.setZero(multipliers.size());
+  gradient_of_cost.resize(primal.size());
+  constraints.resize(multipliers.size());
   program.hessian(primal, 1.0, multipliers, hessian);
   program.jacobian(primal, jacobian);
   program.gradient(primal, gradient_of_cost);

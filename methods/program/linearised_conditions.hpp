@@ -21,8 +21,13 @@ struct LinearisedConditions {
   Eigen::VectorXd gradient;     ///< of the Lagrangian, less what bounds take up
   Eigen::VectorXd constraints;  ///< residuals
 
+  LinearisedConditions() = default;
   /// variable_count() and constraint_count() entries.
-  LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+    compute(program, primal, multipliers);
+  }
+  /// Those at another point; allocates nothing where the sizes stay.
+  void compute(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
   [[nodiscard]] bool is_finite() const;
 

@@ -24,8 +24,8 @@ using VectorOut = Eigen::Ref<Eigen::VectorXd>;
 /// An equality is a row whose two bounds are equal; a variable whose two bounds are equal is fixed. The Lagrangian is
 /// σφ + λᵀa: multipliers carry the sign that makes ∇φ + (∂a/∂ξ)ᵀλ vanish in the directions of the free variables.
 ///
-/// Sizes, bounds and structures never change. Evaluations allocate nothing; they are not to be called from two threads
-/// at once.
+/// Sizes and structures never change, nor does which bounds exist and which are equal; the values of bounds may change
+/// between two solves. Evaluations allocate nothing; they are not to be called from two threads at once.
 class NonlinearProgram {
  public:
   virtual ~NonlinearProgram() = default;

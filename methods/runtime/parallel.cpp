@@ -150,6 +150,7 @@ std::size_t begin_of_part(std::size_t part, std::size_t parts, std::size_t count
 }
 
 void for_each_part(std::size_t parts, const PartWork& work) {
+  if (parts == 1) return work(0);  // most vectors are short
   thread_local bool is_inside = false;
   Job job(parts, work);
   const std::size_t helpers = parts > 1 && !is_inside ? thread_count() - 1 : 0;

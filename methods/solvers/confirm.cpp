@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "methods/program/kkt_residual.hpp"
-#include "methods/solvers/newton_correction.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
@@ -16,17 +14,6 @@ Status judged(Status claim, double residual) {
   if (residual <= confirmation_factor) return Status::solved;
   const bool is_near = residual <= confirmation_factor * acceptable_factor;
   return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
-}
-
-void judge_residuals(NonlinearProgram& program, Solution& solution) {
-  solution.objective = program.objective(solution.primal);
-  if (static_cast<std::size_t>(solution.multipliers.size()) != program.constraint_count()) {
-    solution.multipliers = least_squares_multipliers(program, solution.primal);
-    solution.multipliers_are_estimated = true;
-  }
-  const KktResidual residual = kkt_residual(program, solution.primal, solution.multipliers);
-  solution.kkt_residual = residual.stationarity;
-  solution.constraint_violation = residual.constraint_violation;
 }
 
 namespace {
@@ -43,8 +30,19 @@ double largest_of(std::initializer_list<double> shares) {
 
 }  // namespace
 
-double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution) {
-  const StopRule allowed(program, tolerance);
+void Confirmation::judge_residuals(Solution& solution) {
+  solution.objective = program_.objective(solution.primal);
+  if (static_cast<std::size_t>(solution.multipliers.size()) != program_.constraint_count()) {
+    solution.multipliers = least_squares_multipliers(program_, solution.primal);
+    solution.multipliers_are_estimated = true;
+  }
+  const KktResidual residual = kkt_residual(program_, solution.primal, solution.multipliers, memory_);
+  solution.kkt_residual = residual.stationarity;
+  solution.constraint_violation = residual.constraint_violation;
+}
+
+double Confirmation::scaled_residual(double tolerance, const Solution& solution) {
+  const StopRule allowed(program_, tolerance);
   const Eigen::VectorXd& multipliers = solution.multipliers;
   const bool has_multipliers = multipliers.size() > 0;
   const double mean = has_multipliers ? multipliers.lpNorm<1>() / static_cast<double>(multipliers.size()) : 0.0;
@@ -54,26 +52,25 @@ double scaled_residual(NonlinearProgram& program, double tolerance, const Soluti
     return largest_of({solution.kkt_residual.value_or(unbounded) / stationarity,
                        solution.constraint_violation.value_or(unbounded) / allowed.violation()});
   }
-  const KktEntries entries = kkt_entries(program, solution.primal, multipliers);
-  const double of_slacks = has_multipliers ? entries.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
-  return largest_of({allowed.share_of_stationarity(entries.gradient, mean, largest), of_slacks / stationarity,
-                     allowed.share_of_violation(entries.rows), entries.bounds / allowed.violation()});
+  kkt_entries(program_, solution.primal, multipliers, memory_, entries_);
+  const double of_slacks = has_multipliers ? entries_.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  return largest_of({allowed.share_of_stationarity(entries_.gradient, mean, largest), of_slacks / stationarity,
+                     allowed.share_of_violation(entries_.rows), entries_.bounds / allowed.violation()});
 }
 
-namespace {
-
 /// Takes "solved" back from an answer that a Newton step would move.
-void require_settled(NonlinearProgram& program, Solution& solution) {
-  using Factorisation = NewtonCorrections::Factorisation;
-  auto correction = NewtonCorrections(program).at(solution.primal, solution.multipliers);
+void Confirmation::require_settled(Solution& solution) {
+  if (!corrections_) corrections_.emplace(program_);
+  std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers);
   // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
-  if (!correction || correction->length > settled) {
-    correction = NewtonCorrections(program, Factorisation::sparse).at(solution.primal, solution.multipliers);
+  if (!length || *length > settled) {
+    length = NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
+                 .length_at(solution.primal, solution.multipliers);
   }
-  if (!correction) return;
-  solution.correction = correction->length;
-  if (correction->length <= settled) return;
-  if (!std::isfinite(correction->length)) {
+  if (!length) return;
+  solution.correction = *length;
+  if (*length <= settled) return;
+  if (!std::isfinite(*length)) {
     solution.status = Status::evaluation_failed;
     solution.message = "A second derivative is not a number at the answer.";
     return;
@@ -82,24 +79,32 @@ void require_settled(NonlinearProgram& program, Solution& solution) {
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size; a "
       "cost scaled to about 1, or a smaller tolerance, settles it.",
-      correction->length);
+      *length);
 }
 
-}  // namespace
-
-void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
-  if (static_cast<std::size_t>(solution.primal.size()) != program.variable_count()) {
+void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton) {
+  if (static_cast<std::size_t>(solution.primal.size()) != program_.variable_count()) {
     if (!is_solved(solution.status)) return;
     solution.status = Status::not_confirmed;  // nothing to look at
     solution.message = sentence_of(solution.status);
     return;
   }
-  judge_residuals(program, solution);
+  judge_residuals(solution);
   const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
   if (!claims_success) return;
-  solution.status = judged(solution.status, scaled_residual(program, tolerance, solution));
+  solution.status = judged(solution.status, scaled_residual(tolerance, solution));
   solution.message = sentence_of(solution.status);
-  if (is_solved(solution.status)) require_settled(program, solution);
+  if (is_solved(solution.status) && asks_newton) require_settled(solution);
+}
+
+void judge_residuals(NonlinearProgram& program, Solution& solution) { Confirmation(program).judge_residuals(solution); }
+
+double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution) {
+  return Confirmation(program).scaled_residual(tolerance, solution);
+}
+
+void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
+  Confirmation(program).judge(tolerance, solution);
 }
 
 }  // namespace dmocbench

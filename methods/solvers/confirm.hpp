@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+
+#include "methods/program/kkt_residual.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/solvers/newton_correction.hpp"
 
 namespace dmocbench {
 
@@ -22,12 +26,35 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 /// all else is "not confirmed".
 [[nodiscard]] Status judged(Status claim, double residual);
 
-/// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
-/// without a point, unless it claims to be solved. The message says what the judgement was.
-///
-/// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
-/// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish` may
-/// settle it. Where the step cannot be computed the residuals alone decide.
+/// Judges answers of one program, with memory of its own: after the first one that is solved nothing is allocated.
+class Confirmation {
+ public:
+  /// The program must outlive it.
+  explicit Confirmation(NonlinearProgram& program) : program_(program) {}
+
+  /// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
+  /// without a point, unless it claims to be solved. The message says what the judgement was.
+  ///
+  /// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
+  /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish`
+  /// may settle it. Where the step cannot be computed the residuals alone decide, and where `asks_newton` is false.
+  void judge(double tolerance, Solution& solution, bool asks_newton = true);
+
+ private:
+  void judge_residuals(Solution& solution);
+  [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);
+  void require_settled(Solution& solution);
+
+  friend void judge_residuals(NonlinearProgram& program, Solution& solution);
+  friend double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
+
+  NonlinearProgram& program_;
+  KktMemory memory_;
+  KktEntries entries_;
+  std::optional<NewtonCorrections> corrections_;  // made when it is first needed
+};
+
+/// `Confirmation::judge`, once.
 void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
 
 /// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.

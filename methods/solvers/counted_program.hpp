@@ -15,6 +15,15 @@ class CountedProgram final : public NonlinearProgram {
   explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0)
       : program_(program), most_seconds_(most_seconds > 0.0 ? most_seconds : unbounded) {}
 
+  /// Begins to count and to measure anew, for another solve.
+  void restart(double most_seconds) {
+    counts_ = {};
+    seconds_ = 0.0;
+    left_out_ = 0.0;
+    most_seconds_ = most_seconds > 0.0 ? most_seconds : unbounded;
+    begin_ = Clock::now();
+  }
+
   /// The program itself, for judging a point: what is asked of it is not counted.
   [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return program_; }
   [[nodiscard]] const EvaluationCounts& counts() const noexcept { return counts_; }

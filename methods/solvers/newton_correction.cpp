@@ -25,18 +25,15 @@ NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation fa
       system_(factorisation == Factorisation::sparse ? kkt_system_of_any_point(program) : kkt_system_of(program)) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
-std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
-                                                      const Eigen::VectorXd& multipliers) {
-  const LinearisedConditions at(program_, primal, multipliers);
-  NewtonCorrection correction{.primal = Eigen::VectorXd::Zero(primal.size()),
-                              .multipliers = Eigen::VectorXd::Zero(multipliers.size())};
-  if (!at.is_finite()) {
-    correction.length = unbounded;
-    return correction;
-  }
+std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+  conditions_.compute(program_, primal, multipliers);
+  step_.primal.setZero(primal.size());
+  step_.multipliers.setZero(multipliers.size());
+  if (!conditions_.is_finite()) return unbounded;
   const auto solve = [&] {
-    return system_->solve(kkt_matrix_of(at), {at.gradient, at.constraints},
-                          {correction.primal, correction.multipliers});
+    system_->begin_solve();
+    return system_->solve(kkt_matrix_of(conditions_), {conditions_.gradient, conditions_.constraints},
+                          {step_.primal, step_.multipliers});
   };
   FactorisationStatus status = solve();
   if (status != FactorisationStatus::solved && dynamic_cast<SparseKkt*>(system_.get()) == nullptr) {
@@ -44,9 +41,16 @@ std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& pri
     status = solve();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
-  correction.length = length_of(primal, correction.primal, at.gradient_of_cost);
-  if (!std::isfinite(correction.length)) return std::nullopt;
-  return correction;
+  const double length = length_of(primal, step_.primal, conditions_.gradient_of_cost);
+  return std::isfinite(length) ? std::optional(length) : std::nullopt;
+}
+
+std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
+                                                      const Eigen::VectorXd& multipliers) {
+  const std::optional<double> length = length_at(primal, multipliers);
+  if (!length) return std::nullopt;
+  step_.length = *length;
+  return step_;
 }
 
 double NewtonCorrections::length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/program/linearised_conditions.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/kkt/kkt_system.hpp"
 
@@ -46,6 +47,9 @@ class NewtonCorrections {
   NewtonCorrections(NewtonCorrections&&) = delete;
   NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
+  /// The length of the step from `primal`, see `at`. Allocates nothing after the first time unless the sparse
+  /// factorisation is asked.
+  [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
   /// length where a derivative is not finite; none where the matrix is singular.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
@@ -58,6 +62,8 @@ class NewtonCorrections {
 
   NonlinearProgram& program_;
   std::unique_ptr<kkt::KktSystem> system_;
+  LinearisedConditions conditions_;
+  NewtonCorrection step_;  // the last one
 };
 
 }  // namespace dmocbench

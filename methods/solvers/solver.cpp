@@ -32,21 +32,30 @@ Solution Solver::run_of(const Solver& other, CountedProgram& program, const Eige
   return other.run(program, start);
 }
 
+std::unique_ptr<PreparedRun> Solver::prepare(CountedProgram& /*program*/) const { return nullptr; }
+
+double Solver::seconds_allowed() const {
+  constexpr double shortest = 1e-9;  // 0 is no limit
+  const double in_scope = std::max(seconds_left(), shortest);
+  return options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
+}
+
+void Solver::complete(CountedProgram& counted, Solution& solution) const {
+  solution.seconds = counted.elapsed_seconds();
+  solution.evaluation_seconds = counted.evaluation_seconds();
+  if (counted.counts().total() > 0) solution.evaluations = counted.counts();
+  judge_infeasibility(counted, options_, solution);
+}
+
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
   if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
     throw Error(
         fmt::format("the start has {} entries, the program {} variables", start.size(), program.variable_count()));
   }
-  constexpr double shortest = 1e-9;  // 0 is no limit
-  const double in_scope = std::max(seconds_left(), shortest);
-  const double most_seconds = options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
-  CountedProgram counted(program, most_seconds);
+  CountedProgram counted(program, seconds_allowed());
   Solution solution = run(counted, start);
   if (solution.solver.empty()) solution.solver = name();
-  solution.seconds = counted.elapsed_seconds();
-  solution.evaluation_seconds = counted.evaluation_seconds();
-  if (counted.counts().total() > 0) solution.evaluations = counted.counts();
-  judge_infeasibility(counted, options_, solution);
+  complete(counted, solution);
   confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   return solution;

@@ -42,6 +42,23 @@ struct SolverOptions {
   void validate() const;
 };
 
+/// A method at work on one program, with the memory that it uses again from solve to solve (`PreparedSolve`).
+class PreparedRun {
+ public:
+  virtual ~PreparedRun() = default;
+  PreparedRun(const PreparedRun&) = delete;
+  PreparedRun& operator=(const PreparedRun&) = delete;
+  PreparedRun(PreparedRun&&) = delete;
+  PreparedRun& operator=(PreparedRun&&) = delete;
+
+  /// As `Solver::run`, from a start and, unless they are empty, multipliers (constraint_count() entries). Writes all
+  /// that the method itself knows of a solution; the memory of its vectors is used again.
+  virtual void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, Solution& solution) = 0;
+
+ protected:
+  PreparedRun() = default;
+};
+
 /// A method for nonlinear programs.
 class Solver {
  public:
@@ -65,6 +82,10 @@ class Solver {
 
   [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
 
+  /// The method with memory of its own for solving one program again and again; null where a solve leaves nothing that
+  /// the next one could use. The solver and the program must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const;
+
  protected:
   /// Throws `Error` if an option is out of range.
   explicit Solver(SolverOptions options);
@@ -77,6 +98,12 @@ class Solver {
   [[nodiscard]] static Solution run_of(const Solver& other, CountedProgram& program, const Eigen::VectorXd& start);
 
  private:
+  friend class PreparedSolve;
+  /// The limit of time of a solve that begins now: that of the options and of the innermost `StopScope`.
+  [[nodiscard]] double seconds_allowed() const;
+  /// Adds what was measured, and judges a failure.
+  void complete(CountedProgram& counted, Solution& solution) const;
+
   SolverOptions options_;
 };
 

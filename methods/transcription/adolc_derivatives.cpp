@@ -132,12 +132,16 @@ class AdolcDerivatives final : public DerivativeBackEnd {
         cost_gradient_(functions.inputs.count()),
         rows_jacobian_(rows_.output_count(), rows_.input_count()),
         directions_(static_cast<int>(functions.inputs.unknowns)),
-        seeds_(std::max(lagrangian_.input_count(), directions_), directions_),
-        seeded_hessian_(std::max(lagrangian_.input_count(), directions_), directions_) {
+        seeds_(height_of(functions, lagrangian_), directions_),
+        seeded_hessian_(height_of(functions, lagrangian_), directions_) {
     std::vector<std::size_t> output_of_row(functions.inputs.rows);
     for (std::size_t o = 0; o < functions.rows.places.size(); ++o) output_of_row[functions.rows.places[o]] = o;
+    const std::size_t first = functions.inputs.unknown(0);
+    for (std::vector<std::size_t>* inputs : {&gradient_unknowns_, &jacobian_columns_, &hessian_rows_}) {
+      for (std::size_t& input : *inputs) input += first;
+    }
     for (const std::size_t row : functions.jacobian.rows) jacobian_outputs_.push_back(output_of_row[row]);
-    for (std::size_t a = 0; a < functions.inputs.unknowns; ++a) seeds_(a, a) = 1.0;
+    for (std::size_t a = 0; a < functions.inputs.unknowns; ++a) seeds_(first + a, a) = 1.0;
   }
 
   void gradient(Inputs inputs, VectorOut result) override {
@@ -177,10 +181,16 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   }
 
  private:
+  /// Rows of a matrix whose columns are the local unknowns, all of which it has.
+  static int height_of(const LocalFunctions& functions, const Recording& lagrangian) {
+    return std::max(lagrangian.input_count(), static_cast<int>(functions.inputs.step()));
+  }
+
   Recording cost_;
   Recording rows_;
   Recording lagrangian_;
-  std::vector<std::size_t> gradient_unknowns_;  // per entry, as all of these
+  // Per entry, inputs or outputs of the recordings; the columns of the Hessian are directions.
+  std::vector<std::size_t> gradient_unknowns_;
   std::vector<std::size_t> jacobian_outputs_;
   std::vector<std::size_t> jacobian_columns_;
   std::vector<std::size_t> hessian_rows_;

@@ -29,8 +29,10 @@ EndRules end_rules(const Problem& problem, const TracedProblem& traced, NodeStat
   return rules;
 }
 
-std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced, const EndRules& rules) {
-  InputCounter unknowns;
+std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& closed, const EndRules& rules) {
+  const TracedProblem traced = closed.with_open_inputs();
+  const std::size_t parameters = traced.open_parameters().size();
+  InputCounter unknowns(parameters);
   const auto take_end = [&](bool has_velocity, const BoundaryState& given) {
     const Eigen::Index n = traced.configuration_size();
     End end{.q = unknowns.take(n), .p = {}, .v = given.v.cast<Expression>()};
@@ -58,7 +60,8 @@ std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProbl
   const ExpressionVector tied = stacked(ties);
   if (tied.size() == 0 && ends.conditions.size() == 0 && cost.is_zero()) return std::nullopt;
   EndFunctions functions;
-  static_cast<LocalFunctions&>(functions) = differentiate(cost, stacked({tied, ends.conditions}), unknowns.taken());
+  static_cast<LocalFunctions&>(functions) =
+      differentiate(cost, stacked({tied, ends.conditions}), unknowns.taken() - parameters, parameters);
   functions.ties = tied.size();
   functions.conditions = ends.conditions.size();
   return functions;

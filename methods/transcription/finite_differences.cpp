@@ -26,6 +26,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
   FiniteDifferences(const LocalFunctions& functions, const DerivativePlaces& places, DifferenceKind kind)
       : kind_(kind),
         intervals_(places.gradient.intervals),
+        first_(functions.inputs.unknown(0)),
         unknowns_(functions.inputs.unknowns),
         cost_(functions.cost, intervals_, first_order_points),
         rows_(functions.rows.schedule, intervals_, first_order_points),
@@ -98,7 +99,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
     std::copy(inputs.begin(), inputs.end(), original_.begin());
     std::copy(inputs.begin(), inputs.end(), inputs_.begin());
     for (std::size_t a = 0; a < unknowns_; ++a) {
-      const Tape::Input& x = inputs[a];
+      const Tape::Input& x = inputs[first_ + a];
       for (std::size_t k = 0; k < intervals_; ++k) {
         steps_[a * intervals_ + k] = representable_step(x.data[x.same_for_all ? 0 : k], relative_step);
       }
@@ -107,10 +108,10 @@ class FiniteDifferences final : public DerivativeBackEnd {
 
   void move(std::size_t slot, std::size_t unknown, double factor) {
     double* moved = moved_.data() + slot * intervals_;
-    const Tape::Input& x = original_[unknown];
+    const Tape::Input& x = original_[first_ + unknown];
     const double* step = steps_of(unknown);
     for (std::size_t k = 0; k < intervals_; ++k) moved[k] = x.data[x.same_for_all ? 0 : k] + factor * step[k];
-    inputs_[unknown] = {moved, false};
+    inputs_[first_ + unknown] = {moved, false};
   }
 
   void evaluate(Formulas& formulas, std::size_t point) {
@@ -118,7 +119,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
     formulas.tape.evaluate(intervals_, inputs_, std::span(formulas.series).subspan(point * outputs, outputs),
                            formulas.workspace);
   }
-  void restore(std::size_t unknown) { inputs_[unknown] = original_[unknown]; }
+  void restore(std::size_t unknown) { inputs_[first_ + unknown] = original_[first_ + unknown]; }
   [[nodiscard]] const double* steps_of(std::size_t unknown) const { return steps_.data() + unknown * intervals_; }
 
   void first_order(Formulas& formulas, const std::vector<std::vector<Quotient>>& entries, Inputs inputs,
@@ -213,6 +214,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
 
   DifferenceKind kind_;
   std::size_t intervals_;
+  std::size_t first_;  // of the inputs that are unknowns
   std::size_t unknowns_;
   Formulas cost_;
   Formulas rows_;

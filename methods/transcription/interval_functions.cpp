@@ -12,12 +12,14 @@ struct Unknowns : IntervalUnknowns {
 
 Unknowns make_unknowns(const TracedProblem& problem, const Element& element, Eigen::Index stages,
                        const IntervalRules& rules) {
-  InputCounter counter;
+  const std::size_t parameters = problem.open_parameters().size();
+  InputCounter counter(parameters);
   Unknowns unknowns;
   static_cast<IntervalUnknowns&>(unknowns) = take_unknowns(counter, problem, element, stages);
   unknowns.costs = counter.take(rules.mayer ? 2 : 0);
   const Expression horizon = rules.free_horizon ? counter.take() : Expression(1.0);
-  unknowns.inputs.unknowns = counter.taken();
+  unknowns.inputs.parameters = parameters;
+  unknowns.inputs.unknowns = counter.taken() - parameters;
   unknowns.h = horizon * Expression::input(unknowns.inputs.step());
   unknowns.t = horizon * Expression::input(unknowns.inputs.time());
   return unknowns;
@@ -50,8 +52,9 @@ Schedule stage_table(const std::vector<ControlledState>& stages) {
 
 }  // namespace
 
-IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element, const Tableau& tableau,
+IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element, const Tableau& tableau,
                                  const IntervalRules& rules) {
+  const TracedProblem problem = traced.with_open_inputs();
   const Unknowns unknowns = make_unknowns(problem, element, tableau.stages(), rules);
   const IntervalTrace trace = element.trace(problem, tableau, unknowns);
   const ExpressionVector path = path_rows(problem, trace.stages, rules.bounded_velocities);
@@ -62,7 +65,8 @@ IntervalFunctions trace_interval(const TracedProblem& problem, const Element& el
 
   IntervalFunctions functions;
   const Eigen::Index of_nodes = 2 * (unknowns.left_q.size() + unknowns.left_second.size());
-  static_cast<LocalFunctions&>(functions) = differentiate(cost, rows, unknowns.inputs.unknowns, of_nodes);
+  static_cast<LocalFunctions&>(functions) =
+      differentiate(cost, rows, unknowns.inputs.unknowns, unknowns.inputs.parameters, of_nodes);
   functions.has_stage_unknowns = element.has_stage_unknowns();
   functions.node_rows = trace.left_rows.size();
   functions.stage_equations = trace.stage_equations.size();

@@ -19,6 +19,7 @@ struct IntervalRules {
 
 /// All functions of an interval, traced and differentiated once for all intervals.
 ///
+/// Inputs: `LocalInputs`, the open parameters first.
 /// Local unknowns: those of `IntervalUnknowns` in its order; in Mayer form z_k and z_{k+1}, the cost up to either node;
 /// T where it is free.
 /// Local constraints (rows): left and right terms and stage equations of the element; path constraints, which are not
@@ -36,7 +37,7 @@ struct IntervalFunctions : LocalFunctions {
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i
 };
 
-[[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& problem, const Element& element,
+[[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element,
                                                const Tableau& tableau, const IntervalRules& rules);
 
 }  // namespace dmocbench

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/transcription/column_assembly.hpp"
 #include "methods/transcription/local_functions.hpp"
 
@@ -42,7 +43,18 @@ class LaneTranscription::Part {
         hessian_(functions.hessian.schedule,
                  plan(places_in(program.hessian_structure(), functions.hessian, unknowns, unknowns, true),
                       program.hessian_structure().size(), mode_)),
-        costs_(static_cast<Eigen::Index>(intervals_ * instance_lanes)) {}
+        costs_(static_cast<Eigen::Index>(intervals_ * instance_lanes)) {
+    for (std::size_t i = 0; i < numbers_.parameters; ++i) {
+      inputs_[i] = {parameters_.emplace_back(costs_.size()).data(), false};
+    }
+  }
+
+  /// The value of an open parameter in a lane.
+  void set_parameter(std::size_t lane, std::size_t number, double value) {
+    for (std::size_t k = 0; k < intervals_; ++k) {
+      parameters_[number][static_cast<Eigen::Index>(k * instance_lanes + lane)] = value;
+    }
+  }
 
   void give_times(const Eigen::VectorXd& steps, const Eigen::VectorXd& times) {
     inputs_[numbers_.step()] = {steps.data(), false};
@@ -98,7 +110,7 @@ class LaneTranscription::Part {
     return places;
   }
   std::span<const Tape::Input> bind(const double* x) {
-    for (std::size_t a = 0; a < numbers_.unknowns; ++a) inputs_[a] = {x + unknowns_[a], false};
+    for (std::size_t a = 0; a < numbers_.unknowns; ++a) inputs_[numbers_.unknown(a)] = {x + unknowns_[a], false};
     return inputs_;
   }
 
@@ -114,12 +126,15 @@ class LaneTranscription::Part {
   AssembledTape gradient_;
   AssembledTape jacobian_;
   AssembledTape hessian_;
-  Eigen::VectorXd costs_;  // per interval
+  Eigen::VectorXd costs_;                    // per interval
+  std::vector<Eigen::VectorXd> parameters_;  // per open parameter: one value per interval and lane
   double one_ = 1.0;
 };
 
 LaneTranscription::LaneTranscription(const Transcription& program)
-    : variables_(static_cast<Eigen::Index>(program.variable_count())),
+    : program_(program),
+      usual_parameters_(program.parameter_values()),
+      variables_(static_cast<Eigen::Index>(program.variable_count())),
       rows_(static_cast<Eigen::Index>(program.constraint_count())),
       jacobian_entries_(static_cast<Eigen::Index>(program.jacobian_structure().size())),
       hessian_entries_(static_cast<Eigen::Index>(program.hessian_structure().size())),
@@ -134,6 +149,53 @@ LaneTranscription::LaneTranscription(const Transcription& program)
                                             layout.end_row_places(), true));
   }
   for (const auto& part : parts_) part->give_times(steps_, times_);
+  if (parameter_count() == 0) return;
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) set_parameters(lane, {});
+}
+
+std::size_t LaneTranscription::parameter_count() const {
+  return program_.traced_problem().open_parameters().empty() ? 0 : static_cast<std::size_t>(usual_parameters_.size());
+}
+
+void LaneTranscription::set_parameters(std::size_t lane, std::span<const double> values) {
+  const std::vector<std::size_t>& open = program_.traced_problem().open_parameters();
+  if (open.empty()) return;
+  const Eigen::VectorXd all =
+      values.empty() ? usual_parameters_
+                     : Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  const double horizon = checked_horizon(all);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (const auto& part : parts_) part->set_parameter(lane, i, all[static_cast<Eigen::Index>(open[i])]);
+  }
+  const auto lanes = static_cast<Eigen::Index>(instance_lanes);
+  const auto at = static_cast<Eigen::Index>(lane);
+  const auto of_lane = Eigen::seqN(at, program_.grid().relative_widths().size(), lanes);
+  steps_(of_lane) = horizon * program_.grid().relative_widths();
+  times_(Eigen::seqN(at, program_.grid().relative_times().size(), lanes)) = horizon * program_.grid().relative_times();
+}
+
+/// The horizon of the problem with these parameters, whose bounds must be those of the program.
+double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) const {
+  const Problem& problem = program_.problem();
+  for (Eigen::Index i = 0; i < parameters.size(); ++i) {
+    if (parameters[i] == usual_parameters_[i] ||
+        !program_.traced_problem().are_constants()[static_cast<std::size_t>(i)]) {
+      continue;
+    }
+    throw Error("the formulas contain the parameter " + problem.parameters()[static_cast<std::size_t>(i)].name +
+                "; to change it, keep it open when the transcription is made");
+  }
+  const auto bounds_with = [&](const Eigen::VectorXd& values) {
+    const ParameterScope scope(problem, values);
+    return std::pair(problem.bounds(), problem.horizon());
+  };
+  const auto [usual, usual_horizon] = bounds_with(usual_parameters_);
+  const auto [now, horizon] = bounds_with(parameters);
+  const auto are_same = [](const Bounds& a, const Bounds& b) { return a.lower == b.lower && a.upper == b.upper; };
+  if (!are_same(usual.q, now.q) || !are_same(usual.v, now.v) || !are_same(usual.u, now.u)) {
+    throw Error("the parameters of an instance change bounds, which are the same for a whole batch");
+  }
+  return horizon;
 }
 
 LaneTranscription::~LaneTranscription() = default;
@@ -163,6 +225,12 @@ MakeLanes lanes_of(const Transcription& program) {
   return [&program] { return std::make_unique<LaneTranscription>(program); };
 }
 
+std::function<void(const Eigen::VectorXd&)> parameters_of(Transcription& program) {
+  return [&program, usual = Eigen::VectorXd(program.parameter_values())](const Eigen::VectorXd& values) {
+    program.set_parameters(values.size() > 0 ? values : usual);
+  };
+}
+
 ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), legendre_(program.traced_problem()) {
   const bool are_clamped = program.bounds().first.all_fixed() && program.bounds().last.all_fixed();
   if (!are_clamped || program.has_free_horizon()) {
@@ -172,6 +240,13 @@ ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), lege
 
 void ClampedEnds::write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
                         Eigen::VectorXd& rows) {
+  const Eigen::VectorXd& times = program_.grid().relative_times();
+  for (Eigen::Index i = 0; i < first.q.size(); ++i) {
+    auto nodes = x.segment(static_cast<Eigen::Index>(program_.layout().configuration_column(i)), times.size());
+    const double at_first = first.q[i] - nodes[0];
+    const double at_last = last.q[i] - nodes[times.size() - 1];
+    nodes.array() += at_first + (at_last - at_first) * times.array();
+  }
   write_end(first, 0, 0.0, -1.0, x, rows);
   write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, rows);
 }

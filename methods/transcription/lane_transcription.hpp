@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,7 +18,7 @@ namespace dmocbench {
 /// intervals of all eight, interval k of lanes 0 .. 7 being neighbours.
 class LaneTranscription final : public LaneProgram {
  public:
-  /// Reads the program in this call only. Throws `Error` where the horizon is free.
+  /// The program must outlive it; its values are read in this call only. Throws `Error` where the horizon is free.
   explicit LaneTranscription(const Transcription& program);
   ~LaneTranscription() override;
   LaneTranscription(const LaneTranscription&) = delete;
@@ -24,6 +26,11 @@ class LaneTranscription final : public LaneProgram {
   LaneTranscription(LaneTranscription&&) = delete;
   LaneTranscription& operator=(LaneTranscription&&) = delete;
 
+  /// All parameters of the problem, if the transcription keeps some of them open; else 0.
+  [[nodiscard]] std::size_t parameter_count() const override;
+  /// In the order of `Problem::parameters`; none for those that the program had at first. Sets the horizon, too. Throws
+  /// `Error` if a parameter that is not open, or a bound, would be another one.
+  void set_parameters(std::size_t lane, std::span<const double> values) override;
   void objective(const double* x, double* result) override;
   void gradient(const double* x, double* result) override;
   void constraints(const double* x, double* result) override;
@@ -32,12 +39,16 @@ class LaneTranscription final : public LaneProgram {
 
  private:
   class Part;
+  [[nodiscard]] double checked_horizon(const Eigen::VectorXd& parameters) const;
+
+  const Transcription& program_;
+  Eigen::VectorXd usual_parameters_;
 
   Eigen::Index variables_;
   Eigen::Index rows_;
   Eigen::Index jacobian_entries_;
   Eigen::Index hessian_entries_;
-  Eigen::VectorXd steps_;  // every entry eight times
+  Eigen::VectorXd steps_;  // of every interval and lane
   Eigen::VectorXd times_;
   std::vector<std::unique_ptr<Part>> parts_;  // the intervals; the ends, unless they add nothing
 };
@@ -45,15 +56,21 @@ class LaneTranscription final : public LaneProgram {
 /// Makes the lanes of a transcription, which must outlive what is returned.
 [[nodiscard]] MakeLanes lanes_of(const Transcription& program);
 
+/// Gives a transcription the parameters of an instance, or those that it has now where the instance has none:
+/// `BatchOptions::set_parameters`. The program must outlive what is returned.
+[[nodiscard]] std::function<void(const Eigen::VectorXd&)> parameters_of(Transcription& program);
+
 /// Writes states of the ends into the numbers of an instance: a clamped end fixes q and, where nodes carry it, p or v;
 /// for DMOC the momentum of the end is the value of its row, (eq:gDLOCP3).
 class ClampedEnds {
  public:
-  /// The program must outlive it. Throws `Error` unless both ends are clamped.
+  /// The program must outlive it; momenta are those for the parameters that it has now. Throws `Error` unless both ends
+  /// are clamped.
   explicit ClampedEnds(const Transcription& program);
 
   /// `x`: the unknowns of a start, variable_count() entries; `rows`: the values that equalities have,
-  /// constraint_count() entries. Only those of the ends are written.
+  /// constraint_count() entries, of which those of the ends are written. The configurations between are moved with the
+  /// ends, linearly in time: q_k += (1 - t_k/T) δq_0 + (t_k/T) δq_N, as the default guess of a problem would be.
   void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x, Eigen::VectorXd& rows);
 
  private:

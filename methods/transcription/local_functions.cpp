@@ -38,10 +38,10 @@ LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle) {
 }  // namespace
 
 LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns,
-                             Eigen::Index adjoint_size) {
+                             std::size_t parameters, Eigen::Index adjoint_size) {
   LocalFunctions functions;
-  functions.inputs = {.unknowns = unknowns, .rows = static_cast<std::size_t>(rows.size())};
-  const ExpressionVector z = input_vector(0, static_cast<Eigen::Index>(unknowns));
+  functions.inputs = {.unknowns = unknowns, .rows = static_cast<std::size_t>(rows.size()), .parameters = parameters};
+  const ExpressionVector z = input_vector(functions.inputs.unknown(0), static_cast<Eigen::Index>(unknowns));
   Expression lagrangian = Expression::input(functions.inputs.objective_factor()) * cost;
   for (Eigen::Index r = 0; r < rows.size(); ++r) {
     lagrangian += Expression::input(functions.inputs.multiplier(static_cast<std::size_t>(r))) * rows[r];

@@ -8,17 +8,19 @@
 
 namespace dmocbench {
 
-/// The inputs of a part's formulas: local unknowns first (in the order of `Layout`), then the step and the
-/// time of the left node, the factor of the objective, and one multiplier per local row. Where the horizon is free, its
-/// length is a local unknown, and step and time are relative to it.
+/// The inputs of a part's formulas: the problem's parameters that are kept open first, then local unknowns (in the
+/// order of `Layout`), the step and the time of the left node, the factor of the objective, and one multiplier per
+/// local row. Where the horizon is free, its length is a local unknown, and step and time are relative to it.
 struct LocalInputs {
-  std::size_t unknowns = 0;  ///< how many local unknowns there are
-  std::size_t rows = 0;      ///< how many local rows there are
-  [[nodiscard]] std::size_t step() const noexcept { return unknowns; }
-  [[nodiscard]] std::size_t time() const noexcept { return unknowns + 1; }
-  [[nodiscard]] std::size_t objective_factor() const noexcept { return unknowns + 2; }
-  [[nodiscard]] std::size_t multiplier(std::size_t row) const noexcept { return unknowns + 3 + row; }
-  [[nodiscard]] std::size_t count() const noexcept { return unknowns + 3 + rows; }
+  std::size_t unknowns = 0;    ///< how many local unknowns there are
+  std::size_t rows = 0;        ///< how many local rows there are
+  std::size_t parameters = 0;  ///< how many parameters are kept open
+  [[nodiscard]] std::size_t unknown(std::size_t local) const noexcept { return parameters + local; }
+  [[nodiscard]] std::size_t step() const noexcept { return unknown(unknowns); }
+  [[nodiscard]] std::size_t time() const noexcept { return step() + 1; }
+  [[nodiscard]] std::size_t objective_factor() const noexcept { return step() + 2; }
+  [[nodiscard]] std::size_t multiplier(std::size_t row) const noexcept { return step() + 3 + row; }
+  [[nodiscard]] std::size_t count() const noexcept { return multiplier(rows); }
 };
 
 /// A sparse matrix of a part: formula e is the entry at (rows[e], columns[e]), local numbers.
@@ -50,10 +52,10 @@ struct LocalFunctions {
   Schedule adjoint;      ///< ∂ℓ/∂unknown, of the first unknowns alone
 };
 
-/// Cost and rows, functions of the first `unknowns` inputs, with all their derivatives; `adjoint` has `adjoint_size`
-/// outputs.
+/// Cost and rows, functions of `parameters` and `unknowns` inputs, with all their derivatives by the unknowns;
+/// `adjoint` has `adjoint_size` outputs.
 [[nodiscard]] LocalFunctions differentiate(const Expression& cost, const ExpressionVector& rows, std::size_t unknowns,
-                                           Eigen::Index adjoint_size = 0);
+                                           std::size_t parameters, Eigen::Index adjoint_size = 0);
 
 /// One vector below the other.
 [[nodiscard]] ExpressionVector stacked(const std::vector<ExpressionVector>& parts);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,12 +74,10 @@ EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, Eigen::Ind
 }
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
-  if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
   if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
     throw Error(fmt::format("{}: bounds().horizon must be positive and ascend, got {:g} and {:g}", problem.name(),
                             bounds.lower, bounds.upper));
   }
-  require_inside(problem.horizon(), bounds.lower, bounds.upper, problem.name() + ": horizon");
 }
 
 /// Bounds `count` entries from `first` on.
@@ -122,30 +121,53 @@ Bounds end_momentum(bool clamped, const EndBounds& end, double t, const TracedPr
 }  // namespace
 
 ProblemBounds problem_bounds(const Problem& problem) {
-  const Eigen::Index n = problem.configuration_size();
-  const std::string name = problem.name() + ": bounds()";
   require_state(problem.initial_state(), problem, "initial_state");
   require_state(problem.final_state(), problem, "final_state");
   ProblemBounds bounds = problem.bounds();
+  if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
+  bounds = complete_bounds(problem, std::move(bounds));
+  require_inside(problem.horizon(), bounds.horizon.lower, bounds.horizon.upper, problem.name() + ": horizon");
+  require_state_inside(problem.initial_state(), bounds.first, problem, "initial_state");
+  require_state_inside(problem.final_state(), bounds.last, problem, "final_state");
+  return bounds;
+}
+
+ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
+  const Eigen::Index n = problem.configuration_size();
+  const std::string name = problem.name() + ": bounds()";
   require_horizon(problem, bounds.horizon);
   bounds.q = checked_bounds(bounds.q, n, name + ".q");
   bounds.v = checked_bounds(bounds.v, n, name + ".v");
   bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
   bounds.first = checked_end(bounds.first, bounds.q, n, name + ".first");
   bounds.last = checked_end(bounds.last, bounds.q, n, name + ".last");
-  require_state_inside(problem.initial_state(), bounds.first, problem, "initial_state");
-  require_state_inside(problem.final_state(), bounds.last, problem, "final_state");
   return bounds;
 }
 
+void require_same_structure(const Problem& problem, const ProgramBounds& before, const ProgramBounds& now) {
+  const auto same = [](const Bounds& a, const Bounds& b) {
+    if (a.lower.size() != b.lower.size()) return false;
+    for (Eigen::Index i = 0; i < a.lower.size(); ++i) {
+      const bool keeps_lower = std::isfinite(a.lower[i]) == std::isfinite(b.lower[i]);
+      const bool keeps_upper = std::isfinite(a.upper[i]) == std::isfinite(b.upper[i]);
+      if (!keeps_lower || !keeps_upper || a.is_fixed(i) != b.is_fixed(i)) return false;
+    }
+    return true;
+  };
+  if (same(before.variables, now.variables) && same(before.rows, now.rows)) return;
+  throw Error(problem.name() +
+              ": with these values a bound appears, vanishes, or joins or leaves its opposite; that is another "
+              "transcription");
+}
+
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
-                             const EndRules& ends, const Layout& layout) {
+                             double horizon, const EndRules& ends, const Layout& layout) {
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
   auto& [variables, rows] = result;
   const std::size_t last_node = layout.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
-  const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, problem.horizon(), traced, problem, "end");
+  const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");
   const auto set_entry = [](Bounds& all, std::size_t entry, const Bounds& of, Eigen::Index i) {
     set(all, entry, 1, of.lower[i], of.upper[i]);
   };

@@ -5,7 +5,7 @@
 namespace dmocbench {
 
 ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
-                         const Eigen::VectorXd& times, std::string_view derivatives)
+                         const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives)
     : numbers_(functions.inputs),
       unknown_places_(std::move(places.unknowns)),
       row_places_(std::move(places.rows)),
@@ -14,6 +14,7 @@ ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, con
       rows_(functions.rows.schedule, places.constraints),
       derivatives_(make_derivative_back_end(derivatives, functions, places.derivatives)),
       costs_(static_cast<Eigen::Index>(places.constraints.intervals)) {
+  for (std::size_t i = 0; i < numbers_.parameters; ++i) inputs_[i] = {parameters.data() + i, true};
   inputs_[numbers_.step()] = {steps.data(), false};
   inputs_[numbers_.time()] = {times.data(), false};
   inputs_[numbers_.objective_factor()] = {&objective_factor_, true};
@@ -22,7 +23,7 @@ ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, con
 std::span<const Tape::Input> ProgramPart::bind(const VectorIn& x, const VectorIn& multipliers,
                                                double objective_factor) {
   for (std::size_t a = 0; a < numbers_.unknowns; ++a) {
-    inputs_[a] = {x.data() + unknown_places_[a].first, unknown_places_[a].shared};
+    inputs_[numbers_.unknown(a)] = {x.data() + unknown_places_[a].first, unknown_places_[a].shared};
   }
   objective_factor_ = objective_factor;
   for (std::size_t r = 0; r < numbers_.rows && multipliers.size() > 0; ++r) {

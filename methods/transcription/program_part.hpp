@@ -27,10 +27,10 @@ struct PartPlaces {
 /// the program's own vectors, read in place. Allocates nothing in an evaluation.
 class ProgramPart {
  public:
-  /// `steps` and `times` are read in every evaluation, one entry per interval, and must outlive this object.
-  /// `derivatives` names a back end, see `make_derivative_back_end`.
+  /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, are read in every
+  /// evaluation and must outlive this object. `derivatives` names a back end, see `make_derivative_back_end`.
   ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
-              const Eigen::VectorXd& times, std::string_view derivatives);
+              const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives);
   // Inputs point into this object.
   ProgramPart(const ProgramPart&) = delete;
   ProgramPart& operator=(const ProgramPart&) = delete;

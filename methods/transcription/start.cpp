@@ -159,6 +159,14 @@ Motion guessed_motion(const Problem& problem) {
   return {[&problem](double t) { return problem.guess(t); }, problem.horizon()};
 }
 
+Motion guessed_motion(const Transcription& program) {
+  return {[&program](double t) {
+            const ParameterScope scope = program.parameter_scope();
+            return program.problem().guess(t);
+          },
+          program.guessed_horizon()};
+}
+
 Eigen::VectorXd embed(const Problem& problem, const Transcription& transcription, const Trajectory& trajectory) {
   require_same_grid(transcription, trajectory);
   const NodeState node_state = transcription.layout().node_state();

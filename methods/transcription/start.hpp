@@ -17,6 +17,9 @@ namespace dmocbench {
 
 /// The problem's own guess as a motion. The problem must outlive it.
 [[nodiscard]] Motion guessed_motion(const Problem& problem);
+/// The guess of the program's problem for the values that the program has now. The program must outlive it; values that
+/// it is given later count.
+[[nodiscard]] Motion guessed_motion(const Transcription& program);
 
 /// A trajectory of any method in the unknowns of a transcription on the same grid with the same tableau: nodes q with p
 /// or v, interior rates Q̇_j with Ṗ_j = (L_q + f)(stage j) or V̇_j from the equations of

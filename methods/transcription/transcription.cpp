@@ -1,12 +1,12 @@
 #include "methods/transcription/transcription.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "methods/error.hpp"
 #include "methods/transcription/guess_check.hpp"
+#include "methods/transcription/program_floors.hpp"
 
 namespace dmocbench {
 
@@ -54,37 +54,6 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count()};
 }
 
-/// The floor of every place, that of an interval being `of_interval`.
-Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interval, double of_border) {
-  Eigen::VectorXd floors(static_cast<Eigen::Index>(places.size()));
-  const Eigen::Index last = of_interval.size() - 1;
-  Eigen::Index i = 0;
-  places.for_each([&](const Place& place) {
-    const auto k = static_cast<Eigen::Index>(place.index);
-    double floor = of_border;
-    if (place.kind == Place::Kind::interval) floor = of_interval[k];
-    if (place.kind == Place::Kind::node) {
-      floor = std::max(of_interval[std::max<Eigen::Index>(k - 1, 0)], of_interval[std::min(k, last)]);
-    }
-    floors[i++] = floor;
-  });
-  return floors;
-}
-
-/// From max|q| and max|L_vv| over the ends and the guess, and the steps of the intervals.
-RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps, const Layout& layout) {
-  constexpr double safety = 20.0;
-  const double terms =
-      safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass;
-  RoundingFloors floors{
-      .smallest = terms / steps.maxCoeff(), .largest = terms / steps.minCoeff(), .rows = {}, .variables = {}};
-  if (steps.minCoeff() == steps.maxCoeff()) return floors;
-  const Eigen::VectorXd of_interval = terms * steps.cwiseInverse();
-  floors.rows = floors_at(layout.structure().rows, of_interval, floors.smallest);
-  floors.variables = floors_at(layout.structure().unknowns, of_interval, floors.largest);
-  return floors;
-}
-
 }  // namespace
 
 CostForm cost_form_named(std::string_view name) {
@@ -95,11 +64,17 @@ CostForm cost_form_named(std::string_view name) {
 
 Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
                              std::string_view derivatives, CostForm form)
-    : tableau_(std::move(tableau)),
+    : Transcription(problem, element, std::move(tableau), grid, OpenParameters{}, derivatives, form) {}
+
+Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
+                             const OpenParameters& open, std::string_view derivatives, CostForm form)
+    : problem_(&problem),
+      parameters_(dmocbench::parameter_values(problem)),
+      tableau_(std::move(tableau)),
       grid_(grid),
       cost_scale_(problem.cost_scale()),
       guessed_horizon_(problem.horizon()),
-      traced_(problem),
+      traced_(problem, open.names),
       problem_bounds_(problem_bounds(problem)),
       end_rules_(end_rules(problem, traced_, element.node_state(), form == CostForm::mayer)),
       functions_(trace_interval(traced_, element, tableau_,
@@ -109,9 +84,9 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
                                  .bounded_velocities = problem_bounds_.bounded_velocities()})),
       end_functions_(trace_ends(problem, traced_, end_rules_)),
       layout_(layout_shape(grid.intervals(), traced_, tableau_, end_rules_, functions_)),
-      bounds_(program_bounds(problem, traced_, problem_bounds_, end_rules_, layout_)),
-      rounding_floors_(
-          rounding_floors_of(check_guess(problem, traced_, grid), guessed_horizon_ * grid.relative_widths(), layout_)),
+      bounds_(program_bounds(problem, traced_, problem_bounds_, guessed_horizon_, end_rules_, layout_)),
+      magnitudes_(check_guess(problem, traced_, grid)),
+      rounding_floors_(rounding_floors_of(magnitudes_, guessed_horizon_ * grid.relative_widths(), layout_)),
       step_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_widths()),
       time_inputs_((end_rules_.free_horizon ? 1.0 : guessed_horizon_) * grid.relative_times()),
       jacobian_pattern_(assemble_pattern(
@@ -150,8 +125,8 @@ void Transcription::add_part(const LocalFunctions& functions, const std::vector<
       .derivatives = {.gradient = plan(pick(unknowns, functions.gradient.places), layout_.variable_count()),
                       .jacobian = plan(jacobian, jacobian_pattern_.pattern.size()),
                       .hessian = plan(hessian, hessian_pattern_.pattern.size())}};
-  parts_.push_back(
-      std::make_unique<ProgramPart>(functions, std::move(places), step_inputs_, time_inputs_, derivatives));
+  parts_.push_back(std::make_unique<ProgramPart>(functions, std::move(places), step_inputs_, time_inputs_,
+                                                 traced_.open_values(), derivatives));
 }
 
 void Transcription::require_enough_intervals(const Problem& problem, const Element& element) const {

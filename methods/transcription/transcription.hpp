@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
@@ -15,6 +17,7 @@
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/end_functions.hpp"
 #include "methods/transcription/grid.hpp"
+#include "methods/transcription/guess_check.hpp"
 #include "methods/transcription/interval_functions.hpp"
 #include "methods/transcription/layout.hpp"
 #include "methods/transcription/program_bounds.hpp"
@@ -32,12 +35,24 @@ enum class CostForm : std::uint8_t {
 /// The form of that name. Throws `Error` that lists the names if there is none.
 [[nodiscard]] CostForm cost_form_named(std::string_view name);
 
+/// Parameters of a problem that its formulas read by `Problem::varying` (`TracedProblem::varying_parameters`) and that
+/// `Transcription::set_parameters` shall change.
+struct OpenParameters {
+  std::vector<std::string> names;
+};
+
 /// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval and of the
 /// ends of the horizon.
 ///
 /// Everything except the element's formulas is the same for all methods: numbering, sparsity, derivatives, bounds, path
 /// constraints, boundary conditions, horizon. The cost is multiplied by `Problem::cost_scale`. `EndRules` describes how
 /// the ends enter, `program_bounds` how the bounds do.
+///
+/// A program is made once and may then be given other values: parameters, ends, bounds and horizon (`set_parameters`
+/// and the functions behind it), while tapes, patterns and memory stay. What is structure stays too, and another one is
+/// refused: the number of unknowns, which bounds exist and which of them are equal, parameters whose values formulas
+/// contain. The cost scale and the sizes of q and L_vv in `rounding_floors` are those of the values at set-up, so that
+/// answers for different values are measured alike.
 class Transcription final : public NonlinearProgram {
  public:
   /// Traces the problem on one interval and sets everything up for the grid. Throws `Error` if the grid has too few
@@ -46,6 +61,34 @@ class Transcription final : public NonlinearProgram {
   /// default is exact); values, momenta and costates always come from the formulas.
   Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
                 std::string_view derivatives = "tape", CostForm form = CostForm::bolza);
+  /// The same with parameters that stay inputs of the trace. Throws as `ParameterTrace` does about their names.
+  Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
+                const OpenParameters& open, std::string_view derivatives = "tape", CostForm form = CostForm::bolza);
+
+  // Other values. For all of these the problem of the constructor must still exist; it stays as it is. All throw
+  // `Error` and change nothing if a value is not allowed or asks for another structure. Not to be called while a solve
+  // runs.
+
+  /// Gives the problem's parameters other values, in the order of `Problem::parameters`, and reads its ends, bounds and
+  /// horizon again; what the functions below have set is forgotten. A parameter that formulas contain may change only
+  /// if it is kept open.
+  void set_parameters(const Eigen::VectorXd& values);
+  /// The same for one parameter; the others keep their values.
+  void set_parameter(std::string_view name, double value);
+  /// The state of the first (last) end: its fixed components take these values, the others stay free.
+  void set_initial_state(const BoundaryState& state);
+  void set_final_state(const BoundaryState& state);
+  /// All bounds, those of the ends among them. The bounds of a fixed horizon set T.
+  void set_bounds(const ProblemBounds& bounds);
+  /// T, where it is fixed; where it is free, the T that guesses take.
+  void set_horizon(double horizon);
+
+  /// The values of all parameters, in the order of `Problem::parameters`.
+  [[nodiscard]] const Eigen::VectorXd& parameter_values() const noexcept { return parameters_; }
+  /// Lets this thread see the problem with these values as long as the scope exists: for its guess and for diagnostics
+  /// that take the problem.
+  [[nodiscard]] ParameterScope parameter_scope() const { return {*problem_, parameters_}; }
+  [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
   [[nodiscard]] std::size_t constraint_count() const override { return layout_.row_count(); }
@@ -102,6 +145,16 @@ class Transcription final : public NonlinearProgram {
                                          const VectorIn& multipliers = Eigen::VectorXd());
 
  private:
+  /// What the functions that set values change.
+  struct Values {
+    ProblemBounds bounds;
+    double horizon;
+  };
+  [[nodiscard]] Values present_values() const { return {problem_bounds_, guessed_horizon_}; }
+  /// Checks values and makes them those of the program; the open parameters are set before.
+  void use(Values values);
+  void require_readable_ends(const Values& values) const;
+  void set_end(const BoundaryState& state, EndBounds ProblemBounds::*end, const char* name);
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] long long fixed_variables_of_an_interval() const;
   /// Sets up the intervals at the first call, the ends at the second; the patterns must be complete.
@@ -109,6 +162,8 @@ class Transcription final : public NonlinearProgram {
                 const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
                 const std::vector<ColumnPlace>& hessian, std::string_view derivatives);
 
+  const Problem* problem_;
+  Eigen::VectorXd parameters_;
   Tableau tableau_;
   Grid grid_;
   double cost_scale_;
@@ -120,6 +175,7 @@ class Transcription final : public NonlinearProgram {
   std::optional<EndFunctions> end_functions_;
   Layout layout_;
   ProgramBounds bounds_;
+  GuessMagnitudes magnitudes_;
   RoundingFloors rounding_floors_;
   Eigen::VectorXd step_inputs_;
   Eigen::VectorXd time_inputs_;

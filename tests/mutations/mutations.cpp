@@ -140,9 +140,9 @@ Costates mutable_costates(Transcription& transcription, const Eigen::VectorXd& p
 }
 
 KktResidual mutable_kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                 const Eigen::VectorXd& multipliers) {
+                                 const Eigen::VectorXd& multipliers, KktMemory& memory) {
   KktResidual residual =
-      true_kkt_residual(program, primal, chosen("multipliers_of_wrong_sign") ? -multipliers : multipliers);
+      true_kkt_residual(program, primal, chosen("multipliers_of_wrong_sign") ? -multipliers : multipliers, memory);
   if (chosen("ignored_violation")) residual.constraint_violation = 0.0;
   return residual;
 }

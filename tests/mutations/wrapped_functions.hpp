@@ -45,8 +45,8 @@ DMOCBENCH_WRAPPED(std::unique_ptr<DerivativeBackEnd>, make_derivative_back_end, 
 DMOCBENCH_WRAPPED(Costates, costates, (Transcription& transcription, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, const Eigen::MatrixXd& v),
   "_ZN9dmocbench8costatesERNS_13TranscriptionERKN5Eigen6MatrixIdLin1ELi1ELi0ELin1ELi1EEES6_RKNS3_IdLin1ELin1ELi0ELin1ELin1EEE");
 
-DMOCBENCH_WRAPPED(KktResidual, kkt_residual, (NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers),
-  "_ZN9dmocbench12kkt_residualERNS_16NonlinearProgramERKN5Eigen6MatrixIdLin1ELi1ELi0ELin1ELi1EEES6_");
+DMOCBENCH_WRAPPED(KktResidual, kkt_residual, (NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, KktMemory& memory),
+  "_ZN9dmocbench12kkt_residualERNS_16NonlinearProgramERKN5Eigen6MatrixIdLin1ELi1ELi0ELin1ELi1EEES6_RNS_9KktMemoryE");
 
 DMOCBENCH_WRAPPED(void, confirm, (NonlinearProgram& program, double tolerance, Solution& solution),
   "_ZN9dmocbench7confirmERNS_16NonlinearProgramEdRNS_8SolutionE");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
 
 namespace dmocbench::batch {
@@ -91,9 +92,14 @@ bool LaneRun::is_anyone(Phase phase) const {
 
 void LaneRun::refill() {
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    if (lanes_[lane].phase != Phase::idle || desk_.is_stopped()) continue;
-    if (!desk_.fetch(lanes_[lane].ticket)) return;
-    begin(lane);
+    while (lanes_[lane].phase == Phase::idle && !desk_.is_stopped()) {
+      if (!desk_.fetch(lanes_[lane].ticket)) return;
+      try {
+        begin(lane);
+      } catch (const Error& error) {
+        refuse(lane, error.what());
+      }
+    }
   }
 }
 
@@ -123,8 +129,34 @@ void LaneRun::begin(std::size_t number) {
   z_.of(number).setOnes();
 }
 
+/// Assembles the systems of this round.
+kkt::LaneKkt::Systems LaneRun::systems() {
+  const bool is_plain =
+      primal_.size() == problem_.variable_count() && !problem_.has_bounds() && !is_anyone(Phase::estimating);
+  kkt::LaneKkt::Systems systems{.hessian = problem_.hessian().data(),
+                                .jacobian = problem_.jacobian().data(),
+                                .diagonal = sigma_.data(),
+                                .compliance = compliance_.data(),
+                                .gradient = problem_.gradient_of_lagrangian().data(),
+                                .constraints = values_.constraints.data()};
+  const OfLanes shift =
+      of_lanes([](const Lane& lane) { return lane.phase == Phase::estimating ? 1.0 : lane.shift.value(); });
+  if (is_plain) {
+    if ((shift != shift_in_sigma_).any()) {
+      for (Eigen::Index i = 0; i < sigma_.size(); ++i) sigma_[i] = shift;
+    }
+    shift_in_sigma_ = shift;
+    return systems;
+  }
+  shift_in_sigma_.setConstant(-1.0);
+  assemble_systems(shift);
+  systems.gradient = gradient_.data();
+  systems.constraints = residuals_.data();
+  return systems;
+}
+
 /// Σ, the right-hand side and the compliance of all lanes, with slacks eliminated: ds = E (dλ - ∇_s), E the compliance.
-void LaneRun::assemble_systems() {
+void LaneRun::assemble_systems(const OfLanes& shift) {
   const Eigen::Index n = problem_.variable_count();
   const Eigen::Index m = problem_.constraint_count();
   std::copy_n(problem_.gradient_of_lagrangian().data(), primal_.size() * width, gradient_.data());
@@ -142,8 +174,6 @@ void LaneRun::assemble_systems() {
     gradient_.of(lane).head(n) = problem_.gradient().of(lane);
     problem_.bounds().subtract_multipliers(lane, z_, gradient_);
   }
-  const OfLanes shift =
-      of_lanes([](const Lane& lane) { return lane.phase == Phase::estimating ? 1.0 : lane.shift.value(); });
   for (Eigen::Index i = 0; i < primal_.size(); ++i) sigma_[i] += shift;
   for (Eigen::Index j = n; const Eigen::Index row : problem_.inequalities()) {
     compliance_[row] = 1.0 / sigma_[j];
@@ -161,14 +191,7 @@ void LaneRun::solve_systems() {
   }
   if (std::ranges::none_of(wanted, std::identity{})) return;
   problem_.evaluate_hessian(primal_, multipliers_);
-  assemble_systems();
-  const kkt::LaneKkt::Outcomes outcomes = kkt_->solve({.hessian = problem_.hessian().data(),
-                                                       .jacobian = problem_.jacobian().data(),
-                                                       .diagonal = sigma_.data(),
-                                                       .compliance = compliance_.data(),
-                                                       .gradient = gradient_.data(),
-                                                       .constraints = residuals_.data()},
-                                                      wanted, step_.data(), multiplier_step_.data());
+  const kkt::LaneKkt::Outcomes outcomes = kkt_->solve(systems(), wanted, step_.data(), multiplier_step_.data());
   for (Eigen::Index j = problem_.variable_count(); const Eigen::Index row : problem_.inequalities()) {
     step_[j] = compliance_[row] * (multiplier_step_[row] - gradient_[j]);
     ++j;
@@ -220,24 +243,7 @@ void LaneRun::search_lines() {
   }
   LaneMask fresh{};
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) fresh[lane] = lanes_[lane].phase == Phase::fresh;
-  const OfLanes push =
-      of_lanes([](const Lane& lane) { return lane.ticket.instance.multipliers.size() > 0 ? of_warm_start : kappa_1; });
-  do {
-    lane_loops().set_to_sum(trial_.data(), primal_.data(), length_.data(), step_.data(), primal_.size());
-    problem_.evaluate(fresh, push, trial_, trial_values_);
-    for (std::size_t number = 0; number < instance_lanes; ++number) {
-      Lane& lane = lanes_[number];
-      if (fresh[number]) evaluate_start(number);
-      fresh[number] = false;
-      if (!lane.is_searching) continue;
-      lane.is_searching = !try_step(number);
-      if (!lane.is_searching) continue;
-      length_[index_of(number)] *= 0.5;
-      if (length_[index_of(number)] >= lane.smallest_length) continue;
-      length_[index_of(number)] = 0.0;
-      give_up(number);
-    }
-  } while (std::ranges::any_of(lanes_, &Lane::is_searching));
+  search(fresh);
   primal_.swap(trial_);
   std::swap(values_, trial_values_);
   lane_loops().set_to_sum(multipliers_.data(), multipliers_.data(), length_.data(), multiplier_step_.data(),
@@ -247,6 +253,30 @@ void LaneRun::search_lines() {
   problem_.bounds().set_multiplier_step(trial_, z_, mu, step_, z_step_);
   const OfLanes of_z = problem_.bounds().multiplier_fraction_to_boundary(z_, z_step_, tau);
   problem_.bounds().update_multipliers(primal_, z_step_, (length_ > 0.0).select(of_z, 0.0), mu, z_);
+}
+
+/// Evaluates trial points until all lanes have one that is accepted. A lane that has one keeps its length, and gets the
+/// same values again.
+void LaneRun::search(const LaneMask& fresh) {
+  bool is_first = true;
+  const OfLanes push =
+      of_lanes([](const Lane& lane) { return lane.ticket.instance.multipliers.size() > 0 ? of_warm_start : kappa_1; });
+  do {
+    lane_loops().set_to_sum(trial_.data(), primal_.data(), length_.data(), step_.data(), primal_.size());
+    problem_.evaluate(fresh, push, trial_, trial_values_);
+    for (std::size_t number = 0; number < instance_lanes; ++number) {
+      Lane& lane = lanes_[number];
+      if (is_first && fresh[number]) evaluate_start(number);
+      if (!lane.is_searching) continue;
+      lane.is_searching = !try_step(number);
+      if (!lane.is_searching) continue;
+      length_[index_of(number)] *= 0.5;
+      if (length_[index_of(number)] >= lane.smallest_length) continue;
+      length_[index_of(number)] = 0.0;
+      give_up(number);
+    }
+    is_first = false;
+  } while (std::ranges::any_of(lanes_, &Lane::is_searching));
 }
 
 void LaneRun::begin_search(std::size_t number) {
@@ -413,6 +443,16 @@ void LaneRun::update_barrier_parameter(std::size_t number) {
     lane.mu = std::max(smallest, std::min(kappa_mu * lane.mu, std::pow(lane.mu, theta_mu)));
     lane.filter.reset(lane.theta_max);
   }
+}
+
+/// An instance whose parameters are not allowed.
+void LaneRun::refuse(std::size_t number, const char* reason) {
+  lanes_[number].phase = Phase::idle;
+  solution_ = {};
+  solution_.status = Status::invalid_program;
+  solution_.message = reason;
+  solution_.solver = "batch";
+  desk_.deliver(lanes_[number].ticket.index, solution_);
 }
 
 void LaneRun::give_up(std::size_t number) {

@@ -65,14 +65,17 @@ class LaneRun {
   void differentiate();
   void judge();
 
-  void assemble_systems();
+  [[nodiscard]] kkt::LaneKkt::Systems systems();
+  void assemble_systems(const OfLanes& shift);
   void begin_search(std::size_t lane);
+  void search(const LaneMask& fresh);
   [[nodiscard]] bool try_step(std::size_t lane);
   void evaluate_start(std::size_t lane);
   void judge(std::size_t lane);
   [[nodiscard]] bool is_solved(std::size_t lane) const;
   void update_barrier_parameter(std::size_t lane);
   void begin_iteration(std::size_t lane);
+  void refuse(std::size_t lane, const char* reason);
   void give_up(std::size_t lane);
   void finish(std::size_t lane, Status status);
   [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
@@ -104,10 +107,11 @@ class LaneRun {
   OfLanes length_;         // α
   OfLanes share_of_step_;  // see share_moved
   // The systems.
-  LaneVector sigma_;       // Σ; later with δ_w, the diagonal
-  LaneVector gradient_;    // of the right-hand side, with the barrier
-  LaneVector compliance_;  // (Σ_s + δ_w)⁻¹, one per constraint
-  LaneVector residuals_;   // of the right-hand side
+  LaneVector sigma_;                                  // Σ; later with δ_w, the diagonal
+  OfLanes shift_in_sigma_ = OfLanes::Constant(-1.0);  // of all its entries, where there are no bounds; else negative
+  LaneVector gradient_;                               // of the right-hand side, with the barrier
+  LaneVector compliance_;                             // (Σ_s + δ_w)⁻¹, one per constraint
+  LaneVector residuals_;                              // of the right-hand side
   // What a judgement looks at.
   OfLanes stationarity_;
   OfLanes size_of_gradient_;  // not finite where an entry is not

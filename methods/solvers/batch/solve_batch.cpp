@@ -30,6 +30,23 @@ namespace {
 /// The desk of one batch, for all its threads.
 class BatchDesk final : public Desk {
  private:
+  Solution solve_alone(const BatchInstance& instance) {
+    SolverOptions single;
+    single.tolerance = options_.tolerance;
+    single.most_iterations = options_.most_iterations;
+    single.start_multipliers = instance.multipliers;
+    single.stop_requested = options_.stop_requested;
+    const InteriorPointSolver solver(std::move(single));
+    try {
+      return with_instance(instance, [&](NonlinearProgram& alone) { return solver.solve(alone, instance.start); });
+    } catch (const Error& error) {
+      Solution refused;
+      refused.status = Status::invalid_program;
+      refused.message = error.what();
+      return refused;
+    }
+  }
+
   /// What `use` makes of the instance as a program of its own.
   template <class Use>
   auto with_instance(const BatchInstance& instance, const Use& use) {
@@ -73,14 +90,7 @@ class BatchDesk final : public Desk {
     {
       const std::lock_guard lock(program_use_);
       ++summary_.solved_one_by_one;
-      solution = with_instance(ticket.instance, [&](NonlinearProgram& instance) {
-        SolverOptions single;
-        single.tolerance = options_.tolerance;
-        single.most_iterations = options_.most_iterations;
-        single.start_multipliers = ticket.instance.multipliers;
-        single.stop_requested = options_.stop_requested;
-        return InteriorPointSolver(std::move(single)).solve(instance, ticket.instance.start);
-      });
+      solution = solve_alone(ticket.instance);
     }
     deliver(ticket.index, solution);
   }
@@ -129,7 +139,7 @@ class BatchDesk final : public Desk {
     require_size("start", instance.start, program_.variable_count(), false);
     require_size("vector of rows", instance.rows, program_.constraint_count(), true);
     require_size("vector of multipliers", instance.multipliers, program_.constraint_count(), true);
-    require_size("vector of parameters", instance.parameters, parameters_, false);
+    require_size("vector of parameters", instance.parameters, parameters_, true);
     if (refused.status != Status::not_run) return refused;
     for (const Eigen::VectorXd* vector :
          {&instance.start, &instance.rows, &instance.multipliers, &instance.parameters}) {

@@ -20,7 +20,7 @@ struct BatchInstance {
   Eigen::VectorXd rows;
   /// λ of an instance that is nearly the same, constraint_count() entries: a warm start. None for a cold one.
   Eigen::VectorXd multipliers;
-  /// As many as `LaneProgram::parameter_count`.
+  /// As many as `LaneProgram::parameter_count`; none for those of the program.
   Eigen::VectorXd parameters;
 };
 
@@ -58,7 +58,8 @@ using TakeSolution = std::function<void(std::size_t index, const Solution& solut
 /// Solves many instances of a program by the interior-point method, eight at a time in the lanes of vector registers
 /// and several such groups on threads; see README.md. An instance that has converged leaves its lane to the next one.
 ///
-/// `next` and `take` are called from several threads, one at a time; answers come in any order, each with the index
+/// `next` and `take` are called from several threads, one at a time, while `program` is in use: neither may touch it.
+/// Answers come in any order, each with the index
 /// that its instance was fetched with: 0, 1, ... Memory does not grow with their number. An answer depends on its
 /// instance alone, to the last digit: neither on its neighbours nor on the number of threads. It is solved only if the
 /// residuals of its optimality conditions are below the tolerance, and a Newton step would not move it (`confirm`).

@@ -62,6 +62,10 @@ BarrierBounds::BarrierBounds(const Primal& lower, const Primal& upper) {
   }
 }
 
+void BarrierBounds::read(const Primal& lower, const Primal& upper) {
+  for (BoundStretch& bounds : stretches_) bounds.values = bounds.entries(bounds.side > 0.0 ? lower : upper);
+}
+
 void BarrierBounds::set_multipliers(double value, Iterate& at) const {
   for (std::size_t set = 0; set < counts_.size(); ++set) at.z[set].setConstant(counts_[set], value);
 }

@@ -47,6 +47,9 @@ class BarrierBounds {
   /// `lower` and `upper` bound x and s; infinite where there is no bound.
   BarrierBounds(const Primal& lower, const Primal& upper);
 
+  /// Other values of the same bounds.
+  void read(const Primal& lower, const Primal& upper);
+
   [[nodiscard]] Eigen::Index count() const noexcept { return count_; }
 
   /// Sizes z and sets all of it to one value.

@@ -32,37 +32,61 @@ std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
   return inequalities;
 }
 
+/// Eigen's own indexing copies the indices.
+void select(const Eigen::VectorXd& from, const std::vector<Eigen::Index>& entries, Eigen::VectorXd& to) {
+  to.resize(static_cast<Eigen::Index>(entries.size()));
+  for (Eigen::Index j = 0; j < to.size(); ++j) to[j] = from[entries[static_cast<std::size_t>(j)]];
+}
+
+Primal bounds_of(const Eigen::VectorXd& variables, const Eigen::VectorXd& rows,
+                 const std::vector<Eigen::Index>& inequalities) {
+  Primal bounds;
+  bounds.x = variables;
+  select(rows, inequalities, bounds.s);
+  return bounds;
+}
+
 }  // namespace
 
 BarrierProgram::BarrierProgram(NonlinearProgram& program)
     : program_(program),
       inequalities_(inequalities_of(program)),
       fixed_(fixed_variables(program)),
-      bounds_({program.variable_lower(), program.constraint_lower()(inequalities_)},
-              {program.variable_upper(), program.constraint_upper()(inequalities_)}),
+      lower_(bounds_of(program.variable_lower(), program.constraint_lower(), inequalities_)),
+      upper_(bounds_of(program.variable_upper(), program.constraint_upper(), inequalities_)),
+      bounds_(lower_, upper_),
       transposed_jacobian_(kkt::MatrixProduct::transposed(program.jacobian_structure())) {
   resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
   resize_unwritten(jacobian_, static_cast<Eigen::Index>(program.jacobian_structure().size()));
   resize_unwritten(hessian_, static_cast<Eigen::Index>(program.hessian_structure().size()));
-  if (program.constraint_lower().isZero(0.0)) return;
-  equality_values_ = program.constraint_lower();
+  read_bounds();
+}
+
+void BarrierProgram::read_bounds() {
+  if (has_bounds()) {
+    lower_.x = program_.variable_lower();
+    upper_.x = program_.variable_upper();
+    select(program_.constraint_lower(), inequalities_, lower_.s);
+    select(program_.constraint_upper(), inequalities_, upper_.s);
+    bounds_.read(lower_, upper_);
+  }
+  if (equality_values_.size() == 0 && program_.constraint_lower().isZero(0.0)) return;
+  equality_values_ = program_.constraint_lower();
   for (const Eigen::Index i : inequalities_) equality_values_[i] = 0.0;
 }
 
-Iterate BarrierProgram::interior(const Eigen::VectorXd& start, double push) {
-  Iterate at;
+void BarrierProgram::set_interior(const Eigen::VectorXd& start, double push, Iterate& at) {
   copy_to(at.x, start);
   push_inside(at.x, program_.variable_lower(), program_.variable_upper(), push);
   const auto constraints = static_cast<Eigen::Index>(program_.constraint_count());
   if (!inequalities_.empty()) {
-    Eigen::VectorXd values(constraints);
-    program_.constraints(at.x, values);
-    at.s = values(inequalities_);
-    push_inside(at.s, program_.constraint_lower()(inequalities_), program_.constraint_upper()(inequalities_), push);
+    resize_unwritten(values_, constraints);
+    program_.constraints(at.x, values_);
+    select(values_, inequalities_, at.s);
+    push_inside(at.s, lower_.s, upper_.s, push);
   }
   set_zero(at.multipliers, constraints);
   bounds_.set_multipliers(1.0, at);
-  return at;
 }
 
 bool BarrierProgram::evaluate(const Primal& at, double mu, Evaluation& result) {
@@ -95,7 +119,8 @@ void BarrierProgram::evaluate_hessian(const Iterate& at) { program_.hessian(at.x
 bool BarrierProgram::gradient_of_lagrangian(const Eigen::VectorXd& multipliers, Primal& result) const {
   copy_to(result.x, gradient_);
   transposed_jacobian_.add(jacobian_, multipliers, result.x);
-  result.s = -multipliers(inequalities_);
+  select(multipliers, inequalities_, result.s);
+  result.s = -result.s;
   const bool is_usable = is_finite(result.x);
   for (const Eigen::Index i : fixed_) result.x[i] = 0.0;
   return is_usable;

@@ -36,6 +36,8 @@ struct OptimalityErrors {
 class BarrierProgram {
  public:
   explicit BarrierProgram(NonlinearProgram& program);
+  /// Reads the values of the program's bounds again. Allocates nothing, like all that follows.
+  void read_bounds();
 
   [[nodiscard]] const NonlinearProgram& program() const noexcept { return program_; }
   [[nodiscard]] const BarrierBounds& bounds() const noexcept { return bounds_; }
@@ -43,9 +45,9 @@ class BarrierProgram {
   /// The constraints that are no equalities, in the order of their slacks.
   [[nodiscard]] const std::vector<Eigen::Index>& inequalities() const noexcept { return inequalities_; }
 
-  /// `start` and slacks a(start), pushed away from each bound by the share `push` of its size, at most of the distance
-  /// between both bounds; multipliers of bounds 1, λ = 0. Section 3.6.
-  [[nodiscard]] Iterate interior(const Eigen::VectorXd& start, double push);
+  /// Sets `at` to `start` and slacks a(start), pushed away from each bound by the share `push` of its size, at most of
+  /// the distance between both bounds; multipliers of bounds 1, λ = 0. Section 3.6.
+  void set_interior(const Eigen::VectorXd& start, double push, Iterate& at);
 
   /// The values at x and s; false, with an infinite θ, if f or θ is not finite.
   [[nodiscard]] bool evaluate(const Primal& at, double mu, Evaluation& result);
@@ -74,8 +76,11 @@ class BarrierProgram {
   NonlinearProgram& program_;
   std::vector<Eigen::Index> inequalities_;
   std::vector<Eigen::Index> fixed_;
+  Primal lower_;
+  Primal upper_;
   BarrierBounds bounds_;
   Eigen::VectorXd equality_values_;  // 0 of inequalities; empty if all are zero
+  Eigen::VectorXd values_;           // of the constraints at a start
   kkt::MatrixProduct transposed_jacobian_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd jacobian_;

@@ -8,17 +8,14 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tl/expected.hpp>
 
 #include "methods/error.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
-#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
-#include "methods/solvers/kkt/refined_kkt.hpp"
-#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -57,24 +54,38 @@ constexpr double correctable = 2.0;  // see try_second_order_correction
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
 /// A-9 the steps of its Algorithm A.
-class InteriorPointRun {
+class InteriorPointRun final : public PreparedRun {
  public:
-  InteriorPointRun(CountedProgram& program, kkt::KktSystem& kkt, const SolverOptions& options)
+  InteriorPointRun(CountedProgram& program, std::unique_ptr<kkt::KktSystem> kkt, const SolverOptions& options)
       : counted_(program),
         options_(options),
         program_(program),
-        newton_(program_, kkt),
+        kkt_(std::move(kkt)),
+        newton_(program_, *kkt_),
         allowed_(program, options.tolerance) {}
 
+  void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, Solution& solution) override {
+    std::optional<Status> end = begin(start, multipliers);
+    while (!end) end = iterate();
+    write(*end, solution);
+  }
+
+ private:
   /// A status ends the solve, here and below.
-  [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start) {
-    const bool is_warm = options_.start_multipliers.size() > 0;
+  [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers) {
+    program_.read_bounds();
+    newton_.begin_solve();
+    length_ = 0.0;
+    iterations_ = 0;
+    descents_ = 0;
+    message_.clear();
+    const bool is_warm = multipliers.size() > 0;
     if (program_.has_bounds()) mu_ = is_warm ? of_warm_start : mu_0;
-    at_ = program_.interior(start, is_warm ? of_warm_start : kappa_1);
+    program_.set_interior(start, is_warm ? of_warm_start : kappa_1, at_);
     if (!program_.evaluate(at_, mu_, values_)) return Status::evaluation_failed;
     program_.differentiate(at_.x);
     if (is_warm) {
-      at_.multipliers = options_.start_multipliers;
+      at_.multipliers = multipliers;
     } else {
       newton_.estimate_multipliers(at_);
     }
@@ -131,20 +142,17 @@ class InteriorPointRun {
     return std::nullopt;
   }
 
-  [[nodiscard]] Solution solution(Status status) {
+  void write(Status status, Solution& solution) const {
     if (options_.verbose) fmt::print("{} iterations, {} linear systems\n", iterations_, newton_.factorisations());
-    Solution solution;
     solution.status = status;
     solution.message = message_;
-    solution.primal = std::move(at_.x);
-    solution.multipliers = std::move(at_.multipliers);
+    solution.primal = at_.x;
+    solution.multipliers = at_.multipliers;
     solution.major_iterations = iterations_;
     solution.linear_systems = newton_.factorisations();
     solution.linear_seconds = newton_.linear_seconds();
-    return solution;
   }
 
- private:
   [[nodiscard]] std::optional<Status> reason_to_stop() const {
     if (options_.stop_requested && options_.stop_requested()) return Status::interrupted;
     if (counted_.is_out_of_time()) return Status::time_limit;
@@ -230,12 +238,12 @@ class InteriorPointRun {
   [[nodiscard]] bool try_second_order_correction(double newton_length, double derivative) {
     double before = values_.theta;
     if (!(trial_values_.theta >= before && trial_values_.theta <= correctable * before)) return false;
-    Eigen::VectorXd residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
-    Iterate corrected;
+    Eigen::VectorXd& residuals = corrected_residuals_;
+    residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
     for (int p = 0; p < p_max; ++p) {
-      if (!residuals.allFinite() || !newton_.correct(at_, mu_, gradient_, residuals, corrected)) return false;
-      const double alpha = program_.bounds().fraction_to_boundary(at_, corrected, tau());
-      if (try_step(corrected, alpha, derivative, newton_length)) return true;
+      if (!residuals.allFinite() || !newton_.correct(at_, mu_, gradient_, residuals, corrected_)) return false;
+      const double alpha = program_.bounds().fraction_to_boundary(at_, corrected_, tau());
+      if (try_step(corrected_, alpha, derivative, newton_length)) return true;
       if (!(trial_values_.theta <= kappa_soc * before)) return false;
       before = trial_values_.theta;
       residuals = alpha * residuals + trial_values_.constraints;
@@ -267,7 +275,7 @@ class InteriorPointRun {
     ViolationDescent descent(counted_, at_.x);
     while (!descent.is_at_least_violation() && descent.step()) {
       ++iterations_;
-      at_ = program_.interior(descent.point(), push_of_descent);
+      program_.set_interior(descent.point(), push_of_descent, at_);
       if (!program_.evaluate(at_, mu_, values_)) break;
       report("least");
       if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
@@ -317,6 +325,7 @@ class InteriorPointRun {
   CountedProgram& counted_;
   const SolverOptions& options_;
   BarrierProgram program_;
+  std::unique_ptr<kkt::KktSystem> kkt_;
   NewtonStep newton_;
   Filter filter_;
   StopRule allowed_;
@@ -326,6 +335,8 @@ class InteriorPointRun {
   Iterate step_;
   Primal trial_;
   Evaluation trial_values_;
+  Iterate corrected_;  // by the constraints' curvature
+  Eigen::VectorXd corrected_residuals_;
   double mu_ = 0.0;
   double theta_min_ = 0.0;
   double theta_max_ = 0.0;
@@ -340,23 +351,9 @@ class InteriorPointRun {
 
 }  // namespace interior_point
 
-namespace {
-
-using Factorisation = InteriorPointOptions::Factorisation;
-
-/// The solver of the linear systems, or in a sentence why the program's structure does not allow it.
-tl::expected<std::unique_ptr<kkt::KktSystem>, std::string> make_system(NonlinearProgram& program,
-                                                                       const InteriorPointOptions& choices) {
-  if (choices.make_kkt_system) return choices.make_kkt_system(program);
-  if (choices.factorisation == Factorisation::sparse) return std::make_unique<kkt::SparseKkt>(program);
-  return kkt::IntervalKkt::make(program).map(
-      [&](auto by_intervals) { return std::make_unique<kkt::RefinedKkt>(program, std::move(by_intervals)); });
-}
-
-}  // namespace
-
 InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
     : Solver(std::move(options)), choices_(std::move(choices)) {
+  using Factorisation = InteriorPointOptions::Factorisation;
   read_named_options("interior_point", this->options().passed_on,
                      {named_option("factorisation", choices_.factorisation,
                                    {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}})});
@@ -366,26 +363,31 @@ std::string InteriorPointSolver::description() const {
   return "interior-point method whose linear systems are eliminated interval by interval; exact Hessian";
 }
 
+std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
+  auto kkt = interior_point::make_kkt(program, choices_);
+  if (!kkt) return nullptr;
+  return std::make_unique<interior_point::InteriorPointRun>(program, std::move(*kkt), options());
+}
+
 Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   const auto given = static_cast<std::size_t>(options().start_multipliers.size());
   if (given > 0 && given != program.constraint_count()) {
     throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
                             program.constraint_count()));
   }
-  const auto kkt = make_system(program, choices_);
-  if (!kkt) {
-    Solution refused;
-    refused.status = Status::invalid_program;
-    refused.message = fmt::format(
-        "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
-        "factorisation=sparse.",
-        kkt.error());
-    return refused;
+  Solution solution;
+  auto kkt = interior_point::make_kkt(program, choices_);
+  if (kkt) {
+    interior_point::InteriorPointRun(program, std::move(*kkt), options())
+        .run(start, options().start_multipliers, solution);
+    return solution;
   }
-  interior_point::InteriorPointRun run(program, **kkt, options());
-  std::optional<Status> end = run.begin(start);
-  while (!end) end = run.iterate();
-  return run.solution(*end);
+  solution.status = Status::invalid_program;
+  solution.message = fmt::format(
+      "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
+      "factorisation=sparse.",
+      kkt.error());
+  return solution;
 }
 
 }  // namespace dmocbench

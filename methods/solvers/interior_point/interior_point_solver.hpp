@@ -35,6 +35,7 @@ class InteriorPointSolver final : public Solver {
 
   [[nodiscard]] std::string name() const override { return "interior_point"; }
   [[nodiscard]] std::string description() const override;
+  [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:
   [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;

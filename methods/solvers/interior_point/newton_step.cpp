@@ -40,6 +40,13 @@ NewtonStep::NewtonStep(const BarrierProgram& program, kkt::KktSystem& kkt) : pro
   gradient_.s.setZero(sigma_.s.size());
 }
 
+void NewtonStep::begin_solve() {
+  kkt_.begin_solve();
+  shift_ = {};
+  factorisations_ = 0;
+  linear_seconds_ = 0.0;
+}
+
 bool NewtonStep::compute(const Iterate& at, double mu, const Primal& gradient, const Eigen::VectorXd& constraints,
                          Iterate& step) {
   if (program_.has_bounds()) {
@@ -79,7 +86,8 @@ bool NewtonStep::feasibility_step(const Iterate& at, double mu, const Eigen::Vec
   sigma_.x.setZero();
   sigma_.s.setZero();
   program_.bounds().add_nearness(at, mu, sigma_);
-  if (!solve_least_squares(Eigen::VectorXd::Zero(diagonal_.size()), constraints, step)) return false;
+  if (no_gradient_.size() == 0) no_gradient_.setZero(diagonal_.size());
+  if (!solve_least_squares(no_gradient_, constraints, step)) return false;
   set_eliminated_steps(at, mu, step);
   return true;
 }
@@ -97,8 +105,9 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
   if (gradient.isZero(0.0) && gradient_.s.isZero(0.0)) return;
   sigma_.x.setZero();
   sigma_.s.setZero();
-  Iterate step;
-  if (!solve_least_squares(gradient, Eigen::VectorXd::Zero(at.multipliers.size()), step)) return;
+  if (no_constraints_.size() == 0) no_constraints_.setZero(at.multipliers.size());
+  Iterate& step = of_least_squares_;
+  if (!solve_least_squares(gradient, no_constraints_, step)) return;
   if (step.multipliers.lpNorm<Eigen::Infinity>() <= largest) at.multipliers = step.multipliers;
 }
 
@@ -156,7 +165,11 @@ bool NewtonStep::solve_least_squares(const Eigen::VectorXd& gradient, const Eige
 /// The steps of slacks and of multipliers of bounds, from those of x and λ.
 void NewtonStep::set_eliminated_steps(const Iterate& at, double mu, Iterate& step) const {
   const std::vector<Eigen::Index>& inequalities = program_.inequalities();
-  step.s = compliance_(inequalities).cwiseProduct(step.multipliers(inequalities) - gradient_.s);
+  step.s.resize(static_cast<Eigen::Index>(inequalities.size()));
+  for (Eigen::Index j = 0; j < step.s.size(); ++j) {
+    const Eigen::Index row = inequalities[static_cast<std::size_t>(j)];
+    step.s[j] = compliance_[row] * (step.multipliers[row] - gradient_.s[j]);
+  }
   program_.bounds().set_multiplier_step(at, mu, step);
 }
 

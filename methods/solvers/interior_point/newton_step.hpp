@@ -38,6 +38,8 @@ class InertiaShift {
 class NewtonStep {
  public:
   NewtonStep(const BarrierProgram& program, kkt::KktSystem& kkt);
+  /// Before another solve: forgets the last one.
+  void begin_solve();
 
   /// Newton's step for the barrier problem, from the program's derivatives at the iterate, `gradient` of the Lagrangian
   /// without bounds (`BarrierProgram::gradient_of_lagrangian`) and the residuals of the constraints. False if no shift
@@ -84,7 +86,10 @@ class NewtonStep {
   double diagonal_shift_ = 0.0;  // δ_w in it
   Eigen::VectorXd compliance_;   // (Σ_s + δ_w)⁻¹, one per constraint
   Eigen::VectorXd constraints_;
-  Eigen::VectorXd no_hessian_;  // made when it is first needed
+  Eigen::VectorXd no_hessian_;  // made when they are first needed, as what follows
+  Eigen::VectorXd no_gradient_;
+  Eigen::VectorXd no_constraints_;
+  Iterate of_least_squares_;
   int factorisations_ = 0;
   double linear_seconds_ = 0.0;
 };

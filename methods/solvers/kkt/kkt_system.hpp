@@ -56,6 +56,10 @@ class KktSystem {
   KktSystem(KktSystem&&) = delete;
   KktSystem& operator=(KktSystem&&) = delete;
 
+  /// Before the matrices of another solve: forgets what those of the last one have taught, so that solves do not depend
+  /// on each other.
+  virtual void begin_solve() {}
+
   /// The step is written if the status is `solved`; otherwise it may hold anything.
   [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                                   const KktStep& step) = 0;

@@ -26,7 +26,7 @@ NewtonResidual::NewtonResidual(const NonlinearProgram& program)
     : hessian_(MatrixProduct::symmetric(program.hessian_structure())),
       jacobian_(MatrixProduct::plain(program.jacobian_structure())),
       transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())),
-      floor_(program.rounding_floors().largest),
+      floors_(program.rounding_floors()),
       fixed_(fixed_variables(program)) {}
 
 void NewtonResidual::compute(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step) {
@@ -61,11 +61,12 @@ double NewtonResidual::excess(const KktMatrix& matrix, const KktStep& step, doub
   const double primal = largest_of(step.primal);
   const double multiplier = largest_of(step.multipliers);
   const double jacobian = largest_of(matrix.jacobian);
-  const double allowed_gradient = floor_ * std::max(1.0, multiplier) + of_gradient +
+  const double allowed_gradient = floors_.largest * std::max(1.0, multiplier) + of_gradient +
                                   rounding * (largest_product(matrix.diagonal, step.primal) +
                                               largest_of(matrix.hessian) * primal + jacobian * multiplier);
   const double allowed_constraint =
-      floor_ + of_constraint + rounding * (largest_product(matrix.compliance, step.multipliers) + jacobian * primal);
+      floors_.largest + of_constraint +
+      rounding * (largest_product(matrix.compliance, step.multipliers) + jacobian * primal);
   return std::max(ratio(gradient, allowed_gradient), ratio(constraint, allowed_constraint));
 }
 

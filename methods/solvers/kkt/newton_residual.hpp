@@ -34,7 +34,7 @@ class NewtonResidual {
   MatrixProduct hessian_;
   MatrixProduct jacobian_;
   MatrixProduct transposed_jacobian_;
-  double floor_;  // the largest of the program's
+  const RoundingFloors& floors_;
   std::vector<Eigen::Index> fixed_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd constraints_;

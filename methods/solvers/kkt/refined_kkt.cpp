@@ -25,6 +25,12 @@ constexpr int refusals_to_check = 4;
 RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy)
     : program_(program), fast_(std::move(fast)), residual_(program), accuracy_(accuracy) {}
 
+void RefinedKkt::begin_solve() {
+  fast_->begin_solve();
+  refusals_ = 0;
+  unchecked_ = 0;
+}
+
 FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                       const KktStep& step) {
   const FactorisationStatus status = fast_->solve(matrix, right_hand_side, step);

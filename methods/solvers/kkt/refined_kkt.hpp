@@ -29,6 +29,7 @@ class RefinedKkt : public KktSystem {
   /// (`NewtonResidual::excess`).
   RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSystem> fast, double accuracy = usual_accuracy);
 
+  void begin_solve() override;
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
 

@@ -39,7 +39,8 @@ struct SmallAnswer {
 SmallAnswer answer_for(Eigen::MatrixXd matrix, const Eigen::VectorXd& right_hand_side) {
   matrix.triangularView<Eigen::StrictlyUpper>().setConstant(1e30);  // is not to be read
   SmallAnswer answer{.inertia = {}, .solution = right_hand_side};
-  answer.inertia = solve_symmetric(matrix, answer.solution);
+  SymmetricWork work;
+  answer.inertia = solve_symmetric(matrix, answer.solution, work);
   return answer;
 }
 

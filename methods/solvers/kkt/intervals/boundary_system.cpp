@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <type_traits>
 
 #include <lapacke.h>
 
@@ -13,16 +14,22 @@ namespace dmocbench::kkt {
 
 namespace {
 
-/// Factors that bring the largest entries of rows and columns near 1.
-Eigen::VectorXd equilibration(const Eigen::MatrixXd& lower) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(lower.rows());
-  for (Eigen::Index j = 0; j < lower.cols(); ++j) {
-    for (Eigen::Index i = j; i < lower.rows(); ++i) {
-      largest[i] = std::max(largest[i], std::abs(lower(i, j)));
-      largest[j] = std::max(largest[j], std::abs(lower(i, j)));
+static_assert(std::is_same_v<lapack_int, int>);
+
+/// Multiplies rows and columns, of which the lower triangle is there, by factors that bring the largest entries near 1.
+void equilibrate(Eigen::MatrixXd& lower, Eigen::VectorXd& factors) {
+  const Eigen::Index n = lower.rows();
+  factors.setZero(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j; i < n; ++i) {
+      factors[i] = std::max(factors[i], std::abs(lower(i, j)));
+      factors[j] = std::max(factors[j], std::abs(lower(i, j)));
     }
   }
-  return largest.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 1.0; });
+  for (double& factor : factors) factor = factor > 0.0 ? 1.0 / std::sqrt(factor) : 1.0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j; i < n; ++i) lower(i, j) = factors[i] * lower(i, j) * factors[j];
+  }
 }
 
 /// Smallest magnitude of the eigenvalues of a symmetric block (a, b; b, c).
@@ -32,7 +39,7 @@ double smallest_eigenvalue(double a, double b, double c) {
 }
 
 /// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
-DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack_int>& pivots) {
+DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<int>& pivots) {
   const Eigen::Index n = factors.rows();
   constexpr double far_from_zero = 1e-11;  // hundreds of times the rounding of dependent rows
   // Elimination turns a dependent row into a few units of rounding per row.
@@ -56,20 +63,24 @@ DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<lapack
 
 }  // namespace
 
-DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side) {
+DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side, SymmetricWork& work) {
   const Eigen::Index n = matrix.rows();
   if (n == 0) return {.is_certain = true};
   if (!matrix.allFinite() || !right_hand_side.allFinite()) return {.is_singular = true};
-  const Eigen::VectorXd scale = equilibration(matrix);
-  matrix = (scale.asDiagonal() * matrix * scale.asDiagonal()).eval();
-  right_hand_side.array() *= scale.array();
-  std::vector<lapack_int> pivots(static_cast<std::size_t>(n));
+  equilibrate(matrix, work.scale);
+  right_hand_side.array() *= work.scale.array();
+  constexpr Eigen::Index columns_at_once = 64;
+  work.pivots.resize(static_cast<std::size_t>(n));
+  work.numbers.resize(n * columns_at_once);
+  // Not LAPACKE's usual functions, which allocate and look for NaN once more.
   const auto order = static_cast<lapack_int>(n);
-  const lapack_int info = LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', order, matrix.data(), order, pivots.data());
+  const lapack_int info = LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', order, matrix.data(), order, work.pivots.data(),
+                                              work.numbers.data(), static_cast<lapack_int>(work.numbers.size()));
   if (info != 0) return {.is_singular = true};
-  LAPACKE_dsytrs(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, pivots.data(), right_hand_side.data(), order);
-  right_hand_side.array() *= scale.array();
-  return inertia_of(matrix, pivots);
+  LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, work.pivots.data(), right_hand_side.data(),
+                      order);
+  right_hand_side.array() *= work.scale.array();
+  return inertia_of(matrix, work.pivots);
 }
 
 BoundarySystem::BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries)
@@ -184,15 +195,22 @@ void BoundarySystem::assemble(const KktMatrix& matrix, const KktRightHandSide& r
 FactorisationStatus BoundarySystem::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const Horizon& horizon) {
   assemble(matrix, right_hand_side, horizon);
-  Eigen::MatrixXd reduced = matrix_(kept_, kept_);
-  Eigen::VectorXd reduced_solution = right_hand_side_(kept_);
-  const DenseInertia inertia = solve_symmetric(reduced, reduced_solution);
+  const auto count = static_cast<Eigen::Index>(kept_.size());
+  reduced_.resize(count, count);
+  reduced_solution_.resize(count);
+  const auto kept = [&](Eigen::Index i) { return kept_[static_cast<std::size_t>(i)]; };
+  Eigen::Index rows = 0;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    for (Eigen::Index i = 0; i < count; ++i) reduced_(i, j) = matrix_(kept(i), kept(j));
+    reduced_solution_[j] = right_hand_side_[kept(j)];
+    if (kept(j) >= multiplier_at_) ++rows;
+  }
+  const DenseInertia inertia = solve_symmetric(reduced_, reduced_solution_, work_);
   is_certain_ = inertia.is_certain;
   if (inertia.is_singular) return FactorisationStatus::singular;
-  const auto rows = std::ranges::count_if(kept_, [&](Eigen::Index at) { return at >= multiplier_at_; });
   if (inertia.negative != rows) return FactorisationStatus::wrong_inertia;
   solution_.setZero(size_);
-  solution_(kept_) = reduced_solution;
+  for (Eigen::Index j = 0; j < count; ++j) solution_[kept(j)] = reduced_solution_[j];
   state_ = solution_.head(state_size_);
   multiplier_ = solution_.segment(multiplier_at_, state_size_);
   return FactorisationStatus::solved;

@@ -19,9 +19,17 @@ struct DenseInertia {
   Eigen::Index negative = 0;
 };
 
+/// Memory for `solve_symmetric`, used again from system to system.
+struct SymmetricWork {
+  Eigen::VectorXd scale;
+  std::vector<int> pivots;
+  Eigen::VectorXd numbers;
+};
+
 /// Solves a dense symmetric, possibly indefinite system in place (LAPACK's Bunch-Kaufman factors, after scaling rows
 /// and columns alike), and counts negative eigenvalues. `matrix`: its lower triangle is read, then overwritten.
-[[nodiscard]] DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side);
+[[nodiscard]] DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side,
+                                           SymmetricWork& work);
 
 /// The dense system that is left once all intervals are eliminated. Its unknowns are the states at both ends of the
 /// horizon, their further unknowns, unknowns of the whole horizon, and the multipliers of boundary conditions, of rows
@@ -90,6 +98,9 @@ class BoundarySystem {
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_hand_side_;
+  Eigen::MatrixXd reduced_;  // without what is fixed
+  Eigen::VectorXd reduced_solution_;
+  SymmetricWork work_;
   bool is_certain_ = false;
   Eigen::VectorXd solution_;
   Eigen::VectorXd state_;

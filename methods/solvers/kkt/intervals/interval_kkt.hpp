@@ -29,6 +29,7 @@ class IntervalKkt : public KktSystem {
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
 
+  void begin_solve() override { weights_.forget(); }
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
 

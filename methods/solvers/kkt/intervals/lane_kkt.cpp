@@ -73,6 +73,7 @@ LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelCho
       padded_(make_padded(entries_, lane_count)),
       memory_(GroupMemory::of_instances(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {
   fresh_weights_.use(plan_);
+  fresh_weights_.prefer_middle();
   weights_.assign(lane_count, fresh_weights_);
   free_diagonals_ = fresh_weights_.free_diagonals();
   compliances_.resize(free_diagonals_.size() * lane_count);
@@ -82,7 +83,7 @@ LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelCho
 
 void LaneKkt::forget(std::size_t lane) {
   weights_[lane] = fresh_weights_;
-  retries_[lane] = false;
+  has_other_weights_[lane] = false;
 }
 
 NewtonArrays LaneKkt::arrays_of(const Systems& systems) {
@@ -93,8 +94,7 @@ NewtonArrays LaneKkt::arrays_of(const Systems& systems) {
   return arrays;
 }
 
-LaneKkt::Outcomes LaneKkt::solve(const Systems& systems, const std::array<bool, lane_count>& wanted, double* primal,
-                                 double* multipliers) {
+LaneKkt::Outcomes LaneKkt::solve(const Systems& systems, const Mask& wanted, double* primal, double* multipliers) {
   const NewtonArrays arrays = arrays_of(systems);
   rescale_weights(arrays, wanted);
   SegmentGroup& group = memory_.group();
@@ -113,7 +113,7 @@ LaneKkt::Outcomes LaneKkt::solve(const Systems& systems, const std::array<bool, 
   return outcomes;
 }
 
-void LaneKkt::rescale_weights(const NewtonArrays& arrays, const std::array<bool, lane_count>& wanted) {
+void LaneKkt::rescale_weights(const NewtonArrays& arrays, const Mask& wanted) {
   for (std::size_t i = 0; i < free_diagonals_.size(); ++i) {
     const TerminalWeights::Diagonal& diagonal = free_diagonals_[i];
     const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first * lane_count; };
@@ -124,7 +124,7 @@ void LaneKkt::rescale_weights(const NewtonArrays& arrays, const std::array<bool,
   std::vector<double> of_lane(free_diagonals_.size());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     if (!wanted[lane]) continue;
-    if (!retries_[lane]) {
+    if (!std::exchange(has_other_weights_[lane], false)) {
       for (std::size_t i = 0; i < of_lane.size(); ++i) of_lane[i] = compliances_[i * lane_count + lane];
       weights_[lane].rescale(of_lane);
     }
@@ -166,7 +166,6 @@ void LaneKkt::factorise_reachability() {
 
 LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
   const SegmentGroup& group = memory_.group();
-  retries_[lane] = false;
   if (!(group.lane_smallest_ratio[lane] > smallest_ratio)) return Outcome::failed;
   const bool pivots_hold = group.lane_pivots_hold[lane] > 0.0;
   if (pivots_hold) {
@@ -176,10 +175,11 @@ LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
     }
     weights_[lane].observe(reachability_);
     if (is_definite_[lane]) return Outcome::solved;
-    weights_[lane].distrust_next_failure();
   }
-  retries_[lane] = weights_[lane].next_multiple();
-  if (retries_[lane]) return Outcome::again;
+  // The usual multiple tells the inertia of DMOC, and of the midpoint rule; collocation with several stages needs more.
+  const bool is_doubtful = entries_.shape.node_sums == 0 && !plan_.shape.is_plain;
+  has_other_weights_[lane] = is_doubtful && weights_[lane].next_multiple();
+  if (has_other_weights_[lane]) return Outcome::again;
   return pivots_hold ? Outcome::failed : Outcome::wrong_inertia;
 }
 

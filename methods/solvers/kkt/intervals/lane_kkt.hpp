@@ -31,7 +31,7 @@ class LaneKkt {
   enum class Outcome : std::uint8_t {
     solved,
     wrong_inertia,  ///< the Hessian is not positive definite on the null space of the equalities
-    again,          ///< not yet told: the terminal weights were changed; the same system is to be solved once more
+    again,          ///< not told yet: with other terminal weights, the same system is to be solved once more
     failed,         ///< singular, or pivots that cannot be trusted: a case for `RefinedKkt`
   };
   using Outcomes = std::array<Outcome, lane_count>;
@@ -51,10 +51,10 @@ class LaneKkt {
     const double* gradient;
     const double* constraints;
   };
+  using Mask = std::array<bool, lane_count>;
   /// Solves the systems of the `wanted` lanes. Writes the steps of those that are `solved`, and any numbers to the
   /// other lanes of `primal` and `multipliers`. Lanes that are not wanted have no system yet: they are `failed`.
-  [[nodiscard]] Outcomes solve(const Systems& systems, const std::array<bool, lane_count>& wanted, double* primal,
-                               double* multipliers);
+  [[nodiscard]] Outcomes solve(const Systems& systems, const Mask& wanted, double* primal, double* multipliers);
 
   /// A new instance is in a lane: nothing is known about its terminal weights.
   void forget(std::size_t lane);
@@ -65,7 +65,7 @@ class LaneKkt {
   LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelChoice choose);
 
   [[nodiscard]] NewtonArrays arrays_of(const Systems& systems);
-  void rescale_weights(const NewtonArrays& arrays, const std::array<bool, lane_count>& wanted);
+  void rescale_weights(const NewtonArrays& arrays, const Mask& wanted);
   void find_end_multipliers(const double* constraints);
   void factorise_reachability();
   [[nodiscard]] Outcome outcome_of(std::size_t lane);
@@ -77,12 +77,12 @@ class LaneKkt {
   SegmentKernel kernel_;
   TerminalWeights fresh_weights_;
   std::vector<TerminalWeights> weights_;  // one per lane
-  std::array<bool, lane_count> retries_{};
+  Mask has_other_weights_{};              // than its matrix began with
   std::vector<TerminalWeights::Diagonal> free_diagonals_;
   std::vector<double> compliances_;   // by diagonal and lane
   std::vector<double> lane_weights_;  // by entry of the state and lane
   std::vector<double> last_state_;    // d, by entry of the state and lane
-  std::array<bool, lane_count> is_definite_{};
+  Mask is_definite_{};
   std::vector<double> factor_;  // of Γ, lower triangle, by entry and lane
   std::vector<double> end_;     // ν, by entry and lane
   Eigen::MatrixXd reachability_;

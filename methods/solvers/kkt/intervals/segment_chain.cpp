@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 namespace dmocbench::kkt {
 
@@ -12,10 +11,10 @@ namespace {
 
 /// L with Γ = LLᵀ for a matrix that is positive semidefinite up to rounding: a pivot that has vanished leaves a column
 /// of zeros.
-template <int size>
-Eigen::Matrix<double, size, size> semidefinite_factor(const Eigen::Matrix<double, size, size>& gamma) {
+template <class Matrix>
+Matrix semidefinite_factor(const Matrix& gamma) {
   const Eigen::Index n = gamma.rows();
-  Eigen::Matrix<double, size, size> factor = Eigen::Matrix<double, size, size>::Zero(n, n);
+  Matrix factor = Matrix::Zero(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const double pivot = gamma(j, j) - factor.row(j).head(j).squaredNorm();
     if (!(pivot > static_cast<double>(n) * std::numeric_limits<double>::epsilon() * gamma(j, j))) continue;
@@ -27,16 +26,31 @@ Eigen::Matrix<double, size, size> semidefinite_factor(const Eigen::Matrix<double
   return factor;
 }
 
-/// Column by column: for matrices of right-hand sides, Eigen begins with memory for blocks.
-template <class System, class Matrix>
-Matrix solve_columns(const System& system, const Matrix& right_hand_sides) {
-  using Vector = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
-  Matrix solution(right_hand_sides.rows(), right_hand_sides.cols());
-  for (Eigen::Index j = 0; j < right_hand_sides.cols(); ++j) {
-    const Vector column = right_hand_sides.col(j);
-    solution.col(j) = system.solve(column);
+/// Solves for all right-hand sides, the rows of `sides`, by elimination with partial pivoting; both are overwritten.
+/// (Eigen's own begins with memory for blocks.)
+template <class Matrix, class Sides>
+void solve_in_place(Matrix& system, Sides& sides) {
+  const Eigen::Index n = system.rows();
+  for (Eigen::Index p = 0; p < n; ++p) {
+    Eigen::Index pivot = p;
+    for (Eigen::Index i = p + 1; i < n; ++i) {
+      if (std::abs(system(i, p)) > std::abs(system(pivot, p))) pivot = i;
+    }
+    if (pivot != p) {
+      system.row(p).swap(system.row(pivot));
+      sides.row(p).swap(sides.row(pivot));
+    }
+    const double reciprocal = 1.0 / system(p, p);
+    for (Eigen::Index i = p + 1; i < n; ++i) {
+      const double factor = system(i, p) * reciprocal;
+      system.row(i) -= factor * system.row(p);
+      sides.row(i) -= factor * sides.row(p);
+    }
   }
-  return solution;
+  for (Eigen::Index p = n - 1; p >= 0; --p) {
+    for (Eigen::Index q = p + 1; q < n; ++q) sides.row(p) -= system(p, q) * sides.row(q);
+    sides.row(p) *= 1.0 / system(p, p);
+  }
 }
 
 template <class Matrix>
@@ -53,16 +67,23 @@ void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& termin
 }
 
 bool SegmentChain::join(const SegmentValue& segment) {
-  // A size that the compiler knows needs no memory from the heap, which would take longer than the arithmetic. Every
-  // further size costs compile time.
+  // A size that the compiler knows, or a bound of it, needs no memory from the heap, which would take longer than the
+  // arithmetic. Every further size costs compile time.
   constexpr int usual = 4;
-  return total_.P.rows() == usual ? join_sized<usual>(segment) : join_sized<Eigen::Dynamic>(segment);
+  constexpr int most = 16;
+  const Eigen::Index n = total_.P.rows();
+  if (n == usual) return join_sized<usual, usual>(segment);
+  return n <= most ? join_sized<Eigen::Dynamic, most>(segment) : join_sized<Eigen::Dynamic, Eigen::Dynamic>(segment);
 }
 
-template <int size>
+template <int size, int most>
 bool SegmentChain::join_sized(const SegmentValue& segment) {
-  using Matrix = Eigen::Matrix<double, size, size>;
-  using Vector = Eigen::Matrix<double, size, 1>;
+  constexpr int wide = size == Eigen::Dynamic ? Eigen::Dynamic : 2 * size + 1;
+  constexpr int widest = most == Eigen::Dynamic ? Eigen::Dynamic : 2 * most + 1;
+  using Matrix = Eigen::Matrix<double, size, size, 0, most, most>;
+  using Rows = Eigen::Matrix<double, size, size, size == 1 ? 0 : Eigen::RowMajor, most, most>;
+  using Vector = Eigen::Matrix<double, size, 1, 0, most, 1>;
+  using Wide = Eigen::Matrix<double, size, wide, Eigen::RowMajor, most, widest>;
   const Eigen::Index n = total_.P.rows();
   const Matrix identity = Matrix::Identity(n, n);
   const Matrix reachability = segment.Gamma;
@@ -73,25 +94,33 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   stiffness.diagonal() -= terminal_weights_;
   // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
   // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
-  const Matrix factor = semidefinite_factor<size>(reachability);
-  if (Eigen::LLT<Matrix>(identity + factor.transpose() * stiffness * factor).info() != Eigen::Success) return false;
-  const Eigen::PartialPivLU<Matrix> system(identity + reachability * stiffness);
-  const Matrix state_state = solve_columns<decltype(system), Matrix>(system, Phi.transpose());
-  const Matrix state_multiplier = -solve_columns<decltype(system), Matrix>(system, reachability * mixed);
-  const Vector state_constant = system.solve(segment.gamma - reachability * constant);
+  const Matrix factor = semidefinite_factor<Matrix>(reachability);
+  const Matrix weighed = stiffness.lazyProduct(factor);
+  if (Eigen::LLT<Matrix>(identity + factor.transpose().lazyProduct(weighed)).info() != Eigen::Success) return false;
+  // y as a function of (X, ν, 1).
+  Rows system = identity + reachability.lazyProduct(stiffness);
+  Wide state(n, 2 * n + 1);
+  state.leftCols(n) = Phi.transpose();
+  state.middleCols(n, n) = -reachability.lazyProduct(mixed);
+  state.rightCols(1) = segment.gamma - reachability.lazyProduct(constant);
+  solve_in_place(system, state);
+  const Matrix state_multiplier = state.middleCols(n, n);
+  const Vector state_constant = state.col(2 * n);
 
-  const Vector gamma = mixed.transpose() * state_constant;
-  const Vector p = Phi * (stiffness * state_constant + constant);
-  total_.gamma += gamma;
-  total_.Gamma = symmetric_part<Matrix>(total_.Gamma - mixed.transpose() * state_multiplier);
-  total_.p = segment.p + p;
-  total_.Phi = Phi * (mixed + stiffness * state_multiplier);
-  total_.P = symmetric_part<Matrix>(segment.P + Phi * stiffness * state_state);
+  // ν' as a function of (X, ν, 1).
+  Wide costate = stiffness.lazyProduct(state);
+  costate.middleCols(n, n) += mixed;
+  costate.col(2 * n) += constant;
+  const Wide value = Phi.lazyProduct(costate);
+  const Matrix Gamma = total_.Gamma - mixed.transpose().lazyProduct(state_multiplier);
+  total_.gamma += mixed.transpose().lazyProduct(state_constant);
+  total_.Gamma = symmetric_part<Matrix>(Gamma);
+  total_.p = segment.p + value.col(2 * n);
+  total_.Phi = value.middleCols(n, n);
+  total_.P = symmetric_part<Matrix>(segment.P + value.leftCols(n));
   if (joins_.size() <= count_) joins_.emplace_back();
   Join& join = joins_[count_++];
-  join.state_state = state_state;
-  join.state_multiplier = state_multiplier;
-  join.state_constant = state_constant;
+  join.state = state;
   join.stiffness = stiffness;
   join.mixed = mixed;
   join.constant = constant;
@@ -100,15 +129,25 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
 
 void SegmentChain::back_substitute(const Eigen::VectorXd& state, const Eigen::VectorXd& multiplier,
                                    Eigen::MatrixXd& states, Eigen::MatrixXd& multipliers) const {
-  states.resize(state.size(), static_cast<Eigen::Index>(count_) + 1);
+  const Eigen::Index n = state.size();
+  states.resize(n, static_cast<Eigen::Index>(count_) + 1);
   multipliers.resizeLike(states);
   states.col(0) = state;
   for (std::size_t s = 0; s < count_; ++s) {
     const Join& join = joins_[count_ - 1 - s];
     const auto column = static_cast<Eigen::Index>(s);
-    states.col(column + 1) =
-        join.state_state * states.col(column) + join.state_multiplier * multiplier + join.state_constant;
-    multipliers.col(column) = join.stiffness * states.col(column + 1) + join.mixed * multiplier + join.constant;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double sum = join.state(i, 2 * n);
+      for (Eigen::Index j = 0; j < n; ++j) sum += join.state(i, j) * states(j, column);
+      for (Eigen::Index j = 0; j < n; ++j) sum += join.state(i, n + j) * multiplier[j];
+      states(i, column + 1) = sum;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double sum = join.constant[i];
+      for (Eigen::Index j = 0; j < n; ++j) sum += join.stiffness(i, j) * states(j, column + 1);
+      for (Eigen::Index j = 0; j < n; ++j) sum += join.mixed(i, j) * multiplier[j];
+      multipliers(i, column) = sum;
+    }
   }
   multipliers.rightCols(1) = multiplier;
 }

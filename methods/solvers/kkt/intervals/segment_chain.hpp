@@ -37,12 +37,10 @@ class SegmentChain {
                        Eigen::MatrixXd& multipliers) const;
 
  private:
-  /// A join as `back_substitute` needs it: y = state_state X + state_multiplier ν + state_constant, and the
-  /// multiplier of the segment in front, ν' = stiffness y + mixed ν + constant.
+  /// A join as `back_substitute` needs it: y = state (X, ν, 1), and the multiplier of the segment in front, ν' =
+  /// stiffness y + mixed ν + constant.
   struct Join {
-    Eigen::MatrixXd state_state;
-    Eigen::MatrixXd state_multiplier;
-    Eigen::VectorXd state_constant;
+    Eigen::MatrixXd state;
     Eigen::MatrixXd stiffness;
     Eigen::MatrixXd mixed;
     Eigen::VectorXd constant;
@@ -50,7 +48,7 @@ class SegmentChain {
 
   Eigen::VectorXd terminal_weights_;
   SegmentValue total_;
-  template <int size>
+  template <int size, int most>
   [[nodiscard]] bool join_sized(const SegmentValue& segment);
 
   std::vector<Join> joins_;  // last to first; the first `count_` of them are of this chain

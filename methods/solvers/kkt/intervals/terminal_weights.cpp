@@ -50,6 +50,14 @@ void TerminalWeights::use(const EliminationPlan& plan) {
   for (Diagonal& diagonal : diagonals_) diagonal.is_free = !some_are_free || is_free(diagonal);
 }
 
+void TerminalWeights::forget() {
+  level_ = 0;
+  tried_ = 0;
+  believed_ = 0;
+  stiffness_.setOnes();
+  observed_.setConstant(unknown);
+}
+
 /// Σ 1/|curvature| over the intervals.
 double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const {
   const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first; };
@@ -89,11 +97,11 @@ std::vector<TerminalWeights::Diagonal> TerminalWeights::free_diagonals() const {
 }
 
 void TerminalWeights::rescale(const NewtonArrays& arrays) {
-  std::vector<double> compliances;
+  compliances_.clear();
   for (const Diagonal& diagonal : diagonals_) {
-    if (diagonal.is_free) compliances.push_back(compliance_of(diagonal, arrays));
+    if (diagonal.is_free) compliances_.push_back(compliance_of(diagonal, arrays));
   }
-  rescale(compliances);
+  rescale(compliances_);
 }
 
 void TerminalWeights::rescale(const std::vector<double>& compliances) {
@@ -120,6 +128,8 @@ bool TerminalWeights::next_multiple() {
   values_ = multiples[level_] * scale_ * stiffness_;
   return true;
 }
+
+void TerminalWeights::prefer_middle() noexcept { level_ = middle; }
 
 void TerminalWeights::observe(const Eigen::MatrixXd& Gamma) {
   for (Eigen::Index i = 0; i < values_.size(); ++i) {

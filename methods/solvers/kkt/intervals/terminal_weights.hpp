@@ -24,6 +24,8 @@ class TerminalWeights {
   /// For another order of elimination: which unknowns of the intervals it leaves free. (Unknowns that equalities
   /// determine, such as stage rates, may cost nothing; their compliance is not the segment's.)
   void use(const EliminationPlan& plan);
+  /// Forgets what was observed and tried.
+  void forget();
   /// Adapts the weights to a new matrix.
   void rescale(const NewtonArrays& arrays);
   /// The same where the compliances of the free unknowns are known, one per entry of `free_diagonals()`.
@@ -41,6 +43,9 @@ class TerminalWeights {
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
   /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
   [[nodiscard]] bool next_multiple();
+  /// Begins with the multiple whose failure says most. For a segment that is the whole horizon: nothing is joined, so
+  /// the digits that a large weight takes from the reachability are not missed.
+  void prefer_middle() noexcept;
   /// All multiples are to be tried after the next failure.
   void distrust_next_failure() noexcept { believed_ = 0; }
   /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
@@ -56,9 +61,10 @@ class TerminalWeights {
 
   Eigen::Index intervals_;
   std::vector<Diagonal> diagonals_;
-  std::size_t level_ = 0;  // which multiple
-  std::size_t tried_ = 0;  // others, for this matrix
-  int believed_ = 0;       // next failures that are believed without further multiples
+  std::vector<double> compliances_;  // of the free ones, for the last matrix
+  std::size_t level_ = 0;            // which multiple
+  std::size_t tried_ = 0;            // others, for this matrix
+  int believed_ = 0;                 // next failures that are believed without further multiples
   double scale_ = 1.0;
   Eigen::VectorXd stiffness_;  // relative to the scale
   Eigen::VectorXd observed_;   // since the last matrix

@@ -1,0 +1,178 @@
+// Programs that are solved again and again: a `PreparedSolve` against `Solver::solve`, turn by turn.
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "bench/speed/benchmark_program.hpp"
+#include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/solvers/prepared_solve.hpp"
+#include "methods/transcription/start.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::speed {
+
+namespace {
+
+struct RepeatedSolve {
+  std::string problem;
+  std::string method;
+  int intervals = 0;
+  bool is_warm = false;
+};
+
+constexpr double microseconds = 1e6;  // of a second
+
+/// A program with a start. A cold one is the problem's guess; a warm one is the solution, with its multipliers, for an
+/// end state of which every entry that is not zero is by one percent smaller.
+struct StartedProgram {
+  std::unique_ptr<Problem> problem;
+  std::unique_ptr<Transcription> program;
+  Eigen::VectorXd start;
+  Eigen::VectorXd multipliers;
+
+  explicit StartedProgram(const RepeatedSolve& solve)
+      : problem(make_problem(solve.problem)),
+        program(std::make_unique<Transcription>(*problem, *make_element(solve.method), make_tableau("gauss", 1),
+                                                Grid::uniform(solve.intervals))),
+        start(sample(*program, guessed_motion(*problem))) {
+    if (!solve.is_warm) return;
+    BoundaryState end = problem->final_state();
+    end.q *= 0.99;
+    end.v *= 0.99;
+    program->set_final_state(end);
+    const Solution neighbour = make_solver("interior_point")->solve(*program, start);
+    if (!is_solved(neighbour.status)) throw Error("the neighbour of the warm start is not solved");
+    start = neighbour.primal;
+    multipliers = neighbour.multipliers;
+    program->set_final_state(problem->final_state());
+  }
+};
+
+/// The time that `interior_point` takes for an interval in an iteration where there are many: N = 1024, cold.
+double seconds_per_interval(const RepeatedSolve& solve) {
+  constexpr int many = 1024;
+  constexpr int turns = 15;
+  static std::map<std::pair<std::string, std::string>, double> known;
+  const auto [entry, is_new] = known.try_emplace({solve.problem, solve.method}, 0.0);
+  if (!is_new) return entry->second;
+  const StartedProgram long_one({solve.problem, solve.method, many, false});
+  PreparedSolve prepared(*long_one.program);
+  std::vector<double> seconds;
+  for (int i = 0; i < turns; ++i) seconds.push_back(prepared.solve(long_one.start).seconds);
+  entry->second = median(seconds) / many / prepared.solution().major_iterations.value_or(1);
+  return entry->second;
+}
+
+template <class Solve>
+double seconds_of(const Solve& solve) {
+  const Clock::time_point begin = Clock::now();
+  solve();
+  return seconds_since(begin);
+}
+
+/// Every turn solves once by either way, each with all that it does, judging the answer among it. The manual time is
+/// that of the prepared solve.
+void run(benchmark::State& state, const RepeatedSolve& solve) {
+  const StartedProgram given(solve);
+  SolverOptions options;
+  options.start_multipliers = given.multipliers;
+  const auto solver = make_solver("interior_point", options);
+  PreparedSolve prepared(*given.program);
+  PreparedSolve by_residuals(*given.program, "interior_point", {}, PreparedSolve::Judgement::residuals_only);
+  static_cast<void>(prepared.solve(given.start, given.multipliers));
+  static_cast<void>(by_residuals.solve(given.start, given.multipliers));
+  Solution plain;
+  std::vector<double> plain_seconds;
+  std::vector<double> prepared_seconds;
+  std::vector<double> residual_seconds;
+  for ([[maybe_unused]] auto turn : state) {
+    plain_seconds.push_back(seconds_of([&] { plain = solver->solve(*given.program, given.start); }));
+    prepared_seconds.push_back(seconds_of([&] { static_cast<void>(prepared.solve(given.start, given.multipliers)); }));
+    residual_seconds.push_back(
+        seconds_of([&] { static_cast<void>(by_residuals.solve(given.start, given.multipliers)); }));
+    state.SetIterationTime(prepared_seconds.back());
+  }
+  const Solution& solution = prepared.solution();
+  if (solution.primal != plain.primal) state.SkipWithError("both ways differ");
+  const double iterations = std::max(1, solution.major_iterations.value_or(0));
+  const double seconds = median(prepared_seconds);
+  state.SetLabel(fmt::format("problem={} method={} intervals={} start={}", solve.problem, solve.method, solve.intervals,
+                             solve.is_warm ? "warm" : "cold"));
+  state.counters["iterations"] = iterations;
+  state.counters["solved"] = is_solved(solution.status) ? 1.0 : 0.0;
+  state.counters["plain_microseconds"] = microseconds * median(plain_seconds);
+  state.counters["prepared_microseconds"] = microseconds * seconds;
+  state.counters["residuals_microseconds"] = microseconds * median(residual_seconds);
+  state.counters["plain_over_prepared"] = median(plain_seconds) / seconds;
+  state.counters["over_long_grid"] = seconds / (iterations * solve.intervals * seconds_per_interval(solve));
+}
+
+/// PROBLEM/METHOD/INTERVALS/cold or warm
+void register_solves() {
+  for (const std::string& problem : paper_problem_names()) {
+    for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+      for (const int intervals : {16, 64}) {
+        for (const bool is_warm : {false, true}) {
+          const RepeatedSolve solve{problem, method, intervals, is_warm};
+          const std::string name = fmt::format("{}/{}/{}/{}", problem, method, intervals, is_warm ? "warm" : "cold");
+          benchmark::RegisterBenchmark(name.c_str(),
+                                       [solve](benchmark::State& state) {
+                                         try {
+                                           run(state, solve);
+                                         } catch (const Error& error) {
+                                           state.SkipWithError(error.what());
+                                         }
+                                       })
+              ->UseManualTime()
+              ->Unit(benchmark::kMicrosecond);
+        }
+      }
+    }
+  }
+}
+
+/// Medians over the repetitions.
+TablesBySuffix tables_of(const Benchmarks& benchmarks) {
+  const std::vector<std::string> counters{
+      "iterations",          "solved",        "plain_microseconds", "prepared_microseconds", "residuals_microseconds",
+      "plain_over_prepared", "over_long_grid"};
+  std::vector<std::string> columns{"problem", "method", "start", "intervals"};
+  columns.insert(columns.end(), counters.begin(), counters.end());
+  std::vector<Row> rows;
+  for (const auto& [name, benchmark] : benchmarks) {
+    Row& row = rows.emplace_back();
+    for (const auto& [key, value] : benchmark.labels) row.set(key, value);
+    for (const std::string& counter : counters) row.set(counter, benchmark.median_of(counter));
+  }
+  std::ranges::sort(rows, {}, [](const Row& row) {
+    return std::tuple(row.text("problem"), row.text("method"), row.text("start"), row.number("intervals"));
+  });
+  Table table(columns);
+  for (Row& row : rows) table.append(std::move(row));
+  return {{"", table}};
+}
+
+}  // namespace
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) {
+  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace): the program's own
+  const BenchmarkProgram program{.name = "prepared",
+                                 .description = "Programs that are solved again: prepared solves against plain ones.",
+                                 .csv = "write FILE, a row per benchmark",
+                                 .default_filter = "/dmoc/",
+                                 .register_benchmarks = register_solves,
+                                 .tables = tables_of};
+  return program.run({argv, static_cast<std::size_t>(argc)});
+}

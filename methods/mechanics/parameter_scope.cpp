@@ -1,0 +1,115 @@
+#include "methods/mechanics/parameter_scope.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "methods/choose.hpp"
+#include "methods/error.hpp"
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The innermost scope of a thread; null outside of all scopes.
+ParameterScope*& innermost() {
+  thread_local ParameterScope* scope = nullptr;
+  return scope;
+}
+
+Eigen::VectorXd checked(const Problem& problem, Eigen::VectorXd values) {
+  const std::vector<Parameter>& parameters = problem.parameters();
+  if (static_cast<std::size_t>(values.size()) != parameters.size()) {
+    throw Error(fmt::format("{} has {} parameters, got {} values", problem.name(), parameters.size(), values.size()));
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].check(values[static_cast<Eigen::Index>(i)]);
+  return values;
+}
+
+}  // namespace
+
+ParameterScope::ParameterScope(const Problem& problem, Eigen::VectorXd values)
+    : problem_(problem), values_(checked(problem, std::move(values))), outer_(std::exchange(innermost(), this)) {}
+
+ParameterScope::~ParameterScope() { innermost() = outer_; }
+
+ParameterScope* ParameterScope::of(const Problem& problem) noexcept {
+  ParameterScope* scope = innermost();
+  while (scope != nullptr && &scope->problem_ != &problem) scope = scope->outer_;
+  return scope;
+}
+
+std::optional<std::size_t> ParameterScope::read_varying(std::size_t /*parameter*/) { return std::nullopt; }
+
+void ParameterScope::read_as_number(std::size_t /*parameter*/) {}
+
+ParameterTrace::ParameterTrace(const Problem& problem, const std::vector<std::string>& open)
+    : ParameterScope(problem, parameter_values(problem)),
+      problem_(problem),
+      varies_(problem.parameters().size(), false),
+      is_number_(problem.parameters().size(), false) {
+  for (const std::string& name : open) {
+    const std::size_t number = parameter_number(problem, name);
+    if (problem.parameters()[number].whole) {
+      throw Error(
+          fmt::format("{}: the parameter {} is a whole number, which cannot be kept open", problem.name(), name));
+    }
+    if (std::ranges::find(open_, number) != open_.end()) {
+      throw Error(fmt::format("{}: the parameter {} is to be kept open twice", problem.name(), name));
+    }
+    open_.push_back(number);
+  }
+}
+
+std::optional<std::size_t> ParameterTrace::read_varying(std::size_t parameter) {
+  varies_[parameter] = true;
+  const auto found = std::ranges::find(open_, parameter);
+  if (found == open_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - open_.begin());
+}
+
+void ParameterTrace::read_as_number(std::size_t parameter) {
+  is_number_[parameter] = true;
+  if (std::ranges::find(open_, parameter) == open_.end()) return;
+  throw Error(fmt::format(
+      "{}: the parameter {} cannot be kept open, since a formula reads it by parameter(); varying() would let it vary",
+      problem_.name(), problem_.parameters()[parameter].name));
+}
+
+std::vector<bool> ParameterTrace::are_constants() const {
+  std::vector<bool> constants = is_number_;
+  for (std::size_t i = 0; i < constants.size(); ++i) {
+    if (varies_[i] && std::ranges::find(open_, i) == open_.end()) constants[i] = true;
+  }
+  return constants;
+}
+
+std::vector<bool> ParameterTrace::are_varying() const {
+  std::vector<bool> varying = varies_;
+  for (std::size_t i = 0; i < varying.size(); ++i) {
+    if (is_number_[i] || problem_.parameters()[i].whole) varying[i] = false;
+  }
+  return varying;
+}
+
+Eigen::VectorXd parameter_values(const Problem& problem) {
+  const std::vector<Parameter>& parameters = problem.parameters();
+  const ParameterScope* const scope = ParameterScope::of(problem);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = scope != nullptr ? scope->value(i) : parameters[i].value;
+  }
+  return values;
+}
+
+std::size_t parameter_number(const Problem& problem, std::string_view name) {
+  const std::vector<Parameter>& parameters = problem.parameters();
+  const auto found = std::ranges::find(parameters, name, &Parameter::name);
+  if (found != parameters.end()) return static_cast<std::size_t>(found - parameters.begin());
+  return position_of(parameters, &Parameter::name, name, problem.name() + " has no parameter");  // throws
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dmocbench {
+
+class Problem;
+
+/// As long as it exists, `parameter` and `varying` of a problem have other values for this thread: what is read of the
+/// problem (ends, bounds, guess, diagnostics) is that of these values, while the problem itself stays as it is and
+/// other threads may read it. The innermost scope of a problem counts. Values are one per parameter, in the order of
+/// `Problem::parameters`.
+class ParameterScope {
+ public:
+  /// Throws `Error` if there is not one value per parameter, or a value is not allowed (`Parameter::check`).
+  ParameterScope(const Problem& problem, Eigen::VectorXd values);
+  virtual ~ParameterScope();
+  ParameterScope(const ParameterScope&) = delete;
+  ParameterScope& operator=(const ParameterScope&) = delete;
+  ParameterScope(ParameterScope&&) = delete;
+  ParameterScope& operator=(ParameterScope&&) = delete;
+
+  /// The innermost scope of the problem in this thread; null if there is none.
+  [[nodiscard]] static ParameterScope* of(const Problem& problem) noexcept;
+
+  [[nodiscard]] double value(std::size_t parameter) const { return values_[static_cast<Eigen::Index>(parameter)]; }
+
+ protected:
+  /// A formula reads a parameter by `varying`. Returns the number of the input that it is; none where it is a number.
+  [[nodiscard]] virtual std::optional<std::size_t> read_varying(std::size_t parameter);
+  /// Something reads a parameter as a number.
+  virtual void read_as_number(std::size_t parameter);
+
+ private:
+  friend class Problem;
+
+  const Problem& problem_;
+  Eigen::VectorXd values_;
+  ParameterScope* outer_;
+};
+
+/// As long as it exists, formulas that this thread traces of a problem have the parameters that are kept open as inputs
+/// 0, 1, ... (`Problem::varying`), and it is noted which others they read.
+class ParameterTrace final : public ParameterScope {
+ public:
+  /// `open`: names of the parameters that are kept open. Throws `Error` if there is none of that name, one occurs
+  /// twice, or its values are whole numbers.
+  ParameterTrace(const Problem& problem, const std::vector<std::string>& open);
+
+  /// The parameters that are kept open, by their numbers among all: that of input i at i.
+  [[nodiscard]] const std::vector<std::size_t>& open() const noexcept { return open_; }
+  /// Per parameter, whether a formula has read it as a number, or by `varying` though it is not kept open: its value is
+  /// a constant of the trace now.
+  [[nodiscard]] std::vector<bool> are_constants() const;
+  /// Per parameter, whether formulas have read it by `varying` and nowhere as a number.
+  [[nodiscard]] std::vector<bool> are_varying() const;
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> read_varying(std::size_t parameter) override;
+  /// Throws `Error` if the parameter is kept open.
+  void read_as_number(std::size_t parameter) override;
+
+  const Problem& problem_;
+  std::vector<std::size_t> open_;
+  std::vector<bool> varies_;     // per parameter: read by `varying`
+  std::vector<bool> is_number_;  // read as a number
+};
+
+/// The values of a problem's parameters as this thread sees them, in the order of `Problem::parameters`.
+[[nodiscard]] Eigen::VectorXd parameter_values(const Problem& problem);
+/// The number of a parameter among them. Throws `Error` if there is none of that name.
+[[nodiscard]] std::size_t parameter_number(const Problem& problem, std::string_view name);
+
+}  // namespace dmocbench

@@ -1,0 +1,42 @@
+#include "methods/transcription/program_floors.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace dmocbench {
+
+namespace {
+
+/// The floor of every place, that of an interval being `of_interval`.
+Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interval, double of_border) {
+  Eigen::VectorXd floors(static_cast<Eigen::Index>(places.size()));
+  const Eigen::Index last = of_interval.size() - 1;
+  Eigen::Index i = 0;
+  places.for_each([&](const Place& place) {
+    const auto k = static_cast<Eigen::Index>(place.index);
+    double floor = of_border;
+    if (place.kind == Place::Kind::interval) floor = of_interval[k];
+    if (place.kind == Place::Kind::node) {
+      floor = std::max(of_interval[std::max<Eigen::Index>(k - 1, 0)], of_interval[std::min(k, last)]);
+    }
+    floors[i++] = floor;
+  });
+  return floors;
+}
+
+}  // namespace
+
+RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps, const Layout& layout) {
+  constexpr double safety = 20.0;
+  const double terms =
+      safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass;
+  RoundingFloors floors{
+      .smallest = terms / steps.maxCoeff(), .largest = terms / steps.minCoeff(), .rows = {}, .variables = {}};
+  if (steps.minCoeff() == steps.maxCoeff()) return floors;
+  const Eigen::VectorXd of_interval = terms * steps.cwiseInverse();
+  floors.rows = floors_at(layout.structure().rows, of_interval, floors.smallest);
+  floors.variables = floors_at(layout.structure().unknowns, of_interval, floors.largest);
+  return floors;
+}
+
+}  // namespace dmocbench

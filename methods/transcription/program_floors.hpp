@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/program/rounding_floors.hpp"
+#include "methods/transcription/guess_check.hpp"
+#include "methods/transcription/layout.hpp"
+
+namespace dmocbench {
+
+/// The floors of a program (`Transcription::rounding_floors`) from max|q| and max|L_vv| over the ends and the guess,
+/// and the steps of the intervals.
+[[nodiscard]] RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps,
+                                                const Layout& layout);
+
+}  // namespace dmocbench

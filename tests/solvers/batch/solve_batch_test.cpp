@@ -1,0 +1,241 @@
+#include "methods/solvers/batch/solve_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "methods/error.hpp"
+#include "methods/solvers/batch/instance_program.hpp"
+#include "methods/solvers/interior_point/interior_point_solver.hpp"
+#include "methods/transcription/lane_transcription.hpp"
+#include "methods/transcription/start.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/random_points.hpp"
+
+namespace dmocbench::batch {
+namespace {
+
+/// A program and what its instances are made of.
+struct Case {
+  Case(const std::string& name, const std::string& method, std::size_t stages, std::size_t intervals,
+       const std::string& parameter = "", double value = 0.0)
+      : problem(make_problem(name)) {
+    if (!parameter.empty()) problem->set_parameter(parameter, value);
+    program = std::make_unique<Transcription>(*problem, *make_element(method), make_tableau("gauss", stages),
+                                              Grid::uniform(intervals));
+    start = sample(*program, guessed_motion(*problem));
+  }
+
+  /// Instances whose ends are up to `share` away from those of the problem.
+  [[nodiscard]] std::vector<BatchInstance> instances(std::size_t count, double share) const {
+    tests::RandomPoints random;
+    ClampedEnds ends(*program);
+    const BoundaryState first = problem->initial_state();
+    const BoundaryState last = problem->final_state();
+    const auto moved = [&](BoundaryState end) {
+      for (Eigen::Index i = 0; i < end.q.size(); ++i) {
+        const double size = end.q[i] != 0.0 ? std::abs(end.q[i]) : std::abs(last.q[i] - first.q[i]);
+        end.q[i] += random.number(-share, share) * size;
+      }
+      return end;
+    };
+    std::vector<BatchInstance> instances(count);
+    for (BatchInstance& instance : instances) {
+      instance.start = start;
+      instance.rows = program->constraint_lower();
+      const BoundaryState from = moved(first);
+      ends.write(from, moved(last), instance.start, instance.rows);
+    }
+    return instances;
+  }
+
+  [[nodiscard]] std::vector<Solution> solve(const std::vector<BatchInstance>& instances,
+                                            const BatchOptions& options = {}) {
+    std::vector<Solution> solutions(instances.size());
+    summary = solve_batch(
+        *program, lanes_of(*program), start,
+        [&](std::size_t index, BatchInstance& instance) {
+          if (index == instances.size()) return false;
+          instance = instances[index];
+          return true;
+        },
+        [&](std::size_t index, const Solution& solution) { solutions[index] = solution; }, options);
+    return solutions;
+  }
+
+  [[nodiscard]] Solution solve_alone(const BatchInstance& instance) {
+    SolverOptions options;
+    options.start_multipliers = instance.multipliers;
+    batch::InstanceProgram alone(*program, instance.start, instance.rows);
+    return InteriorPointSolver(options).solve(alone, instance.start);
+  }
+
+  void expect_answers_of_single_solves(std::size_t count, double share) {
+    const std::vector<BatchInstance> all = instances(count, share);
+    const std::vector<Solution> solutions = solve(all);
+    EXPECT_LE(summary.solved_one_by_one, count / 4);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Solution alone = solve_alone(all[i]);
+      EXPECT_EQ(solutions[i].status, alone.status) << i;
+      EXPECT_NEAR(solutions[i].objective, alone.objective, 1e-10 * std::abs(alone.objective)) << i;
+    }
+  }
+
+  std::unique_ptr<Problem> problem;
+  std::unique_ptr<Transcription> program;
+  Eigen::VectorXd start;
+  BatchSummary summary;
+};
+
+/// Instances that must hurt no other: numbers and sizes that are wrong, a formula without a value, ends out of reach.
+void poison(BatchInstance& instance, std::size_t kind) {
+  switch (kind % 5) {
+    case 0:
+      instance.start[2] = std::numeric_limits<double>::quiet_NaN();
+      break;
+    case 1:
+      instance.start.conservativeResize(3);
+      break;
+    case 2:
+      instance.multipliers.setOnes(1);
+      break;
+    case 3:
+      instance.start.head(2).setZero();  // the radius: 1/r is infinite
+      break;
+    default:
+      instance.rows.array() += 1e150;
+  }
+}
+
+bool are_same(const Solution& a, const Solution& b) {
+  return a.status == b.status && a.primal == b.primal && a.multipliers == b.multipliers &&
+         a.major_iterations == b.major_iterations;
+}
+
+TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForEveryFamilyAndSeveralStages) {
+  for (const std::string& method : element_names()) {
+    for (const std::size_t stages : {1U, 2U}) {
+      SCOPED_TRACE(method + ' ' + std::to_string(stages));
+      Case("orbital_transfer", method, stages, 16).expect_answers_of_single_solves(12, 0.02);
+    }
+  }
+  Case("two_link_manipulator", "dmoc", 1, 16).expect_answers_of_single_solves(24, 0.1);
+}
+
+TEST(SolveBatch, GivesTheAnswersOfSingleSolvesWhereThereAreBoundsAndInequalities) {
+  Case("double_integrator", "dmoc", 1, 16, "largest_force", 5.0).expect_answers_of_single_solves(12, 0.05);
+  Case("cart_pole", "dmoc", 1, 16).expect_answers_of_single_solves(12, 0.01);
+  Case("container_crane", "dmoc", 1, 16).expect_answers_of_single_solves(4, 0.01);
+}
+
+TEST(SolveBatch, StartsWarmFromMultipliers) {
+  Case orbit("orbital_transfer", "dmoc", 1, 16);
+  const Solution neighbour = InteriorPointSolver().solve(*orbit.program, orbit.start);
+  orbit.start = neighbour.primal;
+  std::vector<BatchInstance> instances = orbit.instances(8, 1e-4);
+  for (BatchInstance& instance : instances) instance.multipliers = neighbour.multipliers;
+  for (const Solution& solution : orbit.solve(instances)) {
+    EXPECT_EQ(solution.status, Status::solved);
+    EXPECT_LE(*solution.major_iterations, 3);
+  }
+}
+
+TEST(SolveBatch, ChangesNoDigitOfAnAnswerWhateverItsNeighboursAreAndHoweverManyThreadsThereAre) {
+  constexpr std::size_t count = 4096;
+  constexpr std::size_t one_percent = 100;
+  Case orbit("orbital_transfer", "dmoc", 1, 8);
+  std::vector<BatchInstance> instances = orbit.instances(count, 0.02);
+  const std::vector<Solution> healthy = orbit.solve(instances, {.threads = 1});
+  std::ranges::reverse(instances);
+  std::vector<bool> is_poisoned(count);
+  for (std::size_t i = 0; i < count; i += one_percent) {
+    poison(instances[i], i / one_percent);
+    is_poisoned[i] = true;
+  }
+  BatchOptions options{.threads = 3};
+  options.falls_back = false;
+  const std::vector<Solution> mixed = orbit.solve(instances, options);
+  EXPECT_EQ(orbit.summary.instances, count);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_poisoned[i]) {
+      EXPECT_FALSE(is_solved(mixed[i].status)) << i;
+    } else if (healthy[count - 1 - i].solver == "batch") {
+      EXPECT_TRUE(are_same(mixed[i], healthy[count - 1 - i])) << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, count * 9 / 10);
+}
+
+TEST(SolveBatch, SaysWhatIsWrongWithAnInstance) {
+  Case orbit("orbital_transfer", "dmoc", 1, 8);
+  std::vector<BatchInstance> instances = orbit.instances(3, 0.01);
+  poison(instances[0], 0);
+  poison(instances[1], 1);
+  const std::vector<Solution> solutions = orbit.solve(instances);
+  EXPECT_EQ(solutions[0].status, Status::evaluation_failed);
+  EXPECT_EQ(solutions[1].status, Status::invalid_program);
+  EXPECT_NE(solutions[1].message.find("has 3 entries"), std::string::npos);
+  EXPECT_EQ(solutions[2].status, Status::solved);
+}
+
+TEST(SolveBatch, SolvesOneByOneWhatTheLanesCannotAndCountsIt) {
+  Case motion("double_integrator", "dmoc", 1, 16, "largest_force", 5.0);
+  std::vector<BatchInstance> instances = motion.instances(9, 0.05);
+  ClampedEnds ends(*motion.program);
+  ends.write(BoundaryState::at_rest(Eigen::VectorXd::Zero(1)),
+             BoundaryState::at_rest(Eigen::VectorXd::Constant(1, 9.0)), instances[4].start, instances[4].rows);
+  const std::vector<Solution> solutions = motion.solve(instances);
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    EXPECT_EQ(solutions[i].status, i == 4 ? Status::infeasible : Status::solved) << i;
+  }
+  EXPECT_EQ(solutions[4].solver, "interior_point");
+  EXPECT_EQ(motion.summary.solved_one_by_one, 1U);
+}
+
+TEST(SolveBatch, FillsTheLaneOfAnInstanceThatHasConverged) {
+  Case arm("two_link_manipulator", "dmoc", 1, 8);
+  const std::vector<Solution> solutions = arm.solve(arm.instances(160, 0.1), {.threads = 1});
+  std::size_t systems = 0;
+  std::size_t most = 0;
+  for (const Solution& solution : solutions) {
+    systems += static_cast<std::size_t>(solution.linear_systems.value_or(0));
+    most = std::max(most, static_cast<std::size_t>(solution.linear_systems.value_or(0)));
+  }
+  // One more per instance evaluates its start; in the end lanes run dry.
+  EXPECT_LE(arm.summary.rounds, (systems + solutions.size()) / instance_lanes + most + 1);
+}
+
+TEST(SolveBatch, EndsWhenAskedToAndPassesOnWhatIsThrown) {
+  Case orbit("orbital_transfer", "dmoc", 1, 8);
+  const std::vector<BatchInstance> instances = orbit.instances(64, 0.02);
+  BatchOptions options;
+  options.stop_requested = [] { return true; };
+  orbit.solve(instances, options);
+  EXPECT_LT(orbit.summary.instances, instances.size());
+  const auto fails = [](std::size_t, const Solution&) { throw Error("full"); };
+  const auto next = [&](std::size_t index, BatchInstance& instance) {
+    if (index == instances.size()) return false;
+    instance = instances[index];
+    return true;
+  };
+  EXPECT_THROW(solve_batch(*orbit.program, lanes_of(*orbit.program), orbit.start, next, fails), Error);
+}
+
+TEST(SolveBatch, RefusesEndsThatAreNotGivenInASentence) {
+  const auto problem = make_problem("robot_arm");
+  Transcription program(*problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16));
+  const Eigen::VectorXd start = sample(program, guessed_motion(*problem));
+  const auto next = [](std::size_t, BatchInstance&) { return false; };
+  const auto take = [](std::size_t, const Solution&) {};
+  EXPECT_THROW(solve_batch(program, lanes_of(program), start, next, take), Error);
+}
+
+}  // namespace
+}  // namespace dmocbench::batch
