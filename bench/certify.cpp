@@ -69,6 +69,7 @@ Certificate certificate_of(const Problem& problem, const Table& table) {
                      .message = rows.where(has_message).back().text("indirect_message")};
   for (const Row& row : solved) result.objectives[row.text("tableau") + row.text("stages")] = *row.number("objective");
   std::vector<double> costs;
+  costs.reserve(result.objectives.size() + 2);
   for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
   for (const auto& cost : {result.replay_objective, result.indirect_objective}) {
     if (cost) costs.push_back(*cost);

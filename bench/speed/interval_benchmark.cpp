@@ -63,6 +63,7 @@ class IntervalColumns {
   /// The numbers of one interval.
   [[nodiscard]] std::vector<double> row(std::size_t interval) const {
     std::vector<double> numbers;
+    numbers.reserve(columns_.size());
     for (const double* column : columns_) numbers.push_back(column[interval]);
     return numbers;
   }
