@@ -82,6 +82,7 @@ Certificate certificate_of(const Problem& problem, const Table& table) {
     result.grid_digits = std::min(digits, result.grid_digits.value_or(digits));
   }
   std::vector<double> costs;
+  costs.reserve(result.objectives.size() + 2);
   for (const auto& [route, objective] : result.objectives) costs.push_back(objective);
   for (const auto& cost : {result.replay_objective, result.indirect_objective}) {
     if (cost) costs.push_back(*cost);
@@ -137,11 +138,11 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
              {"message", "", "why there is no indirect solution", from(&Certificate::message)}};
 }
 
-/// The cost of a solved motion, its intervals replayed one by one; none, with the reason in the row's message, if that
-/// fails.
-std::optional<double> replayed_objective(SolvedCase& solved) {
+/// The cost of the motion of a solved case, its intervals replayed one by one; none, with the reason in the row's
+/// message, if that fails.
+std::optional<double> replayed_objective(SolvedCase& solved, const Trajectory& motion) {
   try {
-    return cost_by_intervals(*solved.the_case.problem, *solved.trajectory);
+    return cost_by_intervals(*solved.the_case.problem, motion);
   } catch (const Error& error) {
     solved.note(error.what());
     return std::nullopt;
@@ -209,7 +210,7 @@ class Certify final : public Experiment {
     CertifiedProblem& certified = *std::ranges::find(problems_, solved.the_case.problem, &CertifiedProblem::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
       measured_.replay = replay(solved);
-      measured_.replay_objective = replayed_objective(solved);
+      measured_.replay_objective = replayed_objective(solved, *solved.trajectory);
       auto& finest = certified.finest;
       if (!finest || finest->intervals() < solved.trajectory->intervals()) finest = solved.trajectory;
     }

@@ -1,15 +1,10 @@
 // Coercivity of the discrete optimum over the number of intervals: the assumption behind (main_theorem), section 3.5.
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "bench/coercivity/smallest_curvature.hpp"
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
 
@@ -32,14 +27,8 @@ const Columns<Curvature> columns =
          &Curvature::smallest}};
 
 int measure_all(CommandLine& line) {
-  std::filesystem::path out = "results";
-  line.option("--out", out, "folder for the results");
-  const std::vector<std::string> command_line = line.parse();
-  listen_for_interrupt();
-  const OutputFolder folder(out);
-  const ResultLock lock(out / "coercivity");
-  SolverOptions options;
-  options.stop_requested = interrupt_requested;
+  TableRun run("coercivity", line);
+  const SolverOptions options = TableRun::solver_options();
   StartProvider starts({}, options);
   const std::unique_ptr<Solver> solver = make_solver("ipopt", options);
   std::vector<Curvature> rows;
@@ -47,12 +36,12 @@ int measure_all(CommandLine& line) {
     const std::shared_ptr<const Problem> problem = make_problem(name);
     for (const std::string& method : element_names()) {
       for (const long long intervals : {16, 32, 64, 128, 256, 512}) {
-        throw_if_interrupted();
         const Case the_case{.problem = problem,
                             .method = method,
                             .tableau = "gauss",
                             .solver = "ipopt",
                             .grid = Grid::uniform(intervals)};
+        run.show(the_case.label());
         const SolvedCase solved = solve_case(the_case, starts.start_for(the_case), *solver, options.tolerance, 1, true);
         Curvature row{.scheme = {name, method, "gauss", 1},
                       .status = std::string(name_of(solved.solution.status)),
@@ -62,11 +51,8 @@ int measure_all(CommandLine& line) {
       }
     }
   }
-  const std::filesystem::path file = out / "coercivity.csv";
-  write_file(file, table_of(columns, rows).csv());
-  write_complete_run(out / "coercivity.json", command_line, {file});
-  fmt::print("coercivity: {} rows: {}\n", rows.size(), file.string());
-  return 0;
+  run.add("coercivity", columns, rows);
+  return run.write();
 }
 
 int run(int argc, char** argv) {

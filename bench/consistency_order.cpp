@@ -7,14 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
 #include <tl/expected.hpp>
 
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/options.hpp"
 #include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "bench/structure/one_step_tableaus.hpp"
 #include "methods/error.hpp"
 
@@ -214,36 +212,27 @@ int measure_all(CommandLine& line) {
   std::vector<std::string> problems;
   std::vector<std::string> settings;
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
-  std::filesystem::path out = "results";
   line.list("--problem", problems, "problems (default: all)");
   line.option("--set", settings, "parameter=value of a problem");
   line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
-  line.option("--out", out, "folder for the results");
-  const std::vector<std::string> command_line = line.parse();
+  TableRun run("consistency_order", line);
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
   const auto selected = selected_problems(problems, settings);
-  listen_for_interrupt();
-  const OutputFolder folder(out);
-  const ResultLock lock(out / "consistency_order");
   Results results;
   std::vector<ExactTransform> transforms;
   for (const auto& problem : selected) {
+    run.show(problem->name());
     measure(*problem, steps, results);
     for (const long long coarsest_and_finest : {steps.front(), steps.back()}) {
       transforms.push_back(exact_transform(*problem, coarsest_and_finest));
     }
   }
-  const std::filesystem::path errors = out / "consistency_order.csv";
-  const std::filesystem::path slopes = out / "consistency_order_slopes.csv";
-  const std::filesystem::path exact = out / "consistency_order_transforms.csv";
-  write_file(errors, table_of(error_columns, results.errors).csv());
-  write_file(slopes, table_of(order_columns, results.orders).csv());
-  write_file(exact, table_of(transform_columns, transforms).csv());
-  write_complete_run(out / "consistency_order.json", command_line, {errors, slopes, exact});
   const auto failures =
       std::ranges::count_if(results.errors, [](const MeasuredError& row) { return !row.value.error; });
-  fmt::print("consistency_order: {} rows, {} not measured: {}\n", results.errors.size(), failures, errors.string());
-  return failures > 0 ? 1 : 0;
+  run.add("consistency_order", error_columns, results.errors, failures);
+  run.add("consistency_order_slopes", order_columns, results.orders);
+  run.add("consistency_order_transforms", transform_columns, transforms);
+  return run.write();
 }
 
 int run(int argc, char** argv) {

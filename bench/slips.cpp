@@ -1,16 +1,13 @@
 // Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include <fmt/format.h>
-
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/restated_problem.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "methods/diagnostics/exact_discrete_lagrangian.hpp"
+#include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
@@ -123,10 +120,11 @@ Slip saddle_point() {
   double difference = 0.0;
   for (int i = 0; i < points; ++i) {
     const double t = (i + 0.5) / points;
-    const OptimalPoint at = closed.optimum(t).value();
-    const double u = at.motion.u[0];
-    const double lambda_q = -at.psi_q[0];  // λ = -ψ
-    const double lambda_p = -at.psi_p[0];
+    const std::optional<OptimalPoint> at = closed.optimum(t);
+    if (!at) throw Error("the double integrator has no closed form with these parameters");
+    const double u = at->motion.u[0];
+    const double lambda_q = -at->psi_q[0];  // λ = -ψ
+    const double lambda_p = -at->psi_p[0];
     // δq = sin²(πt), δv = sin(2πt), δu = cos(3t); η* solves the equations of motion.
     const double moved_u = u + std::cos(3.0 * t);
     const double q_equation = pi * std::sin(2.0 * pi * t) - std::sin(2.0 * pi * t);
@@ -153,11 +151,11 @@ Slip force_in_lemma(const Problem& problem) {
       problem, [](const Expression& t) { return ExpressionVector::Constant(1, 0.1 + 0.1 * sin(t)); });
   const BoundaryState first = problem.initial_state();
   const LongVector q_0 = first.q.cast<long double>();
-  const LongVector v_0 = first.v.cast<long double>();
-  const ExactInterval interval = exact.along(q_0, v_0, h);
+  const LongVector v_start = first.v.cast<long double>();
+  const ExactInterval interval = exact.along(q_0, v_start, h);
   const LongVector moved = e * LongVector::Unit(2, 1);
   const auto lagrangian = [&](const LongVector& left) {
-    return exact.between(left, interval.q_1, v_0, h).objects.lagrangian;
+    return exact.between(left, interval.q_1, v_start, h).objects.lagrangian;
   };
   const long double slope = (lagrangian(q_0 + moved) - lagrangian(q_0 - moved)) / (2.0L * e);
   LegendreTransform legendre{TracedProblem(problem)};
@@ -226,27 +224,17 @@ const Columns<Slip> columns{
 };
 
 int evaluate_slips(CommandLine& line) {
-  std::filesystem::path out = "results";
-  line.option("--out", out, "folder for the results");
-  const std::vector<std::string> command_line = line.parse();
-  listen_for_interrupt();
-  const OutputFolder folder(out);
-  const ResultLock lock(out / "slips");
-  SolverOptions options;
-  options.stop_requested = interrupt_requested;
+  TableRun run("slips", line);
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
-  StartProvider starts({}, options);
+  StartProvider starts({}, TableRun::solver_options());
   const Trajectory motion = starts.solve(
       {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
   const std::vector<Slip> slips{potential_without_sine(),       swapped_momenta(*orbit, motion),
                                 mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
                                 transversality(starts),         saddle_point(),
                                 final_momentum(*orbit, motion), figure_of_iterations()};
-  const std::filesystem::path file = out / "slips.csv";
-  write_file(file, table_of(columns, slips).csv());
-  write_complete_run(out / "slips.json", command_line, {file});
-  fmt::print("slips: {} rows: {}\n", slips.size(), file.string());
-  return 0;
+  run.add("slips", columns, slips);
+  return run.write();
 }
 
 int run(int argc, char** argv) {

@@ -4,15 +4,10 @@
 #include <functional>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/restated_problem.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "bench/smoothness/optimum_error.hpp"
 #include "methods/transcription/element.hpp"
 #include "problems/registry.hpp"
@@ -126,8 +121,7 @@ std::vector<GridError> envelope(std::vector<GridError> points) {
 
 class Smoothness {
  public:
-  explicit Smoothness(SolverOptions options)
-      : options_(std::move(options)), starts_({}, options_), solver_(make_solver("interior_point", options_)) {}
+  explicit Smoothness(const TableRun& run) : run_(run) {}
 
   void measure(const Situation& situation) {
     const Trajectory finer = finest(situation);
@@ -141,8 +135,8 @@ class Smoothness {
   [[nodiscard]] const std::vector<MeasuredOrder>& orders() const noexcept { return orders_; }
 
  private:
-  [[nodiscard]] Case case_of(const Situation& situation, const std::string& method, int stages,
-                             long long intervals) const {
+  [[nodiscard]] static Case case_of(const Situation& situation, const std::string& method, int stages,
+                                    long long intervals) {
     return {.problem = situation.problem,
             .method = method,
             .tableau = "gauss",
@@ -151,7 +145,7 @@ class Smoothness {
             .grid = Grid::uniform(intervals)};
   }
   [[nodiscard]] SolvedCase solve(const Case& the_case, const Start& start) const {
-    throw_if_interrupted();
+    run_.show(the_case.label());
     return solve_case(the_case, start, *solver_, options_.tolerance, 1, true);
   }
   /// DMOC on a grid that is five times finer than the finest one that is measured.
@@ -199,35 +193,22 @@ class Smoothness {
   static constexpr long long coarsest_fitted = 32;
   static constexpr long long finer_intervals = 1280;
   static constexpr double rounding = 1e-11;  // below it are solver and rounding, not the grid
-  SolverOptions options_;
-  StartProvider starts_;
-  std::unique_ptr<Solver> solver_;
+  const TableRun& run_;
+  SolverOptions options_ = TableRun::solver_options();
+  StartProvider starts_{{}, options_};
+  std::unique_ptr<Solver> solver_ = make_solver("interior_point", options_);
   std::vector<Measured> errors_;
   std::vector<MeasuredOrder> orders_;
 };
 
 int measure_all(CommandLine& line) {
-  std::filesystem::path out = "results";
-  line.option("--out", out, "folder for the results");
-  const std::vector<std::string> command_line = line.parse();
-  listen_for_interrupt();
-  const OutputFolder folder(out);
-  const ResultLock lock(out / "smoothness");
-  SolverOptions options;
-  options.stop_requested = interrupt_requested;
-  Smoothness smoothness(options);
+  TableRun run("smoothness", line);
+  Smoothness smoothness(run);
   const std::vector<Situation> all = situations();
   for (const Situation& situation : all) smoothness.measure(situation);
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const Table& table) {
-    const std::filesystem::path file = files.emplace_back(out / (name + ".csv"));
-    write_file(file, table.csv());
-    fmt::print("smoothness: {} rows: {}\n", table.rows().size(), file.string());
-  };
-  write("smoothness", table_of(error_columns, smoothness.errors()));
-  write("smoothness_slopes", table_of(order_columns, smoothness.orders()));
-  write_complete_run(out / "smoothness.json", command_line, files);
-  return 0;
+  run.add("smoothness", error_columns, smoothness.errors());
+  run.add("smoothness_slopes", order_columns, smoothness.orders());
+  return run.write();
 }
 
 int run(int argc, char** argv) {

@@ -1,12 +1,7 @@
 // Structure: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation of a Modified
 // Energy").
-#include <fmt/format.h>
-
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "bench/structure/energy_tables.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
@@ -101,51 +96,40 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results)
 }
 
 int write_tables(CommandLine& line) {
-  std::filesystem::path out = "results";
   int steps = 400;
   int steps_per_period = 64;
   long long periods = 10000;
-  line.option("--out", out, "folder for the results");
   line.number("--steps", steps, 1, 1000000, "steps of the forced maps");
   line.number("--steps-per-period", steps_per_period, 16, 100000, "steps per period of the orbit");
   line.number("--periods", periods, 3, 10000000, "periods of the orbit");
-  const std::vector<std::string> command_line = line.parse();
-  listen_for_interrupt();
-  const OutputFolder folder(out);
-  const ResultLock lock(out / "structure");
-  const Table momentum = noether_table(steps);
-  const Table symplecticity = symplecticity_table();
+  TableRun run("structure", line);
+  run.show("momentum against the work of forces");
+  run.add("structure_momentum", noether_table(steps));
+  run.show("momentum along motions with orthogonal forces");
+  run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options()));
+  run.show("rotations");
+  run.add("structure_rotations", rotations_table(steps));
+  run.show("the symplectic form");
+  run.add("structure_symplecticity", symplecticity_table());
+  run.show("modified energies");
+  const ModifiedEnergyTables modified = modified_energy_tables();
+  run.add("structure_modified_energy", modified.drifts);
+  run.add("structure_modified_energy_slopes", modified.slopes);
+  run.show("energies against the work of forces");
+  const EnergyWorkTables work = energy_work_tables(TableRun::solver_options());
+  run.add("structure_energy_work", work.plain);
+  run.add("structure_modified_work", work.modified);
+  run.add("structure_energy_work_slopes", work.slopes);
   EnergyResults results;
   for (const LongTimeMethod& method : long_time_methods()) {
+    run.show("energy over many periods: " + method.name);
     follow(method, steps_per_period, periods, true, results);
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
-  SolverOptions options;
-  options.stop_requested = interrupt_requested;
-  const ModifiedEnergyTables modified = modified_energy_tables();
-  const Table rotations = rotations_table(steps);
-  const Table orthogonal = orthogonal_forces_table(options);
-  const EnergyWorkTables work = energy_work_tables(options);
-  std::vector<std::filesystem::path> files;
-  const auto write = [&](const std::string& name, const Table& table) {
-    const std::filesystem::path file = files.emplace_back(out / (name + ".csv"));
-    write_file(file, table.csv());
-    fmt::print("structure: {} rows: {}\n", table.rows().size(), file.string());
-  };
-  write("structure_momentum", momentum);
-  write("structure_orthogonal_forces", orthogonal);
-  write("structure_rotations", rotations);
-  write("structure_symplecticity", symplecticity);
-  write("structure_modified_energy", modified.drifts);
-  write("structure_modified_energy_slopes", modified.slopes);
-  write("structure_energy_work", work.plain);
-  write("structure_modified_work", work.modified);
-  write("structure_energy_work_slopes", work.slopes);
-  write("structure_energy", table_of(period_columns, results.periods));
-  write("structure_energy_behaviour", table_of(behaviour_columns, results.behaviour));
-  write("structure_energy_slopes", table_of(order_columns, results.orders));
-  write_complete_run(out / "structure.json", command_line, files);
-  return 0;
+  run.add("structure_energy", period_columns, results.periods);
+  run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
+  run.add("structure_energy_slopes", order_columns, results.orders);
+  return run.write();
 }
 
 int run(int argc, char** argv) {

@@ -36,5 +36,6 @@ do for [problem in problems] {
   by_whom = strlen(solve) == 0 ? "" : " by ".method_label(entry(solve, "method")).", N = ".entry(solve, "intervals")
   drawing = plots."/pictures/".problem.".gp"
   if (system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
+  incomplete = incomplete_run("motion_".problem)
   do for [kind in kinds] { load drawing }
 }

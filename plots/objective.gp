@@ -6,7 +6,9 @@ load plots."/style.gp"
 eval require("objective", "problem,method,tableau,stages,solver,status,branch,intervals,objective")
 errors = exists_table("convergence")
 if (errors) {
+  of_costs = incomplete
   eval require("convergence", "problem,method,tableau,stages,solver,status,branch,intervals,objective_error")
+  incomplete = joined(of_costs, incomplete)
 }
 
 reference_words = strlen(told("convergence", "reference")) > 0 ? told("convergence", "reference")\

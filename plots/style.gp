@@ -12,12 +12,14 @@ table(name) = results."/".name.".csv"
 exists_table(name) = system("test -s '".table(name)."' && echo 1 || echo 0") + 0
 rows_awk(options, name) = "awk -f '".plots."/rows.awk' ".options." '".table(name)."'"
 
-# To be evaluated: ends the script with one line if the table or one of its columns is missing.
+# To be evaluated: ends the script with one line if the table or one of its columns is missing. Figures tell from then on
+# whether the run of that table was incomplete.
 require(name, columns) = sprintf(\
     "complaint = exists_table('%s') ? system(rows_awk('-v missing=\"%s\"', '%s')) : '-';\
      if (complaint eq '-') { print table('%s').' is missing or empty'; exit status 1 };\
-     if (complaint ne '') { print table('%s').' has no column '.complaint; exit status 1 }",\
-    name, columns, name, name, name)
+     if (complaint ne '') { print table('%s').' has no column '.complaint; exit status 1 };\
+     incomplete = incomplete_run('%s')",\
+    name, columns, name, name, name, name)
 
 # Rows that may be drawn, as a data file; `where` is problem=a,method=b,..., `need` a column with a value above zero.
 rows(name, where, need) = "< ".rows_awk("-v where='".where."' -v need=".need, name)
@@ -64,6 +66,14 @@ with_slope(label, slope) = strlen(slope) == 0 ? label : label.", ".slope
 # A value of the run's metadata, results/NAME.json, as text; empty if it is not told.
 told(name, key) = system(sprintf("sed -n 's/^  \"%s\": \"*\\([^\",]*\\)\"*,*$/\\1/p' '%s/%s.json' 2>/dev/null",\
     key, results, name))
+# The run that wrote a table: the longest beginning of the table's name with metadata beside it; empty if there is none.
+run_of(name) = strlen(name) == 0 ? "" : system(sprintf("test -s '%s/%s.json' && echo 1", results, name)) ne "" ? name\
+    : run_of(system("echo '".name."' | sed 's/_*[^_]*$//'"))
+# What a figure says of a table whose run did not come to its end; empty if it did, or if nobody knows.
+incomplete_run(name) = told(run_of(name), "complete") eq "false" ? what_is_there(run_of(name)) : ""
+what_is_there(run) = run.".csv: ".(strlen(told(run, "cases")) == 0 ? "its run has not ended"\
+    : told(run, "rows")." of ".told(run, "cases")." rows, its run was interrupted")
+incomplete = ""
 start_in_words(start) = start eq "common" ? "Warm start (one motion for all methods)"\
     : start eq "guess" ? "Cold start (the problem’s guess)" : strlen(start) == 0 ? "" : "Warm start (a motion from a file)"
 # "Warm start (...); tolerance 1e-10", and over how many solves the medians of times go.
@@ -158,8 +168,12 @@ terminal(kind, width, height) = kind eq "svg"\
     ? sprintf("set terminal svg size %d, %d enhanced font 'sans-serif,15' background 'white'", width, height)\
     : sprintf("set terminal pngcairo size %d, %d enhanced font 'sans-serif,15' fontscale 1.5 linewidth 2 pointscale 3\
         dashlength 1.4", 2 * width, 2 * height)
-begin_figure(kind, name, width, height) = sprintf("system \"mkdir -p '%s'\"; %s; set output \"%s\"",\
-    figures, terminal(kind, width, height), hidden(kind, name))
+begin_figure(kind, name, width, height) = sprintf("system \"mkdir -p '%s'\"; %s; set output \"%s\"; %s",\
+    figures, terminal(kind, width, height), hidden(kind, name), stamp)
+# Across a figure of an incomplete table, whatever else is drawn there.
+stamp = "unset label 901; unset label 902; if (strlen(incomplete) > 0) {\
+    set label 901 'INCOMPLETE' at screen 0.5, screen 0.52 center front font ',60' textcolor rgb '#60D55E00';\
+    set label 902 incomplete at screen 0.5, screen 0.44 center front noenhanced font ',18' textcolor rgb '#20D55E00' }"
 end_figure(kind, name) = sprintf("unset output; system \"%s mv '%s' '%s/%s.%s'\"",\
     kind eq "svg" ? keep_spaces(hidden(kind, name)) : "", hidden(kind, name), figures, name, kind)
 # Without this, viewers of SVG drop spaces beside subscripts.

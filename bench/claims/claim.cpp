@@ -143,10 +143,9 @@ std::string_view name_of(Whose whose) noexcept {
   return names[static_cast<std::size_t>(whose)];
 }
 
-double quotient(const Row& row, const Row& other, const std::string& column) {
-  const auto value = ratio(row.needed(column), other.needed(column));
-  require(value.has_value(), "{}, column {}: a ratio needs a number above zero", other.place(), column);
-  return *value;
+double quotient(const Row& numerator, const Row& denominator, const std::string& column) {
+  if (const auto value = ratio(numerator.needed(column), denominator.needed(column))) return *value;
+  throw Error(fmt::format("{}, column {}: a ratio needs a number above zero", denominator.place(), column));
 }
 
 std::string left_out(const Selection& all, const Selection& used, std::string_view why) {

@@ -174,7 +174,7 @@ void require(bool is_there, fmt::format_string<Values...> words, Values&&... val
 }
 
 /// The quotient of two numbers of rows. Throws `Error` if one is missing or the second is not positive.
-[[nodiscard]] double quotient(const Row& row, const Row& other, const std::string& column);
+[[nodiscard]] double quotient(const Row& numerator, const Row& denominator, const std::string& column);
 
 /// Texts that rows have, by their columns.
 using Texts = std::vector<std::pair<std::string, std::string>>;

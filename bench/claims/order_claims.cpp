@@ -75,8 +75,9 @@ std::string in_words(const Selection& orders) {
     tableaus[{expected_order(row), row.text("tableau") + " " + row.text("stages")}].append(row);
   }
   std::string words;
-  for (const auto& [tableau, rows] : tableaus) {
-    words += fmt::format("{}{} (order {:g}): ", words.empty() ? "" : "; ", tableau.second, tableau.first);
+  for (const auto& [order_and_tableau, rows] : tableaus) {
+    const auto& [expected, tableau] = order_and_tableau;
+    words += fmt::format("{}{} (order {:g}): ", words.empty() ? "" : "; ", tableau, expected);
     words += rows.in_words(", ", [](const Row& row) {
       const auto order = fitted_order(row);
       return row.text("quantity") + " " + (order ? fmt::format("{:.2f}", *order) : row.text("verdict"));

@@ -84,7 +84,9 @@ std::string_view name_of(SpeedVerdict verdict) noexcept {
 
 std::vector<SpeedComparison> compare(const BenchmarkSamples& before, const BenchmarkSamples& after,
                                      const ComparisonOptions& options) {
-  if (!(options.threshold >= 1.0) || !(options.significance >= 0.0 && options.significance <= 1.0)) {  // true for NaN
+  const bool are_sensible =  // false for NaN
+      options.threshold >= 1.0 && options.significance >= 0.0 && options.significance <= 1.0;
+  if (!are_sensible) {
     throw Error(fmt::format("a threshold is at least 1 and a significance between 0 and 1, not {} and {}",
                             options.threshold, options.significance));
   }
@@ -139,6 +141,7 @@ std::string comparison_text(const std::vector<SpeedComparison>& comparisons) {
                         name_of(comparison.verdict));
   }
   std::vector<std::string> verdicts;
+  verdicts.reserve(counts.size());
   for (const auto& [verdict, count] : counts) verdicts.push_back(fmt::format("{} {}", count, name_of(verdict)));
   return fmt::format("{}{}\n", text, fmt::join(verdicts, ", "));
 }

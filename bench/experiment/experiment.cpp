@@ -1,7 +1,6 @@
 #include "bench/experiment/experiment.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -12,11 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "bench/experiment/case_list.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
+#include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/written_tables.hpp"
@@ -26,8 +25,6 @@
 namespace dmocbench {
 
 namespace {
-
-void erase_line(std::FILE* terminal) { std::fputs("\r\033[K", terminal); }
 
 std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
   std::vector<Case> result;
@@ -66,7 +63,7 @@ class Run {
     starts_.check(cases_);
     starts_.on_progress = [this](const std::string& activity) { show(activity); };
     starts_.on_long_search = [this](const std::string& sentence) {
-      if (!terminal_) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
+      if (!progress_.is_shown()) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
     };
     metadata_["start"] = options_.start;
     if (options_.tolerances.empty()) metadata_["tolerance"] = options_.tolerance;
@@ -156,12 +153,13 @@ class Run {
     }
     if (sum == 0) return "";
     std::vector<std::string> parts;
+    parts.reserve(counts.size());
     for (const auto& [method, count] : counts) parts.push_back(fmt::format("{} {}", method, count));
     return fmt::format(", {} too coarse ({})", sum, fmt::join(parts, ", "));
   }
 
   /// Writes and returns all rows so far in the order of the cases.
-  Table write_table() const {
+  [[nodiscard]] Table write_table() const {
     Table table(names_);
     for (const auto& row : rows_) {
       if (row) table.append(*row);
@@ -171,10 +169,7 @@ class Run {
   }
 
   void show(const std::string& activity) const {
-    if (!terminal_) return;
-    erase_line(terminal_.get());
-    fmt::print(terminal_.get(), "[{}/{}] {}", done_ + 1, cases_.size(), activity);
-    std::fflush(terminal_.get());
+    progress_.show(fmt::format("[{}/{}] {}", done_ + 1, cases_.size(), activity));
   }
 
   void solve_part(std::size_t first, std::size_t end) {
@@ -285,7 +280,7 @@ class Run {
       append_to_file(table_file(), line);
     } else {
       if (part_.empty()) replace_earlier_files();
-      write_table();
+      static_cast<void>(write_table());
     }
     ++done_;
   }
@@ -298,6 +293,7 @@ class Run {
     }
     heads.push_back(cases_.size());
     std::vector<std::filesystem::path> parts;  // named by this process
+    parts.reserve(heads.size());
     for (const std::size_t i : heads)
       parts.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), i)));
     const auto work = [&](std::size_t i) {
@@ -306,7 +302,7 @@ class Run {
       rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
       write_file(part_, Table(names_).csv());
       solve_part(heads[i], heads[i + 1]);
-      write_table();
+      static_cast<void>(write_table());
     };
     const auto collect = [&](std::size_t i) {
       const std::filesystem::path& file = parts[i];
@@ -338,9 +334,7 @@ class Run {
   std::filesystem::path prefix_;
   std::filesystem::path part_;  ///< the table of a process that works for another; empty in that one
   nlohmann::ordered_json metadata_;
-  /// Standard error if it is a terminal, where one line says what is being solved; it is erased at the end.
-  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_{::isatty(STDERR_FILENO) == 1 ? stderr : nullptr,
-                                                             erase_line};
+  ProgressLine progress_;
   std::size_t done_ = 0;   ///< cases
   bool has_file_ = false;  ///< a row has been written to the table's file
 };

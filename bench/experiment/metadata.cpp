@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/written_tables.hpp"
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"
 
@@ -87,14 +86,6 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
 
 void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description) {
   write_file(file, description.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
-void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line,
-                        const std::vector<std::filesystem::path>& tables) {
-  nlohmann::ordered_json description = describe_run(command_line);
-  description["complete"] = true;
-  description["tables"] = describe_tables(tables);
-  write_metadata(file, description);
 }
 
 }  // namespace dmocbench

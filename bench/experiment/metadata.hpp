@@ -15,8 +15,4 @@ namespace dmocbench {
 /// Writes a description as a file; what is no text (UTF-8) in it is replaced.
 void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description);
 
-/// Writes the same of a run that has come to its end, with what its tables are known by again (`describe_tables`).
-void write_complete_run(const std::filesystem::path& file, const std::vector<std::string>& command_line,
-                        const std::vector<std::filesystem::path>& tables);
-
 }  // namespace dmocbench

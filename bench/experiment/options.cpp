@@ -61,6 +61,7 @@ std::vector<std::string> in_order(const std::string& kind, const std::vector<std
     positions.insert(position_of(known, std::identity(), name, "there is no " + kind));
   }
   std::vector<std::string> names;
+  names.reserve(positions.size());
   for (const std::size_t position : positions) names.push_back(known[position]);
   return names;
 }
@@ -229,6 +230,7 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
   std::vector<std::shared_ptr<Problem>> problems;
   const bool all = names == std::vector<std::string>{"all"};
   const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
+  problems.reserve(chosen.size());
   for (const std::string& name : chosen) problems.push_back(make_problem(name));
   for (const std::string& setting : settings) {
     const auto [name, text] = parse_assignment("--set", setting);

@@ -65,12 +65,10 @@ bool is_special(const std::filesystem::path& path) {
 
 void write_into(const std::filesystem::path& path, std::string_view content) {
   std::fflush(stdout);  // what was printed comes first
-  int descriptor = -1;
-  if (is_same(path, STDOUT_FILENO)) {
-    descriptor = ::dup(STDOUT_FILENO);
-  } else if ((descriptor = open_to_write(path, O_NONBLOCK)) >= 0) {  // a pipe without a reader is not waited for
-    ::fcntl(descriptor, F_SETFL, 0);                                 // NOLINT(cppcoreguidelines-pro-type-vararg)
-  }
+  const bool is_own_output = is_same(path, STDOUT_FILENO);
+  const int descriptor = is_own_output ? ::dup(STDOUT_FILENO) : open_to_write(path, O_NONBLOCK);
+  // A pipe without a reader was not waited for; one with a reader is.
+  if (!is_own_output && descriptor >= 0) ::fcntl(descriptor, F_SETFL, 0);  // NOLINT(*-pro-type-vararg): POSIX
   close_or_undo(descriptor, write_all(descriptor, content), path, [] {});
 }
 
@@ -133,17 +131,17 @@ void require_writable(const std::filesystem::path& path) {
   ::unlink(probe.c_str());
 }
 
-void write_file(const std::filesystem::path& link, std::string_view content) {
-  if (is_special(link)) return write_into(link, content);
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  if (is_special(path)) return write_into(path, content);
   std::error_code ignored;
-  const bool is_link = std::filesystem::is_symlink(link, ignored);
-  const std::filesystem::path path = is_link ? std::filesystem::weakly_canonical(link, ignored) : link;
-  const std::filesystem::path temporary = temporary_name(path);
+  const bool is_link = std::filesystem::is_symlink(path, ignored);
+  const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(path, ignored) : path;
+  const std::filesystem::path temporary = temporary_name(target);
   const int descriptor = open_to_write(temporary, O_CREAT | O_TRUNC);
   // A full disk may show itself only when the content is forced out.
   const bool is_whole =
-      write_all(descriptor, content) && ::fsync(descriptor) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
-  close_or_undo(descriptor, is_whole, path, [&] { ::unlink(temporary.c_str()); });
+      write_all(descriptor, content) && ::fsync(descriptor) == 0 && ::rename(temporary.c_str(), target.c_str()) == 0;
+  close_or_undo(descriptor, is_whole, target, [&] { ::unlink(temporary.c_str()); });
 }
 
 void append_to_file(const std::filesystem::path& path, std::string_view line) {

@@ -34,7 +34,8 @@ class TimeOfCase {
   /// Infinite without a limit, at least a moment with one, since 0 would be none.
   [[nodiscard]] double left() const {
     constexpr double moment = 1e-9;
-    return options_.most_seconds > 0.0 ? std::max(options_.most_seconds - seconds_since(begin_), moment) : unbounded;
+    if (options_.most_seconds <= 0.0) return unbounded;
+    return std::max(options_.most_seconds - seconds_since(begin_), moment);
   }
   /// For a part of the work; it ends with the time or an interrupt.
   [[nodiscard]] StopScope scope() const { return {options_.stop_requested, left()}; }
@@ -76,31 +77,32 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
 }
 
 /// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
-void judge_accuracy(SolvedCase& solved) {
-  solved.accuracy = dmocbench::accuracy(*solved.the_case.problem, *solved.trajectory);
-  if (solved.accuracy->relative_jump <= largest_jump_of_a_motion) return;
+void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
+  const Accuracy found = accuracy(*solved.the_case.problem, motion);
+  solved.accuracy = found;
+  if (found.relative_jump <= largest_jump_of_a_motion) return;
   solved.solution.status = Status::too_coarse;
-  const Eigen::Index k = solved.accuracy->interval;
+  const Eigen::Index k = found.interval;
   const double unit = solved.the_case.problem->card().time_unit.factor;
   solved.solution.message =
       fmt::format("{} Interval {} (t = {:.4g} to {:.4g}), replayed alone, misses the next node by {:.2g} of the range.",
-                  sentence_of(Status::too_coarse), k, unit * solved.trajectory->node_times[k],
-                  unit * solved.trajectory->node_times[k + 1], solved.accuracy->relative_jump);
+                  sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+                  found.relative_jump);
 }
 
 /// Says so where the cost that the solver saw differs from 1 by three orders of magnitude.
-void note_cost_scale(SolvedCase& solved) {
+void note_cost_scale(SolvedCase& solved, double optimum) {
   constexpr double far = 1e3;
-  const double cost = std::abs(solved.trajectory->cost);
+  const double cost = std::abs(optimum);
   const double scale = solved.program->cost_scale();
   const double seen = cost * scale;
   if (!is_solved(solved.solution.status) || !std::isnormal(seen) || (seen < far && seen > 1.0 / far)) return;
-  solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", solved.trajectory->cost,
+  solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", optimum,
                           std::pow(10.0, -std::round(std::log10(cost))), scale));
 }
 
 /// Names what solvers see of the motion at a size that differs from 1 by four orders of magnitude.
-void note_variable_sizes(SolvedCase& solved) {
+void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
   constexpr double far = 1e4;
   constexpr double zero = 1e-9;  // what is smaller is rounding
   if (!is_solved(solved.solution.status)) return;
@@ -114,19 +116,19 @@ void note_variable_sizes(SolvedCase& solved) {
     }
   };
   const Problem& problem = *solved.the_case.problem;
-  look("", solved.trajectory->q, problem.configuration_names());
-  look("the rate of ", solved.trajectory->v, problem.configuration_names());
-  look("", solved.trajectory->stage_u, problem.control_names());
+  look("", motion.q, problem.configuration_names());
+  look("the rate of ", motion.v, problem.configuration_names());
+  look("", motion.stage_u, problem.control_names());
   if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; other units would suit.", fmt::join(found, ", ")));
 }
 
 /// Judges a solved case as far as the time goes; one whose time is up is not solved.
-void judge_in_time(SolvedCase& solved, const TimeOfCase& time) {
+void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCase& time) {
   try {
     const StopScope scope = time.scope();
-    judge_accuracy(solved);
-    note_cost_scale(solved);
-    note_variable_sizes(solved);
+    judge_accuracy(solved, motion);
+    note_cost_scale(solved, motion.cost);
+    note_variable_sizes(solved, motion);
   } catch (const Stopped&) {
     solved.solution.status = time.reason();
     solved.solution.message =
@@ -310,7 +312,7 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
       result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
     }
   }
-  if (result.trajectory && is_solved(solution.status)) judge_in_time(result, time);
+  if (result.trajectory && is_solved(solution.status)) judge_in_time(result, *result.trajectory, time);
   note_solver(result);
   if (!start.note.empty()) {
     result.branch = "unknown";
@@ -350,6 +352,7 @@ void note_stop(SolvedCase& solved, const std::string& what) {
 }
 
 std::optional<ReplayError> replay(SolvedCase& solved) {
+  if (!solved.trajectory) return std::nullopt;
   try {
     return replay_error(*solved.the_case.problem, *solved.trajectory);
   } catch (const Stopped&) {
@@ -369,6 +372,7 @@ bool is_judged(Status status) { return is_solved(status) || status == Status::to
 }  // namespace
 
 IndependentChecks check_independently(SolvedCase& solved) {
+  if (!solved.trajectory) return {};
   const Problem& problem = *solved.the_case.problem;
   const Trajectory& trajectory = *solved.trajectory;
   if (const auto undefined = undefined_point(problem, trajectory); undefined && is_judged(solved.solution.status)) {

@@ -126,10 +126,12 @@ struct IndependentChecks {
 /// Says of a solved case what the end of its time left out.
 void note_stop(SolvedCase& solved, const std::string& what);
 
-/// The controls of the case's trajectory replayed; none, with the reason in the row's message, if that fails.
+/// The controls of the case's trajectory replayed; none without a trajectory or, with the reason in the row's message,
+/// if that fails.
 [[nodiscard]] std::optional<ReplayError> replay(SolvedCase& solved);
 
-/// A solved motion on which a formula is not a number becomes a failed evaluation, which the row's message says.
+/// Checks a case that has a trajectory. A solved motion on which a formula is not a number becomes a failed evaluation,
+/// which the row's message says.
 [[nodiscard]] IndependentChecks check_independently(SolvedCase& solved);
 
 /// The columns that tell `checks`.

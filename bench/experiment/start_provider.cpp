@@ -169,8 +169,9 @@ class StartProvider::Search {
   [[nodiscard]] bool refine(Candidate& candidate) {
     const long long intervals = 2 * static_cast<long long>(candidate.trajectory.intervals());
     auto finer = solve_on(candidate.method, intervals, smooth_motion(candidate.trajectory));
-    if (finer) candidate.trajectory = *std::move(finer);
-    return finer.has_value();
+    if (!finer) return false;
+    candidate.trajectory = *std::move(finer);
+    return true;
   }
 
   [[nodiscard]] bool is_interrupted() const {

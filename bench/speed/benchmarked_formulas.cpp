@@ -57,6 +57,7 @@ Schedule fused(const BenchmarkedFormulas& formulas) {
   std::vector<Expression> all;
   for (const Schedule* part : formulas.schedules()) {
     std::vector<Expression> inputs;
+    inputs.reserve(part->input_count());
     for (std::size_t i = 0; i < part->input_count(); ++i) inputs.push_back(Expression::input(i));
     std::ranges::copy(replay<Expression>(*part, inputs), std::back_inserter(all));
   }

@@ -63,6 +63,7 @@ class IntervalColumns {
   /// The numbers of one interval.
   [[nodiscard]] std::vector<double> row(std::size_t interval) const {
     std::vector<double> numbers;
+    numbers.reserve(columns_.size());
     for (const double* column : columns_) numbers.push_back(column[interval]);
     return numbers;
   }
@@ -113,8 +114,8 @@ void register_benchmark(const IntervalBenchmark& measured, std::function<Evaluat
   benchmark::RegisterBenchmark(benchmark_name(measured).c_str(), run);
 }
 
-void register_benchmark(const IntervalBenchmark& benchmark, const Evaluation& evaluation) {
-  register_benchmark(benchmark, std::function([evaluation] { return evaluation; }));
+void register_benchmark(const IntervalBenchmark& measured, const Evaluation& evaluation) {
+  register_benchmark(measured, std::function([evaluation] { return evaluation; }));
 }
 
 ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule, InstructionSet set) {

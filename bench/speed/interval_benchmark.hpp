@@ -67,8 +67,8 @@ struct Evaluation {
 [[nodiscard]] Evaluation one_by_one(const std::vector<Evaluation>& evaluations);
 
 /// Hands a benchmark to Google Benchmark; `make` is called at the beginning of every repetition.
-void register_benchmark(const IntervalBenchmark& benchmark, std::function<Evaluation()> make);
-void register_benchmark(const IntervalBenchmark& benchmark, const Evaluation& evaluation);
+void register_benchmark(const IntervalBenchmark& measured, std::function<Evaluation()> make);
+void register_benchmark(const IntervalBenchmark& measured, const Evaluation& evaluation);
 
 /// Writes the outputs of a schedule for all intervals, a column per output.
 using ColumnWriter = std::function<void(std::span<double* const> outputs)>;

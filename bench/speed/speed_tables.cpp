@@ -130,6 +130,7 @@ Table machine_table(const Benchmarks& benchmarks) {
 
 Table solve_table(const Benchmarks& benchmarks) {
   std::vector<Row> rows;
+  rows.reserve(benchmarks.size());
   for (const auto& [name, benchmark] : benchmarks) rows.push_back(solve_row(benchmark));
   std::ranges::sort(rows, {}, [](const Row& row) {
     return std::tuple(row.text("problem"), row.text("method"), row.number("intervals"), row.text("solver"),

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "methods/error.hpp"
 #include "methods/mechanics/problem.hpp"
 
 namespace dmocbench {
@@ -165,5 +167,17 @@ class WeightlessPendulum final : public ExampleSystem {
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
 };
+
+/// The generator of a problem's symmetry, n entries, which is the same everywhere. Throws `Error` if the problem has
+/// none, or one that depends on q.
+inline Eigen::VectorXd constant_generator(const Problem& problem) {
+  const auto generator = problem.symmetry(input_vector(0, problem.configuration_size()));
+  if (!generator) throw Error(problem.name() + " has no symmetry");
+  return Eigen::VectorXd::NullaryExpr(generator->size(), [&](Eigen::Index i) {
+    const std::optional<double> entry = (*generator)[i].constant_value();
+    if (!entry) throw Error("the symmetry of " + problem.name() + " depends on q");
+    return *entry;
+  });
+}
 
 }  // namespace dmocbench

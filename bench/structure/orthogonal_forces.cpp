@@ -39,10 +39,7 @@ const Columns<KeptMomentum> kept_momentum_columns =
 
 KeptMomentum measured(const Case& the_case, const Trajectory& motion) {
   const Problem& problem = *the_case.problem;
-  const ExpressionVector generator = *problem.symmetry(input_vector(0, problem.configuration_size()));
-  const Eigen::VectorXd xi = Eigen::VectorXd::NullaryExpr(
-      generator.size(), [&](Eigen::Index i) { return generator[i].constant_value().value(); });
-  const Eigen::VectorXd momentum = motion.p.lazyProduct(xi);
+  const Eigen::VectorXd momentum = motion.p.lazyProduct(constant_generator(problem));
   const double h = motion.step(0);
   return {.scheme = {problem.name(), the_case.method, the_case.tableau, the_case.stages},
           .intervals = static_cast<long long>(the_case.intervals()),

@@ -78,9 +78,7 @@ Forced simulate(const Invariant& system, const Element& element, const Tableau& 
   const TracedProblem traced(problem);
   const OneStepMap<Scalar> map(traced, element, tableau);
   const DiscreteLagrangian discrete(problem, tableau);
-  const ExpressionVector generator = *problem.symmetry(input_vector(0, problem.configuration_size()));
-  const Vector xi = Vector::NullaryExpr(generator.size(),
-                                        [&](Eigen::Index i) { return Scalar(generator[i].constant_value().value()); });
+  const Vector xi = constant_generator(problem).cast<Scalar>();
 
   Vector q = system.start.q.cast<Scalar>();
   Vector p = LegendreTransform(traced).momentum(system.start.q, system.start.v, 0.0).template cast<Scalar>();

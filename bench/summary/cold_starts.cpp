@@ -159,6 +159,7 @@ std::vector<double> budgets_of(const std::vector<Curve>& curves) {
   all.erase(repeated.begin(), repeated.end());
   if (all.size() <= most_points) return all;
   std::vector<double> budgets;
+  budgets.reserve(most_points);
   for (std::size_t i = 0; i < most_points; ++i) budgets.push_back(all[i * (all.size() - 1) / (most_points - 1)]);
   return budgets;
 }

@@ -20,6 +20,7 @@ RatioInterval ratio_interval(std::span<const double> ratios) {
   std::mt19937 engine(20090101U);  // NOLINT(cert-msc51-cpp): the same draws each time
   for (std::size_t b = 0; b < resamples; ++b) {
     std::vector<double> drawn;
+    drawn.reserve(ratios.size());
     // The remainder is not exactly even, but the same on every machine, unlike the library's distributions.
     for (std::size_t i = 0; i < ratios.size(); ++i) drawn.push_back(ratios[engine() % ratios.size()]);
     interval.resampled.push_back(median(std::move(drawn)));
@@ -41,8 +42,8 @@ void set_rounds(Row& result, std::span<const double> ratios) {
 }
 
 std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < std::min(times.size(), others.size()); ++i) ratios.push_back(times[i] / others[i]);
+  std::vector<double> ratios(std::min(times.size(), others.size()));
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = times[i] / others[i];
   return ratios;
 }
 

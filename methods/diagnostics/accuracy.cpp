@@ -83,6 +83,7 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
   const std::size_t parts = part_count(intervals, per_part);
   const TracedProblem traced(problem);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
+  motions.reserve(parts);
   for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));
   std::vector<Accuracy> found(parts);
   const double left = std::max(seconds_left(), shortest);

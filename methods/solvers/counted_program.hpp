@@ -12,8 +12,9 @@ namespace dmocbench {
 class CountedProgram final : public NonlinearProgram {
  public:
   /// `program` must outlive it. The solve may take so many seconds of wall clock, 0 for no limit.
-  explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0)
-      : program_(program), most_seconds_(most_seconds > 0.0 ? most_seconds : unbounded) {}
+  explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0) : program_(program) {
+    if (most_seconds > 0.0) most_seconds_ = most_seconds;
+  }
 
   /// Begins to count and to measure anew, for another solve.
   void restart(double most_seconds) {
@@ -80,7 +81,7 @@ class CountedProgram final : public NonlinearProgram {
   NonlinearProgram& program_;
   EvaluationCounts counts_;
   double seconds_ = 0.0;
-  double most_seconds_;
+  double most_seconds_ = unbounded;
   double left_out_ = 0.0;
   Clock::time_point begin_ = Clock::now();
 };

@@ -24,9 +24,11 @@ struct NamedOption {
 template <class Choice>
 NamedOption named_option(std::string_view name, Choice& result,
                          const std::vector<std::pair<std::string_view, Choice>>& choices) {
-  constexpr auto word = &std::pair<std::string_view, Choice>::first;
-  return {.name = name, .takes = names_of(choices, word), .read = [&result, choices, word](const std::string& text) {
-            const auto found = std::ranges::find(choices, text, word);
+  using WordAndChoice = std::pair<std::string_view, Choice>;
+  return {.name = name,
+          .takes = names_of(choices, &WordAndChoice::first),
+          .read = [&result, choices](const std::string& text) {
+            const auto found = std::ranges::find(choices, text, &WordAndChoice::first);
             if (found != choices.end()) result = found->second;
             return found != choices.end();
           }};

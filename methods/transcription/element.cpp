@@ -59,6 +59,7 @@ ExpressionVector variation(const ExpressionVector& x, const std::vector<std::vec
 ExpressionVector work_of_control(const TracedProblem& problem, const std::vector<ControlledState>& stages,
                                  const ExpressionVector& x, const Eigen::VectorXd& b, const Expression& h) {
   std::vector<std::vector<ConjugatePair>> pairs;
+  pairs.reserve(stages.size());
   for (const ControlledState& stage : stages) pairs.push_back({{stage.q, problem.at(stage).control_force}});
   return variation(x, pairs, b, h);
 }

@@ -4,7 +4,7 @@ eval require(nodes, "t")
 eval require(stages, "t")
 eval plain_axes
 header(name, stop) = system("head -n 1 '".table(name)."' | awk -F, '\
-    { gsub(/[`\"$()\\;|&<>]/, \"_\"); for (i = 2; i <= NF && $i !~ /^".stop."/; ++i) print $i }'")
+    { gsub(/[\\140\"$()\\;|&<>]/, \"_\"); for (i = 2; i <= NF && $i !~ /^".stop."/; ++i) print $i }'")
 coordinates = header(nodes, "v_")
 controls = header(stages, " ")
 readable(name) = system("echo '".name."' | sed 's/_/ /g'")

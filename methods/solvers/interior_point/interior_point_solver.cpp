@@ -237,7 +237,8 @@ class InteriorPointRun final : public PreparedRun {
   /// point join the right-hand side, A-5.5 to. Where it grows a lot the step is too long for a correction.
   [[nodiscard]] bool try_second_order_correction(double newton_length, double derivative) {
     double before = values_.theta;
-    if (!(trial_values_.theta >= before && trial_values_.theta <= correctable * before)) return false;
+    const bool grows_a_little = trial_values_.theta >= before && trial_values_.theta <= correctable * before;
+    if (!grows_a_little) return false;  // nor is NaN corrected
     Eigen::VectorXd& residuals = corrected_residuals_;
     residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
     for (int p = 0; p < p_max; ++p) {

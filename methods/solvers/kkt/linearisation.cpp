@@ -19,6 +19,7 @@ Eigen::SparseMatrix<double> matrix_of(const BlockPattern& pattern, const Eigen::
 
 std::vector<bool> where_bounds_are(bool equal, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   std::vector<bool> result;
+  result.reserve(static_cast<std::size_t>(lower.size()));
   for (Eigen::Index i = 0; i < lower.size(); ++i) result.push_back((lower[i] == upper[i]) == equal);
   return result;
 }

@@ -39,7 +39,7 @@ class IntervalKkt : public KktSystem {
 
  private:
   struct Elimination {
-    FactorisationStatus status;
+    FactorisationStatus status = FactorisationStatus::untrusted;
     bool is_certain = false;  ///< of the inertia: other terminal weights would find the same
   };
 

@@ -1,0 +1,63 @@
+#include "bench/experiment/table_run.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/process_pool.hpp"
+#include "bench/experiment/written_tables.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out) {
+  line.option("--out", out, "folder for the results");
+  std::vector<std::string> command_line = line.parse();
+  listen_for_interrupt();  // what the folder is made of goes when the run ends
+  return command_line;
+}
+
+}  // namespace
+
+TableRun::TableRun(std::string name, CommandLine& line)
+    : name_(std::move(name)), command_line_(parse(line, out_)), folder_(out_), lock_(out_ / name_) {
+  require_writable(out_ / (name_ + ".json"));
+}
+
+SolverOptions TableRun::solver_options() {
+  SolverOptions options;
+  options.stop_requested = interrupt_requested;
+  return options;
+}
+
+void TableRun::show(const std::string& activity) const {
+  throw_if_interrupted();
+  progress_.show(activity);
+}
+
+void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
+  const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
+  tables_.push_back({out_ / (file + ".csv"), table.csv(), fmt::format("{} rows{}", table.rows().size(), gaps)});
+  not_measured_ += not_measured;
+}
+
+int TableRun::write() const {
+  throw_if_interrupted();
+  nlohmann::ordered_json metadata = describe_run(command_line_);
+  const auto write_as = [&](bool is_complete) {
+    metadata["complete"] = is_complete;
+    write_metadata(out_ / (name_ + ".json"), metadata);
+  };
+  write_as(false);
+  std::vector<std::filesystem::path> files;
+  for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.csv);
+  metadata["tables"] = describe_tables(files);
+  write_as(true);
+  for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
+  return not_measured_ > 0 ? 1 : 0;
+}
+
+}  // namespace dmocbench
