@@ -19,18 +19,22 @@ do for [where in problems_of("convergence", "state_error")] {
     set ylabel axis_label("state error ".error_of("q"), problem, "state_unit")
     do for [i = 1:2] {
       work = word(panels, i)
-      eval measure("convergence", where, work, "state_error")
-      eval power_axis("xy")
-      eval finer_tics("x")
-      eval set_range("x", x_low, x_high, 1.3)
-      set xlabel (i == 1 ? "time of the solver [s]" : "free variables of the program")
-      if (i == 1) { eval key_below } else { unset ylabel; unset key }
       with_bars = ""
       do for [k = 1:words(curves)] {
         if (i == 1 && strlen(distinct("convergence", "method", word(curves, k), "seconds_lower_quartile")) > 0) {
           with_bars = with_bars." ".k
         }
       }
+      eval measure("convergence", where, work, "state_error")
+      if (strlen(with_bars) > 0) {
+        eval measure("convergence", where, "seconds_lower_quartile", "state_error"); lowest = x_low
+        eval measure("convergence", where, "seconds_upper_quartile", "state_error"); x_low = lowest
+      }
+      eval power_axis("xy")
+      eval finer_tics("x")
+      eval set_range("x", x_low, x_high, 1.3)
+      set xlabel (i == 1 ? "time of the solver [s]" : "free variables of the program")
+      if (i == 1) { eval key_below } else { unset ylabel; unset key }
       plot for [curve in curves] rows("convergence", curve, "state_error")\
              using (column(work)):(column("state_error"))\
              with linespoints linetype method_style(entry(curve, "method")) title curve_label("convergence", curve),\
