@@ -24,7 +24,8 @@ int judge_all(CommandLine& line) {
   line.option("--out", out, "the results folder");
   line.list("--require", required, "claims that have to be reproduced; exit code 1 if one is not");
   line.parse();
-  const std::vector<JudgedClaim> claims = judge_claims(ResultTables::read(out));
+  std::vector<JudgedClaim> claims = judge_claims(ResultTables::read(out));
+  tell_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
   write_file(out / "claims.csv", claims_table(claims).csv());
   write_file(out / "claims.md", claims_markdown(claims));

@@ -42,7 +42,7 @@ class Convergence final : public Experiment {
              .polishes = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     constexpr auto stages = &TrajectoryError::stages;
-    return {
+    const Columns<SolvedCase> measured{
         {"state_error", "", "largest error of q over the nodes", of(measured_.error, &TrajectoryError::state)},
         {"control_error", "", "largest error of u over the stages", of(measured_.error, &TrajectoryError::control)},
         {"momentum_error", "", "largest error of p over the nodes", of(measured_.error, &TrajectoryError::momentum)},
@@ -59,6 +59,7 @@ class Convergence final : public Experiment {
         {"stage_costate_q_error", "", "largest error of Psi^q_i", of(measured_.error, stages, &StageError::costate_q)},
         {"stage_costate_p_error", "", "largest error of Psi^p_i", of(measured_.error, stages, &StageError::costate_p)},
     };
+    return measured + columns_of_rounds();
   }
   void add_options(CommandLine& line) override {
     line.option("--reference", reference_text_,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <ranges>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -112,6 +115,20 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
     lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
   }
   return lines;
+}
+
+void tell_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder) {
+  const std::string_view between = "; ";
+  for (JudgedClaim& claim : claims) {
+    std::vector<std::string> files;
+    for (const auto part : std::views::split(claim.evidence, between)) {
+      std::string file(part.begin(), part.end());
+      std::error_code unknown;
+      if (!file.empty() && !std::filesystem::exists(folder / file, unknown)) file += " (not there)";
+      files.push_back(std::move(file));
+    }
+    claim.evidence = fmt::format("{}", fmt::join(files, between));
+  }
 }
 
 std::vector<std::string> not_reproduced(const std::vector<JudgedClaim>& claims, const std::vector<std::string>& names) {

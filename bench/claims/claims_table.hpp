@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace dmocbench {
 /// How many claims have which verdict, a line for the paper's statements, its remarks, ours and the misprints:
 /// "the paper's statements: 21 reproduced, 4 differ". What nobody claims has no line.
 [[nodiscard]] std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims);
+
+/// Writes "(not there)" behind every file of the evidence that a results folder lacks.
+void tell_missing_evidence(std::vector<JudgedClaim>& claims, const std::filesystem::path& folder);
 
 /// Claims that are not reproduced, a sentence each, of those with certain names. Throws `Error` on a name that no claim
 /// has.

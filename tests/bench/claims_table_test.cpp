@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
@@ -19,6 +21,16 @@ JudgedClaim claim_of(const char* id, Whose whose, ClaimVerdict verdict) {
           .reason = "of the step",
           .evidence = "convergence.csv",
           .sure = "exact"};
+}
+
+using ClaimsFolder = tests::InTemporaryFolder;
+
+TEST_F(ClaimsFolder, LacksEvidenceThatTheRowNames) {
+  std::vector<JudgedClaim> claims{claim_of("a/one", Whose::paper, ClaimVerdict::reproduced)};
+  claims.front().evidence = "slips.csv; figures/orbit.svg";
+  write_file(folder() / "slips.csv", "a\n");
+  tell_missing_evidence(claims, folder());
+  EXPECT_EQ(claims.front().evidence, "slips.csv; figures/orbit.svg (not there)");
 }
 
 const std::vector<JudgedClaim> some{claim_of("a/one", Whose::paper, ClaimVerdict::reproduced),
