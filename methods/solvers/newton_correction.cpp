@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 #include "methods/solvers/kkt/sparse_kkt.hpp"
 
@@ -45,27 +46,19 @@ double largest(const Eigen::VectorXd& x) { return x.size() > 0 ? x.lpNorm<Eigen:
 /// The linearised conditions at a point.
 struct NewtonCorrections::Linearised {
   Eigen::VectorXd hessian;
-  Eigen::VectorXd jacobian;
   Eigen::VectorXd diagonal;
   Eigen::VectorXd compliance;
-  Eigen::VectorXd gradient_of_cost;
   Eigen::VectorXd gradient;     // of the Lagrangian
   Eigen::VectorXd constraints;  // residuals
 
-  void compute(NonlinearProgram& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers) {
+  void compute(NonlinearProgram& program, const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+               const KktMemory& memory) {
     hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
-    jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+    program.hessian(x, 1.0, multipliers, hessian);
     diagonal.setZero(x.size());
     compliance.setZero(multipliers.size());
-    gradient_of_cost.resize(x.size());
-    constraints.resize(multipliers.size());
-    program.hessian(x, 1.0, multipliers, hessian);
-    program.jacobian(x, jacobian);
-    program.gradient(x, gradient_of_cost);
-    program.constraints(x, constraints);
-    gradient = gradient_of_cost;
-    program.jacobian_structure().for_each(
-        [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
+    constraints = memory.constraints;
+    gradient = memory.gradient;
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const double distance =
           distance_to_bound(gradient[j], x[j], program.variable_lower()[j], program.variable_upper()[j]);
@@ -97,15 +90,16 @@ NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation fa
       linearised_(std::make_unique<Linearised>()) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
-std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                                                   const KktMemory& memory) {
   Linearised& at = *linearised_;
-  at.compute(program_, primal, multipliers);
+  at.compute(program_, primal, multipliers, memory);
   step_.primal.setZero(primal.size());
   step_.multipliers.setZero(multipliers.size());
-  if (!at.hessian.allFinite() || !at.jacobian.allFinite() || !at.gradient.allFinite()) return unbounded;
+  if (!is_finite(at.hessian) || !is_finite(memory.jacobian) || !is_finite(at.gradient)) return unbounded;
   const auto solve = [&] {
     system_->begin_solve();
-    return system_->solve({at.hessian, at.jacobian, at.diagonal, at.compliance}, {at.gradient, at.constraints},
+    return system_->solve({at.hessian, memory.jacobian, at.diagonal, at.compliance}, {at.gradient, at.constraints},
                           {step_.primal, step_.multipliers});
   };
   FactorisationStatus status = solve();
@@ -114,13 +108,15 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
     status = solve();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
-  const double length = length_of(primal, step_.primal, at.gradient_of_cost);
+  const double length = length_of(primal, step_.primal, memory.gradient_of_cost);
   return std::isfinite(length) ? std::optional(length) : std::nullopt;
 }
 
 std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
                                                       const Eigen::VectorXd& multipliers) {
-  const std::optional<double> length = length_at(primal, multipliers);
+  KktMemory memory;
+  evaluate_kkt(program_, primal, multipliers, memory);
+  const std::optional<double> length = length_at(primal, multipliers, memory);
   if (!length) return std::nullopt;
   step_.length = *length;
   return step_;
