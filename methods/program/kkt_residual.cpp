@@ -79,21 +79,6 @@ double largest_stationarity(double sign, const Eigen::VectorXd& gradient, const 
   return worst;
 }
 
-/// The constraints and the gradient of the Lagrangian.
-void evaluate(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
-              KktMemory& at) {
-  require_size(primal.size(), program.variable_count(), "variables");
-  require_size(multipliers.size(), program.constraint_count(), "multipliers");
-  resize_unwritten(at.constraints, multipliers.size());
-  resize_unwritten(at.gradient, primal.size());
-  resize_unwritten(at.jacobian, static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  program.constraints(primal, at.constraints);
-  program.gradient(primal, at.gradient);
-  program.jacobian(primal, at.jacobian);
-  program.jacobian_structure().for_each(
-      [&](Eigen::Index e, int row, int column) { at.gradient[column] += at.jacobian[e] * multipliers[row]; });
-}
-
 double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& primal,
                     const Eigen::VectorXd& constraints) {
   return largest(largest_outside(constraints, program.constraint_lower(), program.constraint_upper()),
@@ -179,9 +164,24 @@ Eigen::VectorXd found_multipliers(NonlinearProgram& program, const Eigen::Vector
 
 }  // namespace
 
+void evaluate_kkt(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                  KktMemory& at) {
+  require_size(primal.size(), program.variable_count(), "variables");
+  require_size(multipliers.size(), program.constraint_count(), "multipliers");
+  resize_unwritten(at.constraints, multipliers.size());
+  resize_unwritten(at.gradient_of_cost, primal.size());
+  resize_unwritten(at.jacobian, static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.constraints(primal, at.constraints);
+  program.gradient(primal, at.gradient_of_cost);
+  program.jacobian(primal, at.jacobian);
+  copy_to(at.gradient, at.gradient_of_cost);
+  program.jacobian_structure().for_each(
+      [&](Eigen::Index e, int row, int column) { at.gradient[column] += at.jacobian[e] * multipliers[row]; });
+}
+
 KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                          KktMemory& memory) {
-  evaluate(program, primal, multipliers, memory);
+  evaluate_kkt(program, primal, multipliers, memory);
   KktResidual residual;
   residual.constraint_violation = violation_of(program, primal, memory.constraints);
   // The multiplier of an inequality is the gradient of its slack but for the sign; that of an equality is free.
@@ -194,7 +194,7 @@ KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& prima
 
 void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                  KktMemory& memory, KktEntries& entries) {
-  evaluate(program, primal, multipliers, memory);
+  evaluate_kkt(program, primal, multipliers, memory);
   entries.gradient.resize(primal.size());
   entries.multipliers.resize(multipliers.size());
   entries.rows.resize(multipliers.size());

@@ -26,11 +26,17 @@ struct KktEntries {
 };
 
 /// Memory for residuals that are computed again and again: after the first time nothing is allocated.
+/// What they were computed from stays there.
 struct KktMemory {
   Eigen::VectorXd constraints;
+  Eigen::VectorXd gradient_of_cost;
   Eigen::VectorXd gradient;  ///< of the Lagrangian
   Eigen::VectorXd jacobian;
 };
+
+/// Evaluates the program at `primal` with `multipliers`.
+void evaluate_kkt(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                  KktMemory& memory);
 
 /// The residual at `primal` (variable_count() entries) with `multipliers` (constraint_count() entries).
 /// NaN where the program gives NaN. Throws `Error` if a size is wrong, as all functions here do.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/runtime/long_vectors.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -17,22 +19,24 @@ double distance_to_bound(double gradient, double x, double lower, double upper) 
 
 }  // namespace
 
+LinearisedConditions::LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal,
+                                           const Eigen::VectorXd& multipliers) {
+  KktMemory memory;
+  evaluate_kkt(program, primal, multipliers, memory);
+  compute(program, primal, multipliers, memory);
+}
+
 void LinearisedConditions::compute(NonlinearProgram& program, const Eigen::VectorXd& primal,
-                                   const Eigen::VectorXd& multipliers) {
+                                   const Eigen::VectorXd& multipliers, const KktMemory& memory) {
   hessian.resize(static_cast<Eigen::Index>(program.hessian_structure().size()));
-  jacobian.resize(static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.hessian(primal, 1.0, multipliers, hessian);
+  jacobian = memory.jacobian;
+  gradient_of_cost = memory.gradient_of_cost;
+  gradient_of_lagrangian = memory.gradient;
+  gradient = memory.gradient;
+  constraints = memory.constraints;
   diagonal.setZero(primal.size());
   compliance.setZero(multipliers.size());
-  gradient_of_cost.resize(primal.size());
-  constraints.resize(multipliers.size());
-  program.hessian(primal, 1.0, multipliers, hessian);
-  program.jacobian(primal, jacobian);
-  program.gradient(primal, gradient_of_cost);
-  program.constraints(primal, constraints);
-  gradient = gradient_of_cost;
-  program.jacobian_structure().for_each(
-      [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
-  gradient_of_lagrangian = gradient;
   for (Eigen::Index j = 0; j < primal.size(); ++j) {
     linearise_bound(j, primal[j], program.variable_lower()[j], program.variable_upper()[j]);
   }
@@ -42,7 +46,7 @@ void LinearisedConditions::compute(NonlinearProgram& program, const Eigen::Vecto
 }
 
 bool LinearisedConditions::is_finite() const {
-  return hessian.allFinite() && jacobian.allFinite() && gradient.allFinite();
+  return dmocbench::is_finite(hessian) && dmocbench::is_finite(jacobian) && dmocbench::is_finite(gradient);
 }
 
 void LinearisedConditions::linearise_bound(Eigen::Index j, double x, double lower, double upper) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/program/kkt_residual.hpp"
 #include "methods/program/nonlinear_program.hpp"
 
 namespace dmocbench {
@@ -23,11 +24,10 @@ struct LinearisedConditions {
 
   LinearisedConditions() = default;
   /// variable_count() and constraint_count() entries.
-  LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
-    compute(program, primal, multipliers);
-  }
-  /// Those at another point; allocates nothing where the sizes stay.
-  void compute(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  /// Those at another point of which `evaluate_kkt` left `memory`; allocates nothing where the sizes stay.
+  void compute(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+               const KktMemory& memory);
 
   [[nodiscard]] bool is_finite() const;
 

@@ -24,6 +24,9 @@ const VectorLoops& vector_loops() {
 }
 
 double largest_of(const Eigen::VectorXd& vector) {
+  if (part_count(static_cast<std::size_t>(vector.size()), entries_per_stretch) == 1) {
+    return vector_loops().largest(vector.data(), vector.size());
+  }
   std::array<double, most_parts> largest{};
   for_stretches(vector.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
     largest[s] = vector_loops().largest(vector.data() + begin, length);

@@ -19,6 +19,7 @@ template <class Use>
 void for_stretches(Eigen::Index size, const Use& use) {
   const auto count = static_cast<std::size_t>(size);
   const std::size_t stretches = part_count(count, entries_per_stretch);
+  if (stretches == 1) return use(std::size_t{0}, Eigen::Index{0}, size);
   for_each_part(stretches, [&](std::size_t s) {
     const auto begin = static_cast<Eigen::Index>(begin_of_part(s, stretches, count));
     const auto end = static_cast<Eigen::Index>(begin_of_part(s + 1, stretches, count));
@@ -29,6 +30,7 @@ void for_stretches(Eigen::Index size, const Use& use) {
 /// The sum, in order, of what `part(begin, length)` is on stretches.
 template <class Part>
 double sum_of_stretches(Eigen::Index size, const Part& part) {
+  if (part_count(static_cast<std::size_t>(size), entries_per_stretch) == 1) return part(Eigen::Index{0}, size);
   std::array<double, most_parts> sums{};
   for_stretches(size, [&](std::size_t s, Eigen::Index begin, Eigen::Index length) { sums[s] = part(begin, length); });
   double sum = 0.0;

@@ -61,11 +61,11 @@ double Confirmation::scaled_residual(double tolerance, const Solution& solution)
 /// Takes "solved" back from an answer that a Newton step would move.
 void Confirmation::require_settled(Solution& solution) {
   if (!corrections_) corrections_.emplace(program_);
-  std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers);
+  std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
   // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
   if (!length || *length > settled) {
     length = NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
-                 .length_at(solution.primal, solution.multipliers);
+                 .length_at(solution.primal, solution.multipliers, memory_);
   }
   if (!length) return;
   solution.correction = *length;

@@ -25,8 +25,9 @@ NewtonCorrections::NewtonCorrections(NonlinearProgram& program, Factorisation fa
       system_(factorisation == Factorisation::sparse ? kkt_system_of_any_point(program) : kkt_system_of(program)) {}
 NewtonCorrections::~NewtonCorrections() = default;
 
-std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
-  conditions_.compute(program_, primal, multipliers);
+std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                                                   const KktMemory& memory) {
+  conditions_.compute(program_, primal, multipliers, memory);
   step_.primal.setZero(primal.size());
   step_.multipliers.setZero(multipliers.size());
   if (!conditions_.is_finite()) return unbounded;
@@ -41,13 +42,15 @@ std::optional<double> NewtonCorrections::length_at(const Eigen::VectorXd& primal
     status = solve();
   }
   if (status != FactorisationStatus::solved) return std::nullopt;
-  const double length = length_of(primal, step_.primal, conditions_.gradient_of_cost);
+  const double length = length_of(primal, step_.primal, memory.gradient_of_cost);
   return std::isfinite(length) ? std::optional(length) : std::nullopt;
 }
 
 std::optional<NewtonCorrection> NewtonCorrections::at(const Eigen::VectorXd& primal,
                                                       const Eigen::VectorXd& multipliers) {
-  const std::optional<double> length = length_at(primal, multipliers);
+  KktMemory memory;
+  evaluate_kkt(program_, primal, multipliers, memory);
+  const std::optional<double> length = length_at(primal, multipliers, memory);
   if (!length) return std::nullopt;
   step_.length = *length;
   return step_;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/linearised_conditions.hpp"
+#include "methods/program/kkt_residual.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/kkt/kkt_system.hpp"
 
@@ -47,9 +48,10 @@ class NewtonCorrections {
   NewtonCorrections(NewtonCorrections&&) = delete;
   NewtonCorrections& operator=(NewtonCorrections&&) = delete;
 
-  /// The length of the step from `primal`, see `at`. Allocates nothing after the first time unless the sparse
-  /// factorisation is asked.
-  [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  /// The length of the step from `primal`, see `at`; `memory` holds what `evaluate_kkt` left of this point. Allocates
+  /// nothing after the first time unless the sparse factorisation is asked.
+  [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                                                const KktMemory& memory);
   /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
   /// length where a derivative is not finite; none where the matrix is singular.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);

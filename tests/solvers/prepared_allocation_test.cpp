@@ -58,7 +58,7 @@ class PreparedSolves : public testing::TestWithParam<std::string> {
 TEST_P(PreparedSolves, AllocateNothingAfterTheFirstSolve) {
   // With bounds (cart_pole), a free horizon (brachistochrone) and inequalities (hang_glider), too.
   for (const std::string name :
-       {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone", "container_crane"}) {
+       {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone", "hang_glider"}) {
     const auto problem = make_problem(name);
     for (const Grid& grid : {Grid::uniform(64), tests::graded_grid(16)}) {
       Transcription program(*problem, *make_element(GetParam()), gauss_tableau(1), grid);

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 namespace dmocbench::kkt {
 
 namespace {
@@ -16,14 +14,33 @@ Matrix semidefinite_factor(const Matrix& gamma) {
   const Eigen::Index n = gamma.rows();
   Matrix factor = Matrix::Zero(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const double pivot = gamma(j, j) - factor.row(j).head(j).squaredNorm();
+    double pivot = gamma(j, j);
+    for (Eigen::Index q = 0; q < j; ++q) pivot -= factor(j, q) * factor(j, q);
     if (!(pivot > static_cast<double>(n) * std::numeric_limits<double>::epsilon() * gamma(j, j))) continue;
     factor(j, j) = std::sqrt(pivot);
+    const double reciprocal = 1.0 / factor(j, j);
     for (Eigen::Index i = j + 1; i < n; ++i) {
-      factor(i, j) = (gamma(i, j) - factor.row(i).head(j).dot(factor.row(j).head(j))) / factor(j, j);
+      double sum = gamma(i, j);
+      for (Eigen::Index q = 0; q < j; ++q) sum -= factor(i, q) * factor(j, q);
+      factor(i, j) = sum * reciprocal;
     }
   }
   return factor;
+}
+
+/// Of a symmetric matrix, of which the lower triangle is read and overwritten; true where a number is not one.
+template <class Matrix>
+bool is_positive_definite(Matrix& lower) {
+  const Eigen::Index n = lower.rows();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (lower(j, j) <= 0.0) return false;
+    const double reciprocal = 1.0 / lower(j, j);
+    for (Eigen::Index k = j + 1; k < n; ++k) {
+      const double factor = lower(k, j) * reciprocal;
+      for (Eigen::Index i = k; i < n; ++i) lower(i, k) -= factor * lower(i, j);
+    }
+  }
+  return true;
 }
 
 /// Solves for all right-hand sides, the rows of `sides`, by elimination with partial pivoting; both are overwritten.
@@ -78,10 +95,11 @@ bool SegmentChain::join(const SegmentValue& segment) {
 
 template <int size, int most>
 bool SegmentChain::join_sized(const SegmentValue& segment) {
-  constexpr int wide = size == Eigen::Dynamic ? Eigen::Dynamic : 2 * size + 1;
-  constexpr int widest = most == Eigen::Dynamic ? Eigen::Dynamic : 2 * most + 1;
-  using Matrix = Eigen::Matrix<double, size, size, 0, most, most>;
-  using Rows = Eigen::Matrix<double, size, size, size == 1 ? 0 : Eigen::RowMajor, most, most>;
+  // Columns (X, ν, 1), and one of zeros: an even number fills vector registers.
+  constexpr int wide = size == Eigen::Dynamic ? Eigen::Dynamic : 2 * size + 2;
+  constexpr int widest = most == Eigen::Dynamic ? Eigen::Dynamic : 2 * most + 2;
+  // Row by row, as all of them: a product then fills vector registers along the rows of its right factor.
+  using Matrix = Eigen::Matrix<double, size, size, Eigen::RowMajor, most, most>;
   using Vector = Eigen::Matrix<double, size, 1, 0, most, 1>;
   using Wide = Eigen::Matrix<double, size, wide, Eigen::RowMajor, most, widest>;
   const Eigen::Index n = total_.P.rows();
@@ -96,13 +114,15 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
   const Matrix factor = semidefinite_factor<Matrix>(reachability);
   const Matrix weighed = stiffness.lazyProduct(factor);
-  if (Eigen::LLT<Matrix>(identity + factor.transpose().lazyProduct(weighed)).info() != Eigen::Success) return false;
+  Matrix between = identity + factor.transpose().lazyProduct(weighed);
+  if (!is_positive_definite(between)) return false;
   // y as a function of (X, ν, 1).
-  Rows system = identity + reachability.lazyProduct(stiffness);
-  Wide state(n, 2 * n + 1);
+  Matrix system = identity + reachability.lazyProduct(stiffness);
+  Wide state(n, 2 * n + 2);
   state.leftCols(n) = Phi.transpose();
   state.middleCols(n, n) = -reachability.lazyProduct(mixed);
-  state.rightCols(1) = segment.gamma - reachability.lazyProduct(constant);
+  state.col(2 * n) = segment.gamma - reachability.lazyProduct(constant);
+  state.col(2 * n + 1).setZero();
   solve_in_place(system, state);
   const Matrix state_multiplier = state.middleCols(n, n);
   const Vector state_constant = state.col(2 * n);
