@@ -111,8 +111,6 @@ Claims warm_start_claims() {
                      "than collocation",
            .judge = fewer_iterations,
            .condition = "fewer: collocation takes at least 1.05 times as many; by interior_point",
-           .cause = "a warm start brings the multipliers too, and Newton's method needs as many steps from there "
-                    "whatever the unknowns are",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}},
           {.id = "warm_starts_in_less_time",
            .problems = of_paper,
