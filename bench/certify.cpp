@@ -204,6 +204,8 @@ class Certify final : public Experiment {
     }
   }
 
+  [[nodiscard]] std::string shared_by(const Case& the_case) const override { return the_case.problem->name(); }
+
   /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
   void complete(SolvedCase& solved) override {
     measured_ = {};

@@ -91,6 +91,11 @@ class Convergence final : public Experiment {
     return found == curve.end() ? curve.size() - 1 : static_cast<std::size_t>(found - curve.begin());
   }
 
+  /// The reference.
+  [[nodiscard]] std::string shared_by(const Case& the_case) const override {
+    return indirect_ ? the_case.problem->name() : label_of_curve(the_case);
+  }
+
   void complete(SolvedCase& solved) override {
     const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
     if (is_first) reference_trajectory_.reset();
@@ -116,6 +121,11 @@ class Convergence final : public Experiment {
     } catch (const Error& failure) {
       solved.note(failure.what());
     }
+  }
+
+  [[nodiscard]] nlohmann::ordered_json findings() const override { return indirect_ ? indirect_->findings() : nullptr; }
+  void add_findings(const nlohmann::ordered_json& findings) override {
+    if (indirect_) indirect_->add_findings(findings);
   }
 
   [[nodiscard]] std::vector<std::string> further_files() const override {

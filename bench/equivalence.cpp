@@ -83,6 +83,13 @@ class Equivalence final : public Experiment {
     if (!std::ranges::any_of(cases, is_dmoc)) throw Error("equivalence compares with dmoc: add it to --method");
   }
 
+  /// DMOC's answer on the same grid.
+  [[nodiscard]] std::string shared_by(const Case& the_case) const override {
+    Case by_dmoc = the_case;
+    by_dmoc.method = "dmoc";
+    return by_dmoc.label();
+  }
+
   void complete(SolvedCase& solved) override {
     measured_ = {};
     if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these

@@ -87,6 +87,9 @@ class StructureAdvantage final : public Experiment {
     reference_.emplace(options().out);
   }
 
+  /// The indirect solution.
+  [[nodiscard]] std::string shared_by(const Case& the_case) const override { return the_case.problem->name(); }
+
   void complete(SolvedCase& solved) override {
     measured_ = {};
     const Solution& solution = solved.solution;
@@ -108,6 +111,9 @@ class StructureAdvantage final : public Experiment {
       solved.note(error.what());
     }
   }
+
+  [[nodiscard]] nlohmann::ordered_json findings() const override { return reference_->findings(); }
+  void add_findings(const nlohmann::ordered_json& findings) override { reference_->add_findings(findings); }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {

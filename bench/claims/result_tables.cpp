@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/part_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/written_tables.hpp"
 
@@ -57,6 +58,12 @@ std::string content_of(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, unknown))
     throw Error(fmt::format("{} is no regular file", path.filename().string()));
   return read_file(path);
+}
+
+/// Throws `Error` if there are parts of a run instead of its table.
+void refuse_parts(const std::filesystem::path& folder, const std::string& run, const std::string& table) {
+  if (std::error_code unknown; !std::filesystem::exists(folder_of_parts(folder / run), unknown)) return;
+  throw Error(fmt::format("{} is not there, but parts of it are: merge --name {} joins them", table, run));
 }
 
 /// Throws `Error` unless a run came to its end with all its cases, and wrote the table with this content.
@@ -140,7 +147,10 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
   for (const DeclaredTable& declared : declared_tables()) {
     const std::string file = declared.name + ".csv";
     try {
-      if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) continue;
+      if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
+        refuse_parts(folder, declared.run, file);
+        continue;
+      }
       const std::string content = content_of(folder / file);
       tables.add(declared.name, Table::from_csv(content));
       check(tables.tables_.at(declared.name), declared);

@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiment/process_pool.hpp"
 #include "methods/error.hpp"
@@ -126,6 +127,16 @@ std::vector<std::string> CommandLine::parse() {
   refuse_empty_entries();
   app_.parse(argc_, argv_);
   return {argv_, argv_ + argc_};
+}
+
+std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const CLI::Option* option : app_.get_options()) {
+    const bool is_given = option->count() > 0;
+    values.emplace_back(option->get_name(),
+                        is_given ? fmt::format("{}", fmt::join(option->results(), ",")) : option->get_default_str());
+  }
+  return values;
 }
 
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name is CLI11's
@@ -35,6 +36,8 @@ class CommandLine {
   void footer(const std::string& text);
   /// The values are known from here on; the name of the program and all its arguments.
   std::vector<std::string> parse();
+  /// Behind `parse`: the options and their values as text, defaults included, in the order of `--help`.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> values() const;
 
  private:
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/case_list.hpp"
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/outcome.hpp"
+#include "bench/experiment/parts_of_run.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -43,7 +42,8 @@ Columns<SolvedCase> columns_of(const Experiment& experiment) {
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
-  Run(Experiment& experiment, const std::vector<std::string>& command_line)
+  Run(Experiment& experiment, const std::vector<std::string>& command_line,
+      const std::vector<std::pair<std::string, std::string>>& values)
       : experiment_(experiment),
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
@@ -57,10 +57,12 @@ class Run {
         columns_(columns_of(experiment)),
         names_(names_of(columns_)),
         rows_(cases_.size()),
-        prefix_(options_.out / options_.name),
-        metadata_(describe_run(command_line)) {
+        metadata_(describe_run(command_line)),
+        parts_(experiment, cases_, metadata_, values, names_),
+        prefix_(parts_.is_one() ? parts_.file() : options_.out / options_.name) {
     experiment_.check(cases_);
     starts_.check(cases_);
+    is_own_ = parts_.own_cases();
     starts_.on_progress = [this](const std::string& activity) { show(activity); };
     starts_.on_long_search = [this](const std::string& sentence) {
       if (!progress_.is_shown()) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
@@ -77,26 +79,21 @@ class Run {
 
   int run() {
     listen_for_interrupt();
+    if (!options_.missing_parts.empty()) return name_missing_parts();
+    if (parts_.is_one()) return run_part();
     const OutputFolder folder(options_.out);
     const ResultLock lock(prefix_);
     require_writable(table_file());
-    if (experiment_.card().takes_turns) {
-      solve_in_turn();
-    } else if (options_.jobs > 1) {
-      solve_in_processes();
+    if (options_.join.empty()) {
+      solve_all();
     } else {
-      solve_part(0, cases_.size());
+      rows_ = parts_.join(metadata_);
+      replace_earlier_files();
     }
     const bool complete = !interrupt_requested();
     const Table table = write_table();
     if (table.rows().empty()) throw_if_interrupted();
-    const auto rows_of = [&](Status status) {
-      return std::ranges::count(table.rows(), name_of(status), [](const Row& row) { return row.text("status"); });
-    };
-    const auto too_coarse = rows_of(Status::too_coarse);
-    const auto failures = std::ssize(table.rows()) - rows_of(Status::solved) - too_coarse;
-    const auto other_branch =
-        std::ranges::count_if(table.rows(), [](const Row& row) { return row.text("branch") == "other"; });
+    const Outcome outcome = outcome_of(table);
     if (complete) {
       experiment_.finish(table, prefix_, metadata_);
     } else {
@@ -105,21 +102,62 @@ class Run {
     metadata_["complete"] = complete;
     metadata_["cases"] = cases_.size();
     metadata_["rows"] = table.rows().size();
-    metadata_["not_solved"] = failures;
-    metadata_["too_coarse"] = too_coarse;
-    metadata_["on_another_branch"] = other_branch;
+    metadata_["not_solved"] = outcome.failures;
+    metadata_["too_coarse"] = outcome.too_coarse;
+    metadata_["on_another_branch"] = outcome.other_branch;
     metadata_["tables"] = describe_tables(files_of_run());
     write_metadata(prefix_.string() + ".json", metadata_);
     fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
                complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),
-               table.rows().size(), failures, other_branch, coarse_by_method(table), table_file().string());
+               table.rows().size(), outcome.failures, outcome.other_branch, outcome.coarse_by_method,
+               table_file().string());
     if (!complete) return 130;
-    return failures > 0 ? 1 : 0;
+    return outcome.failures > 0 ? 1 : 0;
   }
 
  private:
   [[nodiscard]] std::filesystem::path table_file() const {
-    return part_.empty() ? std::filesystem::path(prefix_.string() + ".csv") : part_;
+    return is_child() ? table_of_child_ : std::filesystem::path(prefix_.string() + ".csv");
+  }
+
+  /// True in a process that works for another one.
+  [[nodiscard]] bool is_child() const { return !table_of_child_.empty(); }
+
+  /// One part of the run: nothing is written before all its rows are there.
+  int run_part() {
+    const std::string& name = experiment_.card().name;
+    if (parts_.is_there()) {
+      fmt::print("{}: part {} is there already: {}\n", name, options_.part, prefix_.string());
+      return 0;
+    }
+    const OutputFolder folder(prefix_.parent_path(), true);
+    const ResultLock lock(prefix_);
+    require_writable(prefix_);
+    solve_all();
+    throw_if_interrupted();
+    parts_.write(rows_, metadata_);
+    fmt::print("{}: part {}: {} of {} rows: {}\n", name, options_.part, own_cases(), cases_.size(), prefix_.string());
+    return 0;
+  }
+
+  [[nodiscard]] int name_missing_parts() const {
+    for (const std::size_t number : parts_.missing()) fmt::print("{}\n", number);
+    return 0;
+  }
+
+  [[nodiscard]] std::ptrdiff_t own_cases() const { return std::ranges::count(is_own_, true); }
+
+  void solve_all() {
+    if (experiment_.card().takes_turns) {
+      solve_in_turn();
+    } else {
+      first_solved_ = cases_.empty() ? 0 : experiment_.solved_first(curves_of(cases_).front());
+      if (options_.jobs > 1) {
+        solve_in_processes();
+      } else {
+        solve_span(0, cases_.size());
+      }
+    }
   }
 
   [[nodiscard]] std::vector<std::filesystem::path> files_of_run() const {
@@ -142,22 +180,6 @@ class Run {
     }
   }
 
-  /// ", 3 too coarse (dmoc 1, tangent 2)"; nothing where no answer is.
-  static std::string coarse_by_method(const Table& table) {
-    std::map<std::string, int> counts;
-    int sum = 0;
-    for (const Row& row : table.rows()) {
-      if (row.text("status") != name_of(Status::too_coarse)) continue;
-      ++counts[row.text("method")];
-      ++sum;
-    }
-    if (sum == 0) return "";
-    std::vector<std::string> parts;
-    parts.reserve(counts.size());
-    for (const auto& [method, count] : counts) parts.push_back(fmt::format("{} {}", method, count));
-    return fmt::format(", {} too coarse ({})", sum, fmt::join(parts, ", "));
-  }
-
   /// Writes and returns all rows so far in the order of the cases.
   [[nodiscard]] Table write_table() const {
     Table table(names_);
@@ -169,10 +191,10 @@ class Run {
   }
 
   void show(const std::string& activity) const {
-    progress_.show(fmt::format("[{}/{}] {}", done_ + 1, cases_.size(), activity));
+    progress_.show(fmt::format("[{}/{}] {}", done_ + 1, own_cases(), activity));
   }
 
-  void solve_part(std::size_t first, std::size_t end) {
+  void solve_span(std::size_t first, std::size_t end) {
     for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
       solve_curve(curve, first);
       first += curve.size();
@@ -184,7 +206,8 @@ class Run {
     for (std::size_t i = 0; i < curve.size(); ++i) {
       if (interrupt_requested()) return;
       const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
-      SolvedCase solved = solve(curve[position], options_.repeats);
+      if (!is_own_[first + position]) continue;
+      SolvedCase solved = solve(first + position, options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
       experiment_.solved_once(solved);
       keep(completed(solved), first + position);
@@ -193,7 +216,8 @@ class Run {
 
   /// The solved case. Without a start or memory, or where a library fails, its row says so, and the run goes
   /// on; what is wrong with the first case is wrong with the run.
-  SolvedCase solve(const Case& the_case, int repeats) {
+  SolvedCase solve(std::size_t number, int repeats) {
+    const Case& the_case = cases_[number];
     SolvedCase unsolved{.the_case = the_case};
     try {
       Start start = starts_.start_for(the_case);
@@ -206,7 +230,7 @@ class Run {
     } catch (const NoStart& reason) {
       unsolved.solution.message = reason.what();
     } catch (const Error& error) {
-      if (done_ == 0 && !experiment_.card().cases_stand_alone) throw;
+      if (number == first_solved_ && !experiment_.card().cases_stand_alone) throw;
       unsolved.solution.message = error.what();
     } catch (const std::exception& error) {
       unsolved.solution.status = is_out_of_memory(error) ? Status::out_of_memory : Status::solver_error;
@@ -232,13 +256,10 @@ class Run {
 
   /// Grid after grid; the cases that differ in method, solver and variant only are solved in turn.
   void solve_in_turn() {
-    std::map<std::tuple<std::string, std::string, int, std::size_t>, std::vector<std::size_t>> grids;
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      const Case& c = cases_[i];
-      grids[{c.problem->name(), c.tableau, c.stages, c.intervals()}].push_back(i);
-    }
-    for (const auto& [grid, numbers] : grids) {
-      if (!interrupt_requested()) solve_rounds(numbers);
+    const std::vector<std::vector<std::size_t>> turns = turns_of(cases_);
+    if (!turns.empty()) first_solved_ = turns.front().front();
+    for (const std::vector<std::size_t>& numbers : turns) {  // of one part, each
+      if (!interrupt_requested() && is_own_[numbers.front()]) solve_rounds(numbers);
     }
   }
 
@@ -251,7 +272,7 @@ class Run {
       for (std::size_t turn = 0; turn < numbers.size(); ++turn) {
         const std::size_t i = (turn + round) % numbers.size();
         if (round > 0 && !is_solved(first[i].solution.status)) continue;
-        SolvedCase solved = solve(cases_[numbers[i]], round == 0 ? 1 : solves_per_round(rounds[i].front()));
+        SolvedCase solved = solve(numbers[i], round == 0 ? 1 : solves_per_round(rounds[i].front()));
         if (interrupt_requested()) return;
         rounds[i].push_back(solved.solution);
         if (round > 0) continue;
@@ -276,51 +297,49 @@ class Run {
   void keep(Row row, std::size_t number) {
     const std::string line = row.csv(names_);
     rows_[number] = std::move(row);
+    ++done_;
+    if (parts_.is_one() && !is_child()) return;
     if (std::exchange(has_file_, true)) {
       append_to_file(table_file(), line);
     } else {
-      if (part_.empty()) replace_earlier_files();
+      if (!is_child()) replace_earlier_files();
       static_cast<void>(write_table());
     }
-    ++done_;
   }
 
   /// A process per problem; its rows come back in a file.
   void solve_in_processes() {
-    std::vector<std::size_t> heads;  // first case of every problem, then the end
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (i == 0 || cases_[i].problem != cases_[i - 1].problem) heads.push_back(i);
+    const std::vector<CaseSpan> spans = spans_of_problems(cases_, is_own_);
+    std::vector<std::filesystem::path> files;  // named by this process
+    for (const CaseSpan& span : spans) {
+      files.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), span.first)));
     }
-    heads.push_back(cases_.size());
-    std::vector<std::filesystem::path> parts;  // named by this process
-    parts.reserve(heads.size());
-    for (const std::size_t i : heads)
-      parts.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), i)));
     const auto work = [&](std::size_t i) {
-      part_ = parts[i];
+      table_of_child_ = files[i];
       has_file_ = true;
       rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
-      write_file(part_, Table(names_).csv());
-      solve_part(heads[i], heads[i + 1]);
+      write_file(files[i], Table(names_).csv());
+      solve_span(spans[i].first, spans[i].end);
       static_cast<void>(write_table());
     };
     const auto collect = [&](std::size_t i) {
-      const std::filesystem::path& file = parts[i];
+      const std::filesystem::path& file = files[i];
       if (!std::filesystem::exists(file)) {
         if (interrupt_requested()) return;
-        throw Error(
-            fmt::format("the rows of {} are lost: {} has vanished", cases_[heads[i]].problem->name(), file.string()));
+        throw Error(fmt::format("the rows of {} are lost: {} has vanished", cases_[spans[i].first].problem->name(),
+                                file.string()));
       }
-      const Table part = Table::from_csv(read_file(file));
+      const Table table = Table::from_csv(read_file(file));
       std::filesystem::remove(file);
-      std::size_t number = heads[i];
-      for (const Row& row : part.rows()) {
-        if (number == heads[i + 1]) throw Error("a process wrote more rows than it had cases");
+      std::size_t number = spans[i].first;
+      for (const Row& row : table.rows()) {
+        while (number < spans[i].end && !is_own_[number]) ++number;
+        if (number == spans[i].end) throw Error("a process wrote more rows than it had cases");
         keep(row, number++);
         show(row.text("problem"));
       }
     };
-    for_each_in_processes(heads.size() - 1, static_cast<std::size_t>(options_.jobs), work, collect);
+    for_each_in_processes(spans.size(), static_cast<std::size_t>(options_.jobs), work, collect);
   }
 
   Experiment& experiment_;
@@ -330,40 +349,25 @@ class Run {
   StartProvider starts_;
   Columns<SolvedCase> columns_;
   std::vector<std::string> names_;
-  std::vector<std::optional<Row>> rows_;
-  std::filesystem::path prefix_;
-  std::filesystem::path part_;  ///< the table of a process that works for another; empty in that one
+  RowsOfCases rows_;
   nlohmann::ordered_json metadata_;
+  PartsOfRun parts_;
+  std::vector<bool> is_own_;              ///< for every case whether this run works on it, and not another part
+  std::filesystem::path prefix_;          ///< of the files: folder and name of the table, or the file of a part
+  std::filesystem::path table_of_child_;  ///< of a process that works for another; empty in that one
   ProgressLine progress_;
-  std::size_t done_ = 0;   ///< cases
-  bool has_file_ = false;  ///< a row has been written to the table's file
+  std::size_t done_ = 0;          ///< cases
+  std::size_t first_solved_ = 0;  ///< the case that the whole run begins with
+  bool has_file_ = false;         ///< a row has been written to the table's file
 };
 
 }  // namespace
 
+nlohmann::ordered_json Experiment::findings() const { return nullptr; }
+
 // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides change the options
 std::unique_ptr<Solver> Experiment::solver_for(const Case& the_case, SolverOptions options) {
   return make_solver(the_case.solver, options);
-}
-
-std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
-                                   const std::vector<std::string>& chosen) {
-  for (const std::string& name : chosen) {
-    if (std::ranges::count(known, name) > 0) continue;
-    throw Error(fmt::format("{} takes {}, not {}", option, fmt::join(known, known.size() == 2 ? " or " : ", "), name));
-  }
-  std::vector<std::string> names;
-  std::ranges::copy_if(known, std::back_inserter(names),
-                       [&](const std::string& name) { return std::ranges::count(chosen, name) > 0; });
-  return names;
-}
-
-std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants) {
-  std::vector<Case> cases;
-  for (const std::string& variant : variants) {
-    for (const Case& of_curve : curve) cases.emplace_back(of_curve).variant = variant;
-  }
-  return cases;
 }
 
 int run_experiment(Experiment&& experiment, int argc, char** argv) {
@@ -379,8 +383,10 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
       line.list("--tolerances", experiment.options().tolerances,
                 "several tolerances, a row for each; wins over --tolerance");
     }
+    if (card.takes_parts) add_part_options(line, experiment.options());
     experiment.add_options(line);
-    return Run(experiment, line.parse()).run();
+    const std::vector<std::string> command_line = line.parse();
+    return Run(experiment, command_line, line.values()).run();
   });
 }
 

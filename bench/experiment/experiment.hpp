@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "bench/experiment/case_list.hpp"
 #include "bench/experiment/options.hpp"
 
 namespace dmocbench {
@@ -26,6 +27,7 @@ struct ExperimentCard {
   bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
   bool takes_costates = false;       ///< a start from a file brings its costates as start multipliers
   bool cases_stand_alone = false;    ///< what is wrong with the first case is wrong with that one alone
+  bool takes_parts = true;           ///< --part is offered: `finish` needs nothing of solves but rows and findings
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
@@ -60,11 +62,19 @@ class Experiment {
   [[nodiscard]] virtual std::size_t solved_first(const std::vector<Case>& /*curve*/) const { return 0; }
   /// Told of every case behind its first solve, before the next one is solved.
   virtual void solved_once(const SolvedCase& /*solved*/) {}
+  /// What a case shares with others, in words: those of equal words need something of each other (a reference, an
+  /// answer to compare with) and are solved by one part of a run; empty if it needs nothing. A common start, and turns,
+  /// are shared anyway.
+  [[nodiscard]] virtual std::string shared_by(const Case& /*the_case*/) const { return {}; }
   /// Measures the values of the own columns for a solved case. Called in the order of solving.
   virtual void complete(SolvedCase& /*solved*/) {}
   /// What `finish` puts behind the table's name, as in "_slopes.csv"; asked for after `check`. Those of an earlier run
   /// are removed when the first row is written, so that old and new never stand beside each other.
   [[nodiscard]] virtual std::vector<std::string> further_files() const { return {}; }
+  /// What `finish` needs of the cases that were solved, besides their rows: a part keeps it in its file.
+  [[nodiscard]] virtual nlohmann::ordered_json findings() const;
+  /// Takes in what a part has found, part after part, before `finish` is called of all.
+  virtual void add_findings(const nlohmann::ordered_json& /*findings*/) {}
   /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
   /// table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
@@ -77,17 +87,10 @@ class Experiment {
   ExperimentCard card_;
 };
 
-/// The chosen names in the order of `known`, each once. Throws `Error` on one that is not known: "OPTION takes a or b,
-/// not c".
-[[nodiscard]] std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
-                                                 const std::vector<std::string>& chosen);
-
-/// A curve once for each of some variants.
-[[nodiscard]] std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants);
-
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it
 /// keeps its row), 2 on bad input or if a file cannot be written (one line on standard error), 130 if interrupted
-/// (finished rows are kept). Nothing of an earlier run of that name is touched before the first row is there; from then
+/// (finished rows are kept). One part of a run (--part) is 0 as soon as its file is there, which has no rows of an
+/// interrupted one. Nothing of an earlier run of that name is touched before the first row is there; from then
 /// on until all files are written, the metadata say `"complete": false`. Two runs never write one table at a time.
 int run_experiment(Experiment&& experiment, int argc, char** argv);
 

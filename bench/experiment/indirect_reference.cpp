@@ -136,6 +136,23 @@ const Columns<Entry> reference_columns{
     {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
 };
 
+/// What table and metadata tell of a solution.
+Json account_of(const Entry& entry) {
+  Row row = row_of(reference_columns, entry);
+  Json metadata{{"problem", entry.problem},
+                {"cost", entry.solution.cost()},
+                {"certified_digits", entry.solution.certified_digits()},
+                {"shooting_defect", entry.shooting_defect},
+                {"replay_error", entry.replay_error}};
+  Json cells = Json::object();
+  for (const std::string& name : names_of(reference_columns)) cells[name] = row.text(name);
+  for (const auto& [name, value] : entry.initial_costate) {
+    cells[name] = Cell(value).text();
+    metadata["initial_costate"][name] = value;
+  }
+  return {{"cells", std::move(cells)}, {"metadata", std::move(metadata)}};
+}
+
 /// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
 Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / (problem.name() + "_indirect.json");
@@ -171,40 +188,46 @@ const IndirectSolution& IndirectReference::near(const Problem& problem, const Tr
   return known->second.solution;
 }
 
+Json IndirectReference::findings() const {
+  std::map<std::string, Json> accounts = joined_;
+  for (const auto& [problem, entry] : known_) accounts[problem] = account_of(entry);
+  return accounts;
+}
+
+void IndirectReference::add_findings(const Json& findings) {
+  for (const auto& [problem, account] : findings.items()) joined_[problem] = account;
+}
+
 Table IndirectReference::table() const {
+  const Json accounts = findings();
   std::vector<std::string> names = names_of(reference_columns);
-  for (const auto& [problem, entry] : known_) {
-    for (const auto& [name, value] : entry.initial_costate) {
+  for (const Json& account : accounts) {
+    for (const auto& [name, value] : account.at("cells").items()) {
       if (std::ranges::count(names, name) == 0) names.push_back(name);
     }
   }
   Table table(names);
-  for (const auto& [problem, entry] : known_) {
-    Row row = row_of(reference_columns, entry);
-    for (const auto& [name, value] : entry.initial_costate) row.set(name, value);
+  for (const Json& account : accounts) {
+    Row row;
+    for (const auto& [name, value] : account.at("cells").items()) row.set(name, value.get<std::string>());
     table.append(std::move(row));
   }
   return table;
 }
 
-nlohmann::ordered_json IndirectReference::metadata() const {
+Json IndirectReference::metadata() const {
+  const Json accounts = findings();
   Json references = Json::array();
-  for (const auto& [problem, entry] : known_) {
-    references.push_back({{"problem", problem},
-                          {"cost", entry.solution.cost()},
-                          {"certified_digits", entry.solution.certified_digits()},
-                          {"shooting_defect", entry.shooting_defect},
-                          {"replay_error", entry.replay_error}});
-    for (const auto& [name, value] : entry.initial_costate) references.back()["initial_costate"][name] = value;
-  }
+  for (const Json& account : accounts) references.push_back(account.at("metadata"));
   return references;
 }
 
 std::vector<std::string> IndirectReference::notes() const {
   constexpr double wanted_digits = 11.0;
+  const Json accounts = findings();
   std::vector<std::string> notes;
-  for (const auto& [problem, entry] : known_) {
-    const double digits = entry.solution.certified_digits();
+  for (const auto& [problem, account] : accounts.items()) {
+    const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;
     notes.push_back(
         fmt::format("{}: the indirect reference is certified to {:.1f} digits only; smaller relative "

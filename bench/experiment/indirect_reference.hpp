@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/column.hpp"
 #include "methods/indirect/indirect_solution.hpp"
@@ -40,6 +40,10 @@ class IndirectReference {
   /// is on another branch.
   [[nodiscard]] const IndirectSolution& near(const Problem& problem, const Trajectory& direct);
 
+  /// All that table, metadata and notes are made of, an object per problem, and the same found by other parts of a run.
+  [[nodiscard]] nlohmann::ordered_json findings() const;
+  void add_findings(const nlohmann::ordered_json& findings);
+
   /// A row per problem that was asked for; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of
   /// every configuration.
   [[nodiscard]] Table table() const;
@@ -51,6 +55,7 @@ class IndirectReference {
  private:
   std::filesystem::path folder_;
   std::map<std::string, CheckedIndirectSolution> known_;  // by problem
+  std::map<std::string, nlohmann::ordered_json> joined_;  // findings of parts, by problem
 };
 
 }  // namespace dmocbench

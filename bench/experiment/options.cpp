@@ -199,6 +199,19 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.flag("--verbose", options.verbose, "show the solver's own output");
 }
 
+void add_part_options(CommandLine& line, ExperimentOptions& options) {
+  line.option(
+      "--part", options.part,
+      "i/n: work on the i-th of n parts alone and write OUT/NAME.parts/i-of-n.part, whole or not at all; a part "
+      "that is there already stays. The exit code is 0 whatever its solves did. `merge` joins all parts");
+  line.option("--missing-parts", options.missing_parts,
+              "n: print which of n parts of this very run are missing, a number per line, and do nothing else");
+  line.option(
+      "--join", options.join,
+      "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "
+      "may be repeated");
+}
+
 SolverOptions solver_options(const ExperimentOptions& options) {
   SolverOptions result;
   result.tolerance = options.tolerance;

@@ -38,6 +38,9 @@ struct ExperimentOptions {
   bool verbose = false;
   std::filesystem::path out = "results";
   std::string name = {};
+  std::string part = {};               ///< "i/n": solve the i-th of n parts of the cases; empty: all
+  std::string missing_parts = {};      ///< n: solve nothing, but name the parts of n that are missing; empty: do not
+  std::vector<std::string> join = {};  ///< results folders whose parts are joined instead of solving; empty: solve
 };
 
 /// The numbers of `tolerances`. Throws `Error` if one is no number or out of range.
@@ -45,6 +48,9 @@ struct ExperimentOptions {
 
 /// Registers the options with their help.
 void add_options(CommandLine& line, ExperimentOptions& options);
+
+/// Registers the options of an experiment whose cases can be dealt out to parts.
+void add_part_options(CommandLine& line, ExperimentOptions& options);
 
 /// The solver options among them; an interrupt stops the solver. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);

@@ -1,11 +1,15 @@
 #include "bench/experiment/result_file.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -72,16 +76,20 @@ void write_into(const std::filesystem::path& path, std::string_view content) {
   close_or_undo(descriptor, write_all(descriptor, content), path, [] {});
 }
 
-/// Removes ".NAME.csv.123" and the like where process 123 has ended.
+/// Removes ".NAME.csv.HOST.123" and the like where process 123 of this machine has ended.
 void remove_leftovers(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     std::filesystem::path name = entry.path().filename();
-    const auto number = [&name] { return parsed<pid_t>(name.extension().string().erase(0, 1)); };
+    const auto number = [&name] {
+      const bool is_of_this_host = name.stem().extension() == "." + host_name();
+      return is_of_this_host ? parsed<pid_t>(name.extension().string().erase(0, 1)) : std::nullopt;
+    };
     const pid_t process = number().value_or(0);
-    while (number()) name = name.stem();  // a process may have been writing what another left
+    while (number()) name = name.stem().stem();  // a process may have been writing what another left
     const std::string kind = name.extension().string();
-    if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md")) continue;
+    if (!name.string().starts_with('.') || (kind != ".csv" && kind != ".json" && kind != ".md" && kind != ".part"))
+      continue;
     if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) std::filesystem::remove(entry.path(), ignored);
   }
 }
@@ -89,7 +97,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
 }  // namespace
 
 // From the other constructor, so that what was made is removed also where this one throws.
-OutputFolder::OutputFolder(const std::filesystem::path& folder) : OutputFolder() {
+OutputFolder::OutputFolder(const std::filesystem::path& folder, bool leftovers_stay) : OutputFolder() {
   std::error_code error;
   const auto is_missing = [](const std::filesystem::path& part) {  // a link that leads nowhere is not
     std::error_code none;
@@ -107,7 +115,7 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder) : OutputFolder()
   if (::access(folder.c_str(), W_OK) != 0) {
     throw Error(fmt::format("cannot write to the output folder {}: {}", folder.string(), reason()));
   }
-  remove_leftovers(folder);
+  if (!leftovers_stay) remove_leftovers(folder);
 }
 
 OutputFolder::~OutputFolder() {
@@ -115,8 +123,20 @@ OutputFolder::~OutputFolder() {
   for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, none);
 }
 
+const std::string& host_name() {
+  static const std::string name = [] {
+    std::array<char, 64> letters{};
+    ::gethostname(letters.data(), letters.size() - 1);
+    std::string text = letters.data();
+    std::ranges::replace_if(
+        text, [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '-'; }, '-');
+    return text.empty() ? std::string("host") : text;
+  }();
+  return name;
+}
+
 std::filesystem::path temporary_name(const std::filesystem::path& file) {
-  return file.parent_path() / fmt::format(".{}.{}", file.filename().string(), ::getpid());
+  return file.parent_path() / fmt::format(".{}.{}.{}", file.filename().string(), host_name(), ::getpid());
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -11,9 +11,11 @@ namespace dmocbench {
 /// over.
 class OutputFolder {
  public:
-  /// Makes the folder and checks that files can be written there. Removes what programs that were killed have left in
-  /// it: hidden files that end with the number of a process that is no more. Throws `Error` if that cannot be done.
-  explicit OutputFolder(const std::filesystem::path& folder);
+  /// Makes the folder and checks that files can be written there. Removes what programs that were killed on this
+  /// machine have left in it: hidden files that end with the number of a process that is no more; unless
+  /// `leftovers_stay`, for a folder of so many files that nobody should look through all of them. Throws `Error` if
+  /// that cannot be done.
+  explicit OutputFolder(const std::filesystem::path& folder, bool leftovers_stay = false);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   OutputFolder(OutputFolder&&) = delete;
@@ -26,7 +28,11 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-/// The hidden name beside a file under which this process writes it: ".NAME.PROCESS".
+/// The name of this machine, fit to be part of a file's name: letters, digits and dashes.
+[[nodiscard]] const std::string& host_name();
+
+/// The hidden name beside a file under which this process writes it: ".NAME.HOST.PROCESS". Machines that share a file
+/// system have processes of equal numbers.
 [[nodiscard]] std::filesystem::path temporary_name(const std::filesystem::path& file);
 
 /// Throws `Error` unless `write_file` could write there: no folder, a name that is too long, no rights. Leaves nothing.

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "methods/program/linearised_conditions.hpp"
 #include "methods/program/kkt_residual.hpp"
+#include "methods/program/linearised_conditions.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/kkt/kkt_system.hpp"
 

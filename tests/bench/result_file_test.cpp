@@ -148,17 +148,21 @@ TEST_F(ResultFile, LeftByAProcessThatIsNoMoreIsRemovedByTheNext) {
   if (ended == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
   const auto named = [&](const std::string& name, pid_t process) {
-    return folder() / fmt::format("{}.{}", name, process);
+    std::string written = temporary_name(folder() / name).filename().string();
+    return folder() / (written.substr(0, written.rfind('.') + 1) + std::to_string(process));
   };
-  for (const char* const name : {".table.csv", ".table_part_0.csv", ".table.json"}) write_file(named(name, ended), "");
-  write_file(named("..table_part_0.csv.1", ended), "");
+  for (const char* const name : {"table.csv", "table_part_0.csv", "table.json", "3-of-4.part"}) {
+    write_file(named(name, ended), "");
+  }
+  write_file(named(named("table_part_0.csv", 1).filename(), ended), "");
   { const OutputFolder next(folder()); }
   EXPECT_EQ(entries(), 0);
-  write_file(named(".table.csv", ::getppid()), "");  // somebody is at it
-  write_file(named("notes.csv", ended), "");         // not hidden: the user's
-  write_file(named(".notes", ended), "");
+  write_file(named("table.csv", ::getppid()), "");                           // somebody is at it
+  write_file(folder() / fmt::format(".table.csv.elsewhere.{}", ended), "");  // or on another machine
+  write_file(folder() / fmt::format("notes.csv.{}", ended), "");             // not hidden: the user's
+  write_file(named("notes", ended), "");
   { const OutputFolder next(folder()); }
-  EXPECT_EQ(entries(), 3);
+  EXPECT_EQ(entries(), 4);
 }
 
 TEST_F(ResultFile, OneRunAtATimeHasAName) {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/experiment/experiment.hpp"
+
+namespace dmocbench {
+
+/// What two parts have to agree in to be parts of the same run: program and commit, compiler, instruction set and
+/// libraries, parameters of the problems, options (those apart that say where and how fast: --out, --name, --jobs,
+/// --verbose, and those of parts), the cases, and the file that solves start from. `metadata` are those of the run
+/// (`describe_run`), `options` the names and values of the command line.
+[[nodiscard]] nlohmann::ordered_json identity_of(const ExperimentCard& card, const std::vector<Case>& cases,
+                                                 const nlohmann::ordered_json& metadata,
+                                                 const std::vector<std::pair<std::string, std::string>>& options);
+
+/// The machine that a part ran on, from its metadata.
+[[nodiscard]] nlohmann::ordered_json machine_of(const nlohmann::ordered_json& metadata);
+
+}  // namespace dmocbench

@@ -1,0 +1,137 @@
+#include "bench/experiment/part.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "bench/experiment/part_file.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/sentence_of_error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dmocbench {
+namespace {
+
+using tests::expect_error_naming;
+
+/// Cases of two methods on some grids.
+std::vector<Case> cases_on(std::size_t grids) {
+  const std::shared_ptr<const Problem> problem = make_problem("double_integrator");
+  std::vector<Case> cases;
+  for (const char* const method : {"dmoc", "tangent"}) {
+    for (std::size_t i = 0; i < grids; ++i) {
+      cases.push_back({.problem = problem, .method = method, .tableau = "gauss"});
+      cases.back().grid = Grid::uniform(static_cast<Eigen::Index>(i) + 2);
+    }
+  }
+  return cases;
+}
+
+std::string nothing(const Case& /*the_case*/) { return {}; }
+std::string method_of(const Case& the_case) { return the_case.method; }
+std::string grid_of(const Case& the_case) { return std::to_string(the_case.intervals()); }
+
+TEST(Part, IsReadAsItIsWritten) {
+  for (const char* const text : {"1/1", "3/16", "16/16", "1000000/1000000"}) {
+    EXPECT_EQ(parse_part("--part", text).in_words(), text);
+  }
+}
+
+TEST(Part, ThatCannotBeIsRefusedByName) {
+  for (const char* const text : {"", "/", "1", "1/", "/4", "0/4", "5/4", "a/b", "1/4/4", "-1/4", "+1/4", " 1/4", "1/4 ",
+                                 "1.0/4", "0x1/4", "1/0", "1/1000001", "1/99999999999999999999"}) {
+    expect_error_naming({"--part", "i/n"}, [&] { static_cast<void>(parse_part("--part", text)); });
+  }
+}
+
+TEST(Part, FilesAreInTheOrderOfTheirNumbers) {
+  std::vector<std::string> names;
+  for (std::size_t number = 1; number <= 100; ++number) names.push_back(Part{number, 100}.file_name());
+  EXPECT_TRUE(std::ranges::is_sorted(names));
+  EXPECT_EQ(names[2], "003-of-100.part");
+}
+
+TEST(Dealing, EveryCaseIsAloneWhereNothingIsShared) {
+  const std::vector<Case> cases = cases_on(5);
+  const std::vector<std::size_t> groups = groups_of(cases, {nothing});
+  EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), cases.size());
+}
+
+TEST(Dealing, WhatIsSharedInAnyRespectIsOneGroup) {
+  const std::vector<Case> cases = cases_on(4);  // dmoc 2 3 4 5, tangent 2 3 4 5
+  EXPECT_EQ(groups_of(cases, {method_of}), (std::vector<std::size_t>{0, 0, 0, 0, 4, 4, 4, 4}));
+  EXPECT_EQ(groups_of(cases, {grid_of}), (std::vector<std::size_t>{0, 1, 2, 3, 0, 1, 2, 3}));
+  EXPECT_EQ(groups_of(cases, {nothing, grid_of, method_of}), std::vector<std::size_t>(8, 0));
+}
+
+TEST(Dealing, PartsHaveAsManyGroupsUpToOneAndKeepThemWhole) {
+  const std::vector<Case> cases = cases_on(25);
+  const std::vector<std::size_t> groups = groups_of(cases, {grid_of});
+  for (const std::size_t parts : {1U, 3U, 7U, 25U, 40U}) {
+    const std::vector<std::size_t> part_of = dealt_out(cases, groups, parts);
+    std::map<std::size_t, std::set<std::size_t>> groups_in;
+    for (std::size_t number = 1; number <= parts; ++number) groups_in[number] = {};
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      EXPECT_EQ(part_of[i], part_of[groups[i]]);
+      groups_in[part_of[i]].insert(groups[i]);
+    }
+    EXPECT_EQ(groups_in.size(), parts) << "a part has a number beyond " << parts;
+    const auto sizes = [](const auto& of_part) { return of_part.second.size(); };
+    const auto [least, most] = std::ranges::minmax_element(groups_in, {}, sizes);
+    EXPECT_LE(sizes(*most) - sizes(*least), 1U);
+  }
+}
+
+TEST(Dealing, MixesFineAndCoarseGrids) {
+  constexpr std::size_t grids = 200;
+  const std::vector<Case> cases = cases_on(grids);
+  const std::vector<std::size_t> part_of = dealt_out(cases, groups_of(cases, {nothing}), 4);
+  std::map<std::size_t, double> work;
+  for (std::size_t i = 0; i < cases.size(); ++i) work[part_of[i]] += static_cast<double>(cases[i].intervals());
+  const double mean = static_cast<double>(grids * (grids + 3)) / 4.0;
+  for (const auto& [part, intervals] : work) EXPECT_NEAR(intervals / mean, 1.0, 0.25) << "part " << part;
+}
+
+using PartFiles = tests::InTemporaryFolder;
+
+TEST_F(PartFiles, AreReadAsTheyWereWritten) {
+  const PartFile written{.path = folder() / "1-of-2.part",
+                         .description = {{"part", "1/2"}, {"identity", {{"x", 0.1}}}},
+                         .table = "case,message\n3,\"a, \"\"b\"\"\nc\"\n"};
+  write_part(written);
+  const PartFile read = read_part(written.path);
+  EXPECT_EQ(read.description, written.description);
+  EXPECT_EQ(read.table, written.table);
+  EXPECT_EQ(read.part().number, 1U);
+}
+
+TEST_F(PartFiles, AreNoneWithOneByteMissingOrChanged) {
+  const std::filesystem::path path = folder() / "1-of-1.part";
+  const auto expect_none = [&path](const std::string& content) {
+    std::ofstream(path) << content;
+    expect_error_naming({"1-of-1.part"}, [&] { static_cast<void>(read_part(path)); });
+  };
+  write_part({.path = path, .description = {{"part", "1/1"}, {"identity", 1}}, .table = "case\n1\n"});
+  const std::string whole = read_file(path);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 1);
+    expect_none(changed);
+    expect_none(whole.substr(0, i));
+  }
+}
+
+TEST(PartNumbers, AreNamedByRanges) {
+  EXPECT_EQ(in_ranges({}), "");
+  EXPECT_EQ(in_ranges({3}), "3");
+  EXPECT_EQ(in_ranges({1, 2, 4, 6, 7, 8}), "1 and 2, 4, 6 to 8");
+}
+
+}  // namespace
+}  // namespace dmocbench
