@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "methods/program/kkt_residual.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 
 namespace dmocbench {
 
@@ -36,7 +37,8 @@ ViolationDescent::ViolationDescent(NonlinearProgram& program, const Eigen::Vecto
     : program_(program),
       is_free_(free_variables(program)),
       lower_(program.variable_lower()),
-      upper_(program.variable_upper()) {
+      upper_(program.variable_upper()),
+      factorisation_(kkt::dissection_order(program)) {
   constexpr double share = 1e-4;
   Eigen::VectorXd inside = start;
   for (Eigen::Index i = 0; i < inside.size(); ++i) {
@@ -54,6 +56,7 @@ ViolationDescent::ViolationDescent(NonlinearProgram& program, const Eigen::Vecto
   at_ = values_at(program_, inside);
   differentiate(program_, at_);
   excess_ = violations(program_, at_.constraints);
+  mark_ = excess_.squaredNorm();
 }
 
 /// μ falls with the mean of d z, and no lower than what the least violation is judged by can notice.
@@ -91,13 +94,12 @@ Eigen::SparseMatrix<double> ViolationDescent::matrix(const Eigen::VectorXd& diag
   const auto m = static_cast<int>(excess_.size());
   const auto is_free = [&](Eigen::Index i) { return bool{is_free_[static_cast<std::size_t>(i)]}; };
   std::vector<Eigen::Triplet<double>> entries;
-  if (with_curvature) {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(program_.hessian_structure().size()));
-    program_.hessian(at_.point, 0.0, excess_, values);
-    program_.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {
-      if (is_free(i) && is_free(j)) entries.emplace_back(i, j, values[e]);
-    });
-  }
+  // Without curvature the entries stay, as zeros: another pattern would be analysed anew.
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program_.hessian_structure().size()));
+  if (with_curvature) program_.hessian(at_.point, 0.0, excess_, values);
+  program_.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {
+    if (is_free(i) && is_free(j)) entries.emplace_back(i, j, values[e]);
+  });
   for (int j = 0; j < n; ++j) {
     entries.emplace_back(j, j, is_free(j) ? diagonal[j] : 1.0);
     for (Eigen::SparseMatrix<double>::InnerIterator entry(at_.jacobian, j); entry; ++entry) {
@@ -184,8 +186,15 @@ bool ViolationDescent::step() {
   if (!is_taken) return false;
   differentiate(program_, at_);
   excess_ = violations(program_, at_.constraints);
-  left_ = before > 0.0 ? excess_.squaredNorm() / before : 1.0;
-  return excess_.squaredNorm() > 0.0;
+  const double after = excess_.squaredNorm();
+  left_ = before > 0.0 ? after / before : 1.0;
+  constexpr double much = 0.8;
+  ++slow_steps_;
+  if (after <= much * mark_) {
+    mark_ = after;
+    slow_steps_ = 0;
+  }
+  return after > 0.0;
 }
 
 bool ViolationDescent::is_at_least_violation() const {

@@ -36,8 +36,12 @@ class ViolationDescent {
   [[nodiscard]] double violation() const { return excess_.lpNorm<Eigen::Infinity>(); }
   /// Whether the steps have become slow, and the point is one of least violation (`is_point_of_least_violation`).
   [[nodiscard]] bool is_at_least_violation() const;
+  /// Whether the last thirty steps together left more than four fifths of |r|².
+  [[nodiscard]] bool has_stalled() const noexcept { return slow_steps_ >= most_slow_steps; }
 
  private:
+  static constexpr int most_slow_steps = 30;
+
   void lower_barrier();
   [[nodiscard]] double merit(const Linearisation& at) const;
   [[nodiscard]] bool compute_step(bool with_curvature);
@@ -58,6 +62,8 @@ class ViolationDescent {
   double mu_ = 0.0;
   double damping_ = 1e-3;  // what a step of the size of each unknown costs, as a share of |r|²
   double left_ = 0.0;      // share of |r|² that the last step left
+  double mark_ = 0.0;      // |r|² when it had last become much smaller
+  int slow_steps_ = 0;     // since then
   bool is_long_ = false;   // the last step was hardly shortened
   bool uses_curvature_ = false;
 };

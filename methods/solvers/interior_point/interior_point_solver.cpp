@@ -50,7 +50,8 @@ constexpr double push_of_descent = 1e-8;
 constexpr int most_jammed = 20;     // feasibility steps in a row that bounds leave no room
 constexpr double short_step = 0.1;  // see has_runaway_multipliers
 constexpr double runaway = 1e8;
-constexpr double correctable = 2.0;  // see try_second_order_correction
+constexpr double correctable = 2.0;   // see try_second_order_correction
+constexpr double most_growth = 10.0;  // of the violation in one step, see try_step
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
 /// A-9 the steps of its Algorithm A.
@@ -94,6 +95,7 @@ class InteriorPointRun final : public PreparedRun {
     const double theta = std::max(1.0, values_.theta);
     theta_min_ = theta_min_ratio * theta;
     theta_max_ = theta_max_ratio * theta;
+    theta_at_begin_ = theta;
     filter_.reset(theta_max_);
     rounding_of_theta_ = counted_.rounding_floors().norm_of_rows(values_.constraints.size());
     return std::nullopt;
@@ -214,6 +216,8 @@ class InteriorPointRun final : public PreparedRun {
     const double rounding = safety * std::sqrt(static_cast<double>(at_.x.size())) *
                             std::numeric_limits<double>::epsilon() *
                             (std::abs(values_.objective) + std::abs(values_.phi - values_.objective));
+    // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
+    if (theta > std::max(most_growth * values_.theta, theta_at_begin_)) return false;
     if (!filter_.accepts(theta - rounding_of_theta_, trial_values_.phi - rounding)) return false;
     const bool is_nearer = theta <= (1.0 - Filter::margin) * values_.theta;  // (18a)
     const bool is_rounding = theta <= rounding_of_theta_ && values_.theta <= rounding_of_theta_;
@@ -274,7 +278,7 @@ class InteriorPointRun final : public PreparedRun {
   [[nodiscard]] std::optional<Status> descend_on_violation(double enough) {
     enough *= std::pow(0.1, descents_++);
     ViolationDescent descent(counted_, at_.x);
-    while (!descent.is_at_least_violation() && descent.step()) {
+    while (!descent.is_at_least_violation() && !descent.has_stalled() && descent.step()) {
       ++iterations_;
       program_.set_interior(descent.point(), push_of_descent, at_);
       if (!program_.evaluate(at_, mu_, values_)) break;
@@ -341,6 +345,7 @@ class InteriorPointRun final : public PreparedRun {
   double mu_ = 0.0;
   double theta_min_ = 0.0;
   double theta_max_ = 0.0;
+  double theta_at_begin_ = 0.0;  // θ where the solve began, at least 1
   double rounding_of_theta_ = 0.0;
   double length_ = 0.0;  // of the last step
   int iterations_ = 0;

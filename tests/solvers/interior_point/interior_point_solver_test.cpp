@@ -191,6 +191,22 @@ TEST(InteriorPoint, ReachesTheOptimumThoughMultipliersRunAwayOnTheWay) {
   }
 }
 
+/// A step that lowers the cost a little may miss the rows a thousand times as much as any point before it; the way back
+/// took 228 iterations.
+TEST(InteriorPoint, TakesNoStepToWhereTheRowsSayNothing) {
+  const ParticleSteering problem;
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    SCOPED_TRACE(method);
+    Transcription program(problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(64));
+    const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+    const Solution ipopt = make_solver("ipopt")->solve(program, start);
+    const Solution found = solve_by_interior_point(program, start);
+    ASSERT_EQ(found.status, Status::solved) << found.message;
+    EXPECT_NEAR(found.objective, ipopt.objective, 1e-8 * ipopt.objective);
+    EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.5 * ipopt.major_iterations.value_or(0));
+  }
+}
+
 /// Terminal weights that are too small see conjugate points everywhere: every Hessian was shifted, and 114 to 500
 /// iterations were needed, when the compliance of rates, which cost nothing, was taken for that of the controls.
 TEST(InteriorPoint, NeedsWithSeveralStagesAsManyIterationsAsWithAnExactInertia) {
