@@ -109,14 +109,16 @@ class Equivalence final : public Experiment {
           "multipliers of their own there.");
     }
     if (here.method == "dmoc") {
-      answers_.push_back({here, trajectory});
+      answers_.emplace_back(here, trajectory);
       return;
     }
     Case by_dmoc = here;
     by_dmoc.method = "dmoc";
+    const auto is_partner = [&](const Case& dmoc) {
+      return dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
+    };
     for (const auto& [dmoc, answer] : answers_) {
-      const bool is_partner = dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
-      if (is_partner) measured_.dmoc = answer;
+      if (is_partner(dmoc)) measured_.dmoc = answer;
     }
     if (!measured_.dmoc) {
       solved.note("Not compared: DMOC was not solved on this grid, or on another branch.");

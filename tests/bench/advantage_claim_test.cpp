@@ -22,8 +22,9 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
   row.set("intervals", static_cast<long long>(intervals));
   row.set("quantity", quantity);
   row.set("ratio_at_equal_intervals", value);
-  std::vector<double> rounds;
-  for (int i = 0; i < 11; ++i) rounds.push_back(value * (1.0 + 0.02 * std::sin(5.0 * i)));
+  std::vector<double> rounds(11);
+  for (std::size_t i = 0; i < rounds.size(); ++i)
+    rounds[i] = value * (1.0 + 0.02 * std::sin(5.0 * static_cast<double>(i)));
   row.set("round_ratios", joined_numbers(rounds));
   return row;
 }

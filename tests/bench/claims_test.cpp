@@ -137,7 +137,7 @@ TEST(Claims, UnequalSolutionsDiffer) {
 
 TEST(Claims, ATangentSpaceDifferenceOfAnotherOrderDiffers) {
   const ResultTables doctored =
-      tables("equivalence_slopes", [](Row& row) { row.set("slope", *row.number("stages") * 2.0 - 1.0); });
+      tables("equivalence_slopes", [](Row& row) { row.set("slope", row.needed("stages") * 2.0 - 1.0); });
   EXPECT_EQ(verdict_on("tangent_differs", doctored), ClaimVerdict::differs);
 }
 
@@ -146,7 +146,7 @@ TEST(Claims, AMissedOrderOfAnyQuantityAtTheNodesDiffers) {
     for (const double wrong : {-1.0, 1.0}) {
       const ResultTables doctored = tables("convergence_indirect_slopes", [&](Row& row) {
         if (is(row, "hamiltonian") && row.text("quantity") == quantity && row.text("stages") == "3") {
-          row.set("slope", *row.number("slope") + wrong);
+          row.set("slope", row.needed("slope") + wrong);
         }
       });
       EXPECT_EQ(verdict_on("order_of_convergence", doctored), ClaimVerdict::differs) << quantity;
@@ -177,7 +177,7 @@ TEST(Claims, AnAdjointSchemeWithAResidualOrWithoutAControlDiffers) {
 
 TEST(Claims, AnotherRatioOfVariablesDiffers) {
   const ResultTables doctored = tables("convergence", [](Row& row) {
-    if (is(row, "dmoc")) row.set("free_variables", *row.number("intervals") * 4.0);
+    if (is(row, "dmoc")) row.set("free_variables", row.needed("intervals") * 4.0);
   });
   EXPECT_EQ(verdict_on("variable_ratio", doctored), ClaimVerdict::differs);
 }
@@ -185,7 +185,7 @@ TEST(Claims, AnotherRatioOfVariablesDiffers) {
 TEST(Claims, AnotherRatioOfMinorIterationsDiffers) {
   for (const double factor : {0.9, 1.1}) {
     const ResultTables doctored = tables("iterations", [&](Row& row) {
-      if (is(row, "dmoc")) row.set("minor_iterations", *row.number("minor_iterations") * factor);
+      if (is(row, "dmoc")) row.set("minor_iterations", row.needed("minor_iterations") * factor);
     });
     EXPECT_EQ(verdict_on("minor_iteration_ratio", doctored), ClaimVerdict::differs) << factor;
     EXPECT_EQ(verdict_on("minor_iterations_equal_variable_ratio", doctored), ClaimVerdict::differs) << factor;
@@ -195,7 +195,7 @@ TEST(Claims, AnotherRatioOfMinorIterationsDiffers) {
 TEST(Claims, EqualCountsFromACrashBasisSayThatTheSavingIsTheStarts) {
   EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", tables()), ClaimVerdict::differs);
   const ResultTables doctored = tables("iterations", [](Row& row) {
-    if (row.text("crash") == "basis") row.set("minor_iterations", *row.number("free_variables") + 3.0);
+    if (row.text("crash") == "basis") row.set("minor_iterations", row.needed("free_variables") + 3.0);
   });
   EXPECT_EQ(verdict_on("minor_iteration_ratio_from_a_crash_basis", doctored), ClaimVerdict::reproduced);
 }

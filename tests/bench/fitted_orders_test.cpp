@@ -145,7 +145,7 @@ TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
 TEST(FittedOrders, UnsolvedRowsAndOtherBranchesAreLeftOut) {
   const Table good = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const Table wrong = with_field(good, 64, "state_error", Cell(1.0));
-  EXPECT_GT(std::abs(*slope_of(fit_orders(wrong, std::nullopt, 0), "state").number("slope") - 2.0), 0.5);
+  EXPECT_GT(std::abs(slope_of(fit_orders(wrong, std::nullopt, 0), "state").needed("slope") - 2.0), 0.5);
   for (const auto& [column, value] : {std::pair{"status", "iteration limit"}, std::pair{"branch", "other"}}) {
     const Table marked = with_field(wrong, 64, column, Cell(std::string(value)));
     const Row row = slope_of(fit_orders(marked, std::nullopt, 0), "state");
@@ -182,7 +182,7 @@ Table with_jumps(const std::function<double(double)>& e, const std::function<dou
   columns.emplace_back("largest_jump");
   Table table(columns);
   for (Row row : errors.rows()) {
-    row.set("largest_jump", j(*row.number("intervals")));
+    row.set("largest_jump", j(row.needed("intervals")));
     table.append(row);
   }
   return table;

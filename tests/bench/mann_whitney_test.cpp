@@ -41,7 +41,7 @@ double by_enumeration(const std::vector<double>& first, const std::vector<double
 
 TEST(MannWhitney, IsExactForSmallSamplesWithAndWithoutTies) {
   std::mt19937_64 generator(1);
-  for (int trial = 0; trial < 30; ++trial) {
+  for (std::size_t trial = 0; trial < 30; ++trial) {
     std::vector<double> first(1 + trial % 5);
     std::vector<double> second(1 + trial % 7);
     std::uniform_int_distribution<int> values(0, trial % 2 == 0 ? 4 : 1000);

@@ -43,7 +43,7 @@ TEST(PerformanceProfiles, AreSharesOfAllInstancesWhereFailuresNeverArrive) {
   std::map<std::string, std::map<double, double>> share;
   const Table profiles = performance_profiles(contest());
   for (const Row& row : profiles.rows()) {
-    if (row.text("measure") == "seconds") share[row.text("method")][*row.number("ratio")] = *row.number("share");
+    if (row.text("measure") == "seconds") share[row.text("method")][row.needed("ratio")] = row.needed("share");
   }
   EXPECT_EQ(share["dmoc"], (std::map<double, double>{{1.0, 0.5}, {4.0, 0.75}}));
   EXPECT_EQ(share["tangent"], (std::map<double, double>{{1.0, 0.25}, {2.0, 0.5}, {4.0, 0.5}}));
@@ -58,8 +58,8 @@ TEST(ProfileSummary, CountsSuccessesAndWinsAndAveragesWhatAllSolved) {
   EXPECT_EQ(dmoc.number("common"), 2.0);
   EXPECT_EQ(dmoc.number("wins_seconds"), 2.0);
   // Instances a and c: 1, 4 and 2, 1, whose median is the shift 1.5.
-  EXPECT_NEAR(*dmoc.number("seconds"), std::sqrt(2.5 * 5.5) - 1.5, 1e-12);
-  EXPECT_NEAR(*table.rows()[1].number("seconds"), std::sqrt(3.5 * 2.5) - 1.5, 1e-12);
+  EXPECT_NEAR(dmoc.needed("seconds"), std::sqrt(2.5 * 5.5) - 1.5, 1e-12);
+  EXPECT_NEAR(table.rows()[1].needed("seconds"), std::sqrt(3.5 * 2.5) - 1.5, 1e-12);
 }
 
 TEST(ProfileSummary, OfASolverThatDoesNotTellItsIterationsStillCountsItsSuccesses) {

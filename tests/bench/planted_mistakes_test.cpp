@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,7 @@ struct Mistake {
   ClaimVerdict becomes = ClaimVerdict::differs;
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name
-void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.what; }
+std::ostream& operator<<(std::ostream& stream, const Mistake& mistake) { return stream << mistake.what; }
 
 using tests::has;
 using tests::Where;

@@ -36,8 +36,8 @@ TEST(RatioInterval, HoldsTheTrueRatioInNearlyAllSamples) {
   int held = 0;
   constexpr int samples = 200;
   for (int i = 0; i < samples; ++i) {
-    std::vector<double> ratios;
-    for (int round = 0; round < 11; ++round) ratios.push_back(1.5 * std::exp(0.2 * (uniform() + uniform() - 1.0)));
+    std::vector<double> ratios(11);
+    for (double& ratio : ratios) ratio = 1.5 * std::exp(0.2 * (uniform() + uniform() - 1.0));
     const RatioInterval interval = ratio_interval(ratios);
     held += interval.lower <= 1.5 && interval.upper >= 1.5 ? 1 : 0;
   }

@@ -125,7 +125,7 @@ TEST_F(ResultFile, APipeIsWrittenIntoAndStaysOne) {
   const std::filesystem::path pipe = folder() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expect_error_naming({"cannot write", "pipe"}, [&] { write_file(pipe, "nobody reads\n"); });
-  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // NOLINT(*-pro-type-vararg): as POSIX declares it
   write_file(pipe, "some\n");
   std::array<char, 16> read{};
   EXPECT_EQ(::read(reader, read.data(), read.size()), 5);

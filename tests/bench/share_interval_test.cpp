@@ -26,8 +26,8 @@ TEST(WilsonInterval, IsTheOneThatNewcombePrints) {
   // "Two-sided confidence intervals for the single proportion", 1998, table I, method 3.
   struct Printed {
     ShareCount count;
-    double lower;
-    double upper;
+    double lower = 0.0;
+    double upper = 0.0;
   };
   for (const Printed& printed : {Printed{{81, 263}, 0.2553, 0.3662},
                                  {{15, 148}, 0.0624, 0.1605},

@@ -5,13 +5,14 @@
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
 
 double curvature_of(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
   tests::Solved solved = tests::solve(problem, scheme, Grid::uniform(intervals), guessed_motion(problem));
-  return smallest_curvature(*solved.transcription, solved.solution).value();
+  return tests::value_of(smallest_curvature(*solved.transcription, solved.solution));
 }
 
 TEST(SmallestCurvature, OfHalfTheSquareOfTheControlIsOneOnEveryGridByEveryMethod) {

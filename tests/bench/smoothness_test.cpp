@@ -6,6 +6,7 @@
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -21,16 +22,16 @@ Trajectory exact_on_eight_intervals(const Problem& problem) {
   const auto& closed = dynamic_cast<const ClosedForm&>(problem);
   Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(8), guessed_motion(problem)).trajectory;
   for (Eigen::Index k = 0; k < motion.q.rows(); ++k) {
-    const OptimalPoint point = closed.optimum(motion.node_times[k]).value();
+    const OptimalPoint point = tests::value_of(closed.optimum(motion.node_times[k]));
     motion.q.row(k) = point.motion.q;
     motion.v.row(k) = motion.p.row(k) = point.motion.v;  // unit mass
     motion.psi_q.row(k) = point.psi_q;
     motion.psi_p.row(k) = point.psi_p;
   }
   for (Eigen::Index i = 0; i < motion.stage_u.rows(); ++i) {
-    motion.stage_u.row(i) = closed.optimum(motion.stage_times[i])->motion.u;
+    motion.stage_u.row(i) = tests::value_of(closed.optimum(motion.stage_times[i])).motion.u;
   }
-  motion.cost = problem.card().reference->objective;
+  motion.cost = tests::value_of(problem.card().reference).objective;
   return motion;
 }
 

@@ -115,7 +115,7 @@ inline Rows indirect_slope_rows() {
       for (Row& row : rows_by_tableau(method, 0, [&](Row& row, double order) {
              row.set("quantity", quantity);
              row.set("verdict", "slope");
-             row.set("slope", quantity == std::string("control") ? *row.number("stages") + 1.0 : order + 0.05);
+             row.set("slope", quantity == std::string("control") ? row.needed("stages") + 1.0 : order + 0.05);
            })) {
         rows.push_back(row);
       }
@@ -135,7 +135,7 @@ inline Rows iteration_rows() {
         row.set("crash", crash);
         row.set("free_variables", free);
         row.set("minor_iterations", (crash == "none" ? free : intervals - 4) + 3);
-        row.set("predicted_minors", *row.number("minor_iterations"));
+        row.set("predicted_minors", row.needed("minor_iterations"));
         rows.push_back(row);
       }
     }

@@ -14,6 +14,7 @@ constexpr double slope_tolerance = 0.25;
 double slope_of(const std::vector<std::vector<ConsistencyErrors>>& errors, const std::vector<double>& steps,
                 std::size_t tableau, double ConsistencyErrors::*quantity) {
   std::vector<GridError> points;
+  points.reserve(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) points.push_back({steps[k], errors[k][tableau].*quantity});
   return fit_order(points).value_or(FittedOrder{}).order;
 }

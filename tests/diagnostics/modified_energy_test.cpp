@@ -11,6 +11,7 @@
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -83,7 +84,7 @@ void expect_orders_2_4_6(const FreeMotion& motion, const std::string& method, do
     for (std::size_t i = 0; i < modified_orders.size(); ++i) errors[i].push_back({motion.end / steps, largest[i]});
   }
   for (std::size_t i = 0; i < modified_orders.size(); ++i) {
-    EXPECT_NEAR(fit_order(errors[i]).value().order, modified_orders[i], 0.1) << motion.name << ' ' << method;
+    EXPECT_NEAR(tests::value_of(fit_order(errors[i])).order, modified_orders[i], 0.1) << motion.name << ' ' << method;
   }
 }
 

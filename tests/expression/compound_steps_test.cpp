@@ -38,6 +38,7 @@ void expect_same_bits_as_replay(const Schedule& schedule, const SeriesTable& inp
     const SeriesTable found = tests::evaluate(Tape(schedule, set), inputs, count);
     for (std::size_t k = 0; k < count; ++k) {
       std::vector<double> point;
+      point.reserve(inputs.size());
       for (const std::vector<double>& column : inputs) point.push_back(column[k]);
       const std::vector<double> expected = replay<double>(schedule, point);
       for (std::size_t j = 0; j < expected.size(); ++j) {

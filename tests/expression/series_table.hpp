@@ -24,8 +24,10 @@ inline const std::vector<std::size_t>& interval_counts() {
 inline SeriesTable evaluate(const Tape& tape, const SeriesTable& inputs, std::size_t count) {
   SeriesTable outputs(tape.output_count(), std::vector<double>(count));
   std::vector<Tape::Input> places;
+  places.reserve(inputs.size());
   for (const std::vector<double>& series : inputs) places.push_back({series.data(), false});
   std::vector<double*> results;
+  results.reserve(outputs.size());
   for (std::vector<double>& series : outputs) results.push_back(series.data());
   Tape::Workspace workspace(tape);
   tape.evaluate(count, places, results, workspace);
@@ -35,6 +37,7 @@ inline SeriesTable evaluate(const Tape& tape, const SeriesTable& inputs, std::si
 /// The outputs in one interval, step by step and with the sum of the magnitudes of their terms.
 inline std::vector<Terms> replay_interval(const Schedule& schedule, const SeriesTable& inputs, std::size_t interval) {
   std::vector<Terms> numbers;
+  numbers.reserve(inputs.size());
   for (const std::vector<double>& series : inputs) numbers.emplace_back(series[interval]);
   return replay<Terms>(schedule, std::span<const Terms>(numbers));
 }

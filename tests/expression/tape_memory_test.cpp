@@ -121,6 +121,7 @@ TEST(TapeMemory, NumbersAroundOutputsKeepTheirValuesAndSoDoInputs) {
       const tests::SeriesTable before = inputs;
       tests::SeriesTable guarded(tape.output_count(), std::vector<double>(count + 2 * guard, canary));
       std::vector<double*> outputs;
+      outputs.reserve(guarded.size());
       for (auto& column : guarded) outputs.push_back(column.data() + guard);
       const std::vector<Tape::Input> places{{inputs[0].data()}, {inputs[1].data()}};
       tape.evaluate(count, places, outputs, workspace);
@@ -163,6 +164,7 @@ TEST(TapeMemory, EvaluationAllocatesNothing) {
     Tape::Workspace workspace(tape);
     tests::SeriesTable columns(tape.output_count(), std::vector<double>(count));
     std::vector<double*> outputs;
+    outputs.reserve(columns.size());
     for (auto& column : columns) outputs.push_back(column.data());
     const std::size_t before = allocations;
     tape.evaluate(count, inputs, outputs, workspace);

@@ -190,6 +190,7 @@ TEST(Tape, SlotsHoldWhatIsAliveAtOnce) {
   // Of a balanced tree of 4^4 leaves, four of which are multiplied by one instruction, three per level wait at most
   // while the fourth is at work.
   std::vector<Expression> level;
+  level.reserve(256);
   for (std::size_t i = 0; i < 256; ++i) level.push_back(sin(Expression::input(i)));
   while (level.size() > 1) {
     std::vector<Expression> next;

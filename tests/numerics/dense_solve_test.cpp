@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random_points.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -45,9 +46,8 @@ TEST(DenseSolve, OfASingularMatrixIsNothing) {
   Eigen::MatrixXd a = shifted_hilbert_matrix<double>(4);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(4, -1.0, 2.0);
   ASSERT_TRUE(is_invertible(a));
-  const std::optional<Eigen::VectorXd> solution = solve_if_invertible(a, a * x);
-  ASSERT_TRUE(solution.has_value());
-  EXPECT_LT((*solution - x).norm(), 1e-14);
+  const Eigen::VectorXd solution = tests::value_of(solve_if_invertible(a, a * x));
+  EXPECT_LT((solution - x).norm(), 1e-14);
   a.row(3) = a.row(1) - 2.0 * a.row(2);
   EXPECT_FALSE(is_invertible(a));
   EXPECT_FALSE(solve_if_invertible(a, x).has_value());
@@ -57,9 +57,8 @@ TEST(DenseSolve, OfAnIndefiniteMatrixIsNothingByCholesky) {
   Eigen::MatrixXd a = shifted_hilbert_matrix<double>(4);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(4, -1.0, 2.0);
   ASSERT_TRUE(is_positive_definite(a));
-  const std::optional<Eigen::VectorXd> solution = solve_if_positive_definite(a, a * x);
-  ASSERT_TRUE(solution.has_value());
-  EXPECT_LT((*solution - x).norm(), 1e-14);
+  const Eigen::VectorXd solution = tests::value_of(solve_if_positive_definite(a, a * x));
+  EXPECT_LT((solution - x).norm(), 1e-14);
   a(2, 2) = -a(2, 2);
   EXPECT_TRUE(is_invertible(a));
   EXPECT_FALSE(is_positive_definite(a));

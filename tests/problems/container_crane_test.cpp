@@ -6,6 +6,7 @@
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -34,7 +35,7 @@ TEST(ContainerCrane, CostsWhatItSwingsAndTheControlsByOption) {
 TEST(ContainerCrane, ComesNearItsReferenceWithinItsBounds) {
   ContainerCrane problem;
   problem.set_parameter("control_weight", 0.01);
-  const double reference = problem.card().reference.value().objective;
+  const double reference = tests::value_of(problem.card().reference).objective;
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 1}, Grid::uniform(48), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference, 1e-2 * reference) << method;

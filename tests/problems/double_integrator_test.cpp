@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -21,17 +22,17 @@ TEST(DoubleIntegrator, HasTheOptimumOfItsOwnPolynomial) {
   problem.set_parameter("horizon", 3.0);
   const double push = 6.0 * 2.5 / 9.0;
   const double cost = 3.0 / 6.0 * 0.5 * (push * push + 4.0 * 0.0 + push * push);
-  EXPECT_NEAR(problem.card().reference->objective, cost, 1e-14);
+  EXPECT_NEAR(tests::value_of(problem.card().reference).objective, cost, 1e-14);
   EXPECT_EQ(problem.final_state().q[0], 2.5);
   EXPECT_EQ(problem.horizon(), 3.0);
 }
 
 TEST(DoubleIntegrator, ComparesWithPublishedValuesForTheirDataOnly) {
   DoubleIntegrator problem;
-  EXPECT_EQ(problem.card().reference->published.size(), 1U);
-  EXPECT_EQ(problem.card().reference->objective, 6.0);
+  EXPECT_EQ(tests::value_of(problem.card().reference).published.size(), 1U);
+  EXPECT_EQ(tests::value_of(problem.card().reference).objective, 6.0);
   problem.set_parameter("distance", 2.0);
-  EXPECT_TRUE(problem.card().reference->published.empty());
+  EXPECT_TRUE(tests::value_of(problem.card().reference).published.empty());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -39,7 +40,7 @@ TEST(DoubleOscillator, LosesInItsDamperWhatTheControlLeavesOpen) {
 
 TEST(DoubleOscillator, ReachesItsReferenceWithVelocitiesOfItsOwnChoice) {
   const DoubleOscillator problem;
-  const ReferenceOptimum reference = problem.card().reference.value();
+  const ReferenceOptimum reference = tests::value_of(problem.card().reference);
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(32), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
@@ -53,7 +54,7 @@ TEST(DoubleOscillator, HasThePublishedValuesOnTheirGrids) {
   const auto cost = [&](const tests::Scheme& scheme) {
     return tests::solve(problem, scheme, Grid::uniform(200), guessed_motion(problem)).trajectory.cost;
   };
-  const std::vector<PublishedOptimum> published = problem.card().reference.value().published;
+  const std::vector<PublishedOptimum> published = tests::value_of(problem.card().reference).published;
   EXPECT_NEAR(cost({"tangent", 1}), published.at(0).objective, 1e-9);                    // midpoint rule
   EXPECT_NEAR(cost({"tangent", 2, "lobatto_shared"}), published.at(1).objective, 1e-9);  // trapezoidal rule
 }

@@ -8,6 +8,7 @@
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -43,9 +44,8 @@ TEST(ForcedOscillator, ApproachesItsOptimumWithTwiceTheNumberOfStages) {
             tests::solve(problem, {method, stages}, Grid::uniform(intervals), guessed_motion(problem)).trajectory;
         errors.push_back({pi / static_cast<double>(intervals), std::abs(motion.cost - 1.0 / pi)});
       }
-      const auto order = fit_order(errors);
-      ASSERT_TRUE(order.has_value());
-      EXPECT_NEAR(order->order, 2.0 * stages, 0.25) << method << ", s = " << stages;
+      const auto order = tests::value_of(fit_order(errors));
+      EXPECT_NEAR(order.order, 2.0 * stages, 0.25) << method << ", s = " << stages;
     }
   }
 }

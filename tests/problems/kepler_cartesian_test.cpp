@@ -10,6 +10,7 @@
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -92,17 +93,17 @@ TEST(KeplerCartesian, HasTheOptimumOfTheOrbitalTransferAfterAsManyRevolutions) {
   const Trajectory in_angles = solved(polar, 48);
   EXPECT_NEAR(in_plane.cost / in_angles.cost, 1.0, 1e-9);
   EXPECT_NEAR(swept_angle(in_plane), 4.0 * pi, 1e-9);
-  const ReferenceOptimum reference = plane.card().reference.value();
-  EXPECT_EQ(reference.objective, polar.card().reference.value().objective);
+  const ReferenceOptimum reference = tests::value_of(plane.card().reference);
+  EXPECT_EQ(reference.objective, tests::value_of(polar.card().reference).objective);
   EXPECT_NEAR(in_angles.cost / reference.objective, 1.0, 1e-10);
 }
 
 TEST(KeplerCartesian, KnowsItsOptimumAfterTwoAndTenRevolutionsOnly) {
   KeplerCartesian problem;
   EXPECT_TRUE(problem.card().reference.has_value());
-  const double after_two = problem.card().reference->objective;
+  const double after_two = tests::value_of(problem.card().reference).objective;
   problem.set_parameter("revolutions", 10.0);
-  EXPECT_LT(problem.card().reference->objective, 0.25 * after_two);
+  EXPECT_LT(tests::value_of(problem.card().reference).objective, 0.25 * after_two);
   problem.set_parameter("revolutions", 3.0);
   EXPECT_FALSE(problem.card().reference.has_value());
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -21,7 +22,7 @@ TEST(ParticleSteering, MeetsItsEndByTheBilinearTangentLaw) {
   ParticleSteering problem;
   for (const double height : {2.0, 5.0, 8.0}) {
     problem.set_parameter("height", height);
-    const double horizon = problem.card().reference->objective;
+    const double horizon = tests::value_of(problem.card().reference).objective;
     const double c = problem.initial_tangent();
     using State = std::array<double, 3>;  // y, ẋ, ẏ
     State state{0.0, 0.0, 0.0};

@@ -8,6 +8,7 @@
 
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -20,20 +21,19 @@ struct Instance {
 };
 
 /// Test names would show addresses without it.
-void PrintTo(const Instance& instance, std::ostream* stream) { *stream << instance.problem; }
+std::ostream& operator<<(std::ostream& stream, const Instance& instance) { return stream << instance.problem; }
 
 class StatedReference : public testing::TestWithParam<Instance> {};
 
 TEST_P(StatedReference, IsWhatGaussWithThreeStagesFinds) {
   const auto problem = make_problem(GetParam().problem);
   for (const auto& [name, value] : GetParam().settings) problem->set_parameter(name, value);
-  const auto reference = problem->card().reference;
-  ASSERT_TRUE(reference.has_value());
+  const auto reference = tests::value_of(problem->card().reference);
   const double cost = tests::solve(*problem, {"dmoc", 3}, Grid::uniform(GetParam().intervals), guessed_motion(*problem))
                           .trajectory.cost;
   constexpr double coarsest = 1e-7;
-  const double tolerance = std::max(coarsest, std::pow(10.0, -reference->digits)) * std::abs(reference->objective);
-  EXPECT_NEAR(cost, reference->objective, tolerance);
+  const double tolerance = std::max(coarsest, std::pow(10.0, -reference.digits)) * std::abs(reference.objective);
+  EXPECT_NEAR(cost, reference.objective, tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -9,6 +9,7 @@
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -74,7 +75,7 @@ TEST(RobotArm, ComesNearItsReferenceOnACoarseGrid) {
   for (const bool euler_lagrange : {true, false}) {
     RobotArm problem;
     problem.set_parameter("euler_lagrange", euler_lagrange ? 1.0 : 0.0);
-    const double reference = problem.card().reference.value().objective;
+    const double reference = tests::value_of(problem.card().reference).objective;
     const Trajectory found = tests::solve(problem, {"dmoc", 1}, Grid::uniform(24), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference, 0.02 * reference);
     EXPECT_LT(found.stage_u.lpNorm<Eigen::Infinity>(), 1.0 + 1e-9);
@@ -94,7 +95,7 @@ TEST(RobotArm, ReachesItsReferenceOnAGridWithItsSwitchingTimes) {
   const RobotArm problem;
   const Trajectory found =
       tests::solve(problem, {"dmoc", 3}, Grid::from_nodes(nodes), guessed_motion(problem), 1e-11).trajectory;
-  EXPECT_NEAR(found.cost, problem.card().reference.value().objective, 1e-7);
+  EXPECT_NEAR(found.cost, tests::value_of(problem.card().reference).objective, 1e-7);
   EXPECT_GT(found.stage_u.cwiseAbs().minCoeff(), 0.99);  // bang-bang
 }
 

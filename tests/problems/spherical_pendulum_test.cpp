@@ -6,6 +6,7 @@
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -70,7 +71,7 @@ TEST(SphericalPendulum, DoesNotKnowItsAzimuth) {
 
 TEST(SphericalPendulum, ReachesItsReference) {
   const SphericalPendulum problem;
-  const ReferenceOptimum reference = problem.card().reference.value();
+  const ReferenceOptimum reference = tests::value_of(problem.card().reference);
   for (const std::string& method : element_names()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;

@@ -10,6 +10,7 @@
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "tests/support/random_points.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -107,8 +108,9 @@ TEST(TwoLinkManipulator, BeginsAndEndsInEquilibriumAtRest) {
 TEST(TwoLinkManipulator, HasAKineticEnergyThatRotationsLeaveAlone) {
   const auto problem = uneven();
   problem->set_parameter("gravity", 0.0);
-  const ExpressionVector generator = problem->symmetry(input_vector(0, 2)).value();
-  const Eigen::Vector2d xi(generator[0].constant_value().value(), generator[1].constant_value().value());
+  const ExpressionVector generator = tests::value_of(problem->symmetry(input_vector(0, 2)));
+  const Eigen::Vector2d xi(tests::value_of(generator[0].constant_value()),
+                           tests::value_of(generator[1].constant_value()));
   tests::RandomPoints random;
   for (int trial = 0; trial < 10; ++trial) {
     const Eigen::Vector2d q = random.vector(2, -3.0, 3.0);

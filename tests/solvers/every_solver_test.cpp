@@ -20,6 +20,7 @@
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -91,7 +92,7 @@ const std::vector<Contract> contracts{
      .tells_major_iterations = false},
 };
 
-void PrintTo(const Contract& contract, std::ostream* stream) { *stream << contract.label; }
+std::ostream& operator<<(std::ostream& stream, const Contract& contract) { return stream << contract.label; }
 
 /// A program that takes several iterations, with a start.
 class Trial {
@@ -128,8 +129,8 @@ class EverySolver : public testing::TestWithParam<Contract> {
   }
   /// NLopt counts the points that it visits.
   static int iterations(const Solution& solution) {
-    return contract().tells_major_iterations ? solution.major_iterations.value()
-                                             : solution.evaluations.value().objective;
+    return contract().tells_major_iterations ? tests::value_of(solution.major_iterations)
+                                             : tests::value_of(solution.evaluations).objective;
   }
   static std::vector<KnownProgram> known_programs() {
     return contract().solves_any_program ? tests::hock_schittkowski() : std::vector<KnownProgram>();
@@ -147,13 +148,13 @@ TEST_P(EverySolver, FindsTheKnownOptimaOfHockAndSchittkowski) {
     EXPECT_EQ(solution.status, Status::solved) << solution.message;
     EXPECT_NEAR(solution.objective, known.objective, contract().objective_error);
     EXPECT_LT((solution.primal - known.optimum).norm(), contract().point_error);
-    EXPECT_LT(solution.kkt_residual.value(), contract().residual);
-    EXPECT_LT(solution.constraint_violation.value(), contract().residual);
+    EXPECT_LT(tests::value_of(solution.kkt_residual), contract().residual);
+    EXPECT_LT(tests::value_of(solution.constraint_violation), contract().residual);
     EXPECT_EQ(solution.multipliers_are_estimated, !contract().gives_multipliers);
     EXPECT_EQ(solution.major_iterations.value_or(0) > 0, contract().tells_major_iterations);
     EXPECT_EQ(solution.minor_iterations.has_value(), contract().tells_minor_iterations);
     if (contract().tells_minor_iterations) {
-      EXPECT_GE(solution.minor_iterations.value(), solution.major_iterations.value());
+      EXPECT_GE(tests::value_of(solution.minor_iterations), tests::value_of(solution.major_iterations));
     }
   }
 }
@@ -220,7 +221,7 @@ TEST_P(EverySolver, SaysInfeasibleWhereTheConstraintsCannotBeMet) {
   const Solution solution = solve(program, vector({1.0, 0.5}));
   EXPECT_NE(std::ranges::find(contract().infeasible, solution.status), contract().infeasible.end())
       << name_of(solution.status);
-  EXPECT_NEAR(solution.constraint_violation.value(), 1.0, contract().violation_error);
+  EXPECT_NEAR(tests::value_of(solution.constraint_violation), 1.0, contract().violation_error);
 }
 
 TEST_P(EverySolver, StopsAtTheIterationLimitWithItsLastPoint) {
@@ -234,7 +235,7 @@ TEST_P(EverySolver, StopsAtTheIterationLimitWithItsLastPoint) {
   ASSERT_EQ(solution.primal.size(), trial.start().size());
   // NLopt's best point may be the start.
   EXPECT_TRUE(!contract().tells_major_iterations || solution.primal != trial.start());
-  EXPECT_GT(solution.kkt_residual.value(), contract().solves_any_program ? 1e-3 : contract().tolerance);
+  EXPECT_GT(tests::value_of(solution.kkt_residual), contract().solves_any_program ? 1e-3 : contract().tolerance);
 }
 
 TEST_P(EverySolver, StopsAtTheTimeLimitByTheClockOnTheWall) {
@@ -352,7 +353,7 @@ TEST_P(EverySolver, IsCountedByWhatTheProgramSees) {
   for (const KnownProgram& known : known_programs()) {
     WatchedProgram program(known.statement, WatchedProgram::Broken::nothing);
     const Solution solution = solve(program, known.start);
-    const EvaluationCounts counts = solution.evaluations.value();
+    const EvaluationCounts counts = tests::value_of(solution.evaluations);
     const EvaluationCounts& calls = program.calls();
     WatchedProgram judged(known.statement, WatchedProgram::Broken::nothing);
     Solution again = solution;

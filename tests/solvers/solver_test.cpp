@@ -12,6 +12,7 @@
 #include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -52,8 +53,8 @@ TEST(Solvers, StopWhereRoundingBegins) {
       const Solution rough = make_solver(name, options)->solve(coarse, known.start);
       ASSERT_EQ(rough.status, Status::solved) << rough.message;
       EXPECT_LE(scaled_residual(coarse, options.tolerance, rough), 1.0);
-      EXPECT_LE(rough.major_iterations.value(), fine.major_iterations.value());
-      iterations_saved += fine.major_iterations.value() - rough.major_iterations.value();
+      EXPECT_LE(tests::value_of(rough.major_iterations), tests::value_of(fine.major_iterations));
+      iterations_saved += tests::value_of(fine.major_iterations) - tests::value_of(rough.major_iterations);
     }
     EXPECT_GT(iterations_saved, 0) << name;
   }

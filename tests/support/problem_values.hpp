@@ -6,6 +6,7 @@
 
 #include "methods/mechanics/point_function.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench::tests {
 
@@ -37,7 +38,7 @@ inline double running_cost_at(const Problem& problem, const MotionPoint& point, 
 
 inline Eigen::VectorXd generator_at(const Problem& problem, const Eigen::VectorXd& q) {
   return formulas_at(problem, {q, Eigen::VectorXd::Zero(q.size()), {}}, 0.0,
-                     [&](const ControlledState& x) { return problem.symmetry(x.q).value(); });
+                     [&](const ControlledState& x) { return tests::value_of(problem.symmetry(x.q)); });
 }
 
 /// What a picture shows at a point, by name.

@@ -35,7 +35,7 @@ class Restated final : public Problem {
   [[nodiscard]] BoundaryState initial_state() const override { return base_.initial_state(); }
   [[nodiscard]] BoundaryState final_state() const override { return base_.final_state(); }
   [[nodiscard]] double horizon() const override { return base_.horizon(); }
-  [[nodiscard]] ProblemBounds bounds() const override { return statement_; }
+  [[nodiscard]] ProblemBounds bounds() const override { return static_cast<const ProblemBounds&>(statement_); }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return statement_.path ? statement_.path(x) : ExpressionVector();
   }

@@ -7,6 +7,7 @@
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -40,7 +41,7 @@ Slopes slopes(const Problem& problem, const Scheme& scheme, const std::vector<lo
     state.push_back({step, error.state});
     momentum.push_back({step, error.momentum});
     control.push_back({step, error.control});
-    costate.push_back({step, error.costate.value()});
+    costate.push_back({step, tests::value_of(error.costate)});
   }
   const auto slope = [](const std::vector<GridError>& errors) { return fit_order(errors)->order; };
   return {slope(state), slope(momentum), slope(control), slope(costate)};

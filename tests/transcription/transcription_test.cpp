@@ -51,9 +51,11 @@ class IntervalByInterval {
       point[numbers.step()] = whole_.step_inputs()[static_cast<Eigen::Index>(k)];
       point[numbers.time()] = whole_.time_inputs()[static_cast<Eigen::Index>(k)];
       std::vector<Tape::Input> inputs;
+      inputs.reserve(point.size());
       for (const double& entry : point) inputs.push_back({&entry, false});
       std::vector<double> values(tape.output_count());
       std::vector<double*> outputs;
+      outputs.reserve(values.size());
       for (double& value : values) outputs.push_back(&value);
       tape.evaluate(1, inputs, outputs, workspace);
       for (std::size_t e = 0; e < values.size(); ++e) visitor(k, e, values[e]);

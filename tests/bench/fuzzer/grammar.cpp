@@ -179,7 +179,7 @@ const std::string& one_of(const std::vector<std::string>& words, std::mt19937_64
 
 /// A number that the option takes, near its least, so that what it counts is few.
 std::string valid_number(const Option& option, std::mt19937_64& random) {
-  if (option.type == "FLOAT" && option.least) {
+  if (option.type == "FLOAT" && option.least && option.largest) {
     return std::to_string(*option.least +
                           (*option.largest - *option.least) * 1e-3 * static_cast<double>(below(20, random)));
   }
@@ -234,6 +234,7 @@ std::vector<Program> read_grammar(const fs::path& folder) {
   }
   std::ranges::sort(binaries);
   std::vector<Program> programs;
+  programs.reserve(binaries.size());
   for (const fs::path& binary : binaries) programs.push_back(read_program(binary, names));
   return programs;
 }
@@ -277,7 +278,7 @@ std::vector<std::string> draw_line(const Program& program, std::mt19937_64& rand
     line.push_back(happens(0.8, random) ? one_of({"run.json", "torn.json", "file", "folder", "none.json"}, random)
                                         : one_of(hostile_words(), random));
   }
-  if (happens(0.03, random)) line.push_back("--colour");
+  if (happens(0.03, random)) line.emplace_back("--colour");
   if (happens(0.03, random)) line.push_back(one_of(hostile_words(), random));
   if (happens(0.05, random)) line.push_back(program.options[below(program.options.size(), random)].name);  // no value
   return line;

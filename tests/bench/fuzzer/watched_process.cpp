@@ -26,9 +26,9 @@ namespace {
   setrlimit(RLIMIT_AS, &memory);
   setrlimit(RLIMIT_CORE, &core);
   constexpr int mode = 0600;
-  const bool ready = chdir(folder) == 0 && dup2(open("/dev/null", O_RDONLY), 0) == 0 &&
-                     dup2(open(out, O_WRONLY | O_CREAT | O_TRUNC, mode), 1) == 1 &&
-                     dup2(open(err, O_WRONLY | O_CREAT | O_TRUNC, mode), 2) == 2;
+  const int nothing = open("/dev/null", O_RDONLY);  // NOLINT(*-pro-type-vararg): as POSIX declares it
+  const bool ready =
+      chdir(folder) == 0 && dup2(nothing, 0) == 0 && dup2(creat(out, mode), 1) == 1 && dup2(creat(err, mode), 2) == 2;
   if (ready) execv(binary, arguments);
   _exit(127);
 }
@@ -54,6 +54,7 @@ Ended run_watched(const std::filesystem::path& binary, const std::vector<std::st
   std::vector<std::string> words = {binary.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const std::string out = streams.string() + ".out";

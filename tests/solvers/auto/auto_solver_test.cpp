@@ -7,6 +7,7 @@
 #include "methods/transcription/transcription.hpp"
 #include "problems/cart_pole.hpp"
 #include "tests/support/small_programs.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -43,7 +44,7 @@ TEST_F(AutoSolverTest, GivesTheAnswerOfInteriorPointWhereThatSolves) {
 
 TEST_F(AutoSolverTest, GoesOnByIpoptFromTheLastPointAndCountsTheWorkOfBoth) {
   // One iteration less than it needs: the first fails near the solution, and the second finds it from there.
-  const SolverOptions options = at_most(alone_.major_iterations.value() - 1);
+  const SolverOptions options = at_most(tests::value_of(alone_.major_iterations) - 1);
   const Solution first = solve(InteriorPointSolver(options), start_);
   const Solution second = solve(IpoptSolver(options), first.primal);
   ASSERT_EQ(first.status, Status::iteration_limit);
@@ -52,8 +53,10 @@ TEST_F(AutoSolverTest, GoesOnByIpoptFromTheLastPointAndCountsTheWorkOfBoth) {
   EXPECT_EQ(both.solver, "ipopt");
   EXPECT_EQ(both.status, Status::solved);
   EXPECT_EQ(both.primal, second.primal);
-  EXPECT_EQ(both.major_iterations.value(), first.major_iterations.value() + second.major_iterations.value());
-  EXPECT_EQ(both.total_evaluations().value(), first.total_evaluations().value() + second.total_evaluations().value());
+  EXPECT_EQ(tests::value_of(both.major_iterations),
+            tests::value_of(first.major_iterations) + tests::value_of(second.major_iterations));
+  EXPECT_EQ(tests::value_of(both.total_evaluations()),
+            tests::value_of(first.total_evaluations()) + tests::value_of(second.total_evaluations()));
   EXPECT_EQ(both.linear_systems, std::nullopt);
 }
 

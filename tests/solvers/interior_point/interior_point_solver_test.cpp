@@ -21,6 +21,7 @@
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -135,8 +136,9 @@ TEST(InteriorPoint, StartsWarmFromTheMultipliersOfANeighbour) {
     options.start_multipliers = cold.multipliers;
     const Solution warm = solve_by_interior_point(program, near, options);
     expect_same_answer(warm, cold);
-    EXPECT_LE(warm.major_iterations.value(), cold.major_iterations.value() / 2);
-    EXPECT_LT(warm.major_iterations.value(), solve_by_interior_point(program, near).major_iterations.value());
+    EXPECT_LE(tests::value_of(warm.major_iterations), tests::value_of(cold.major_iterations) / 2);
+    EXPECT_LT(tests::value_of(warm.major_iterations),
+              tests::value_of(solve_by_interior_point(program, near).major_iterations));
   }
 }
 

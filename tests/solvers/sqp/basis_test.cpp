@@ -1,5 +1,7 @@
 #include "methods/solvers/sqp/quadratic/basis.hpp"
 
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
@@ -19,8 +21,8 @@ Eigen::MatrixXd dense_columns(const QuadraticProgram& program, const std::vector
 }
 
 std::vector<Eigen::Index> slacks_of(const QuadraticProgram& program) {
-  std::vector<Eigen::Index> slacks;
-  for (Eigen::Index i = 0; i < program.row_count(); ++i) slacks.push_back(program.variable_count() + i);
+  std::vector<Eigen::Index> slacks(static_cast<std::size_t>(program.row_count()));
+  std::iota(slacks.begin(), slacks.end(), program.variable_count());
   return slacks;
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench::sqp {
 namespace {
@@ -29,10 +30,9 @@ TEST(Convexification, ShiftsByLittleMoreThanTheMostNegativeReducedCurvature) {
     const Eigen::MatrixXd root = random_matrix(12, 12, generator);
     const Eigen::MatrixXd hessian = root + root.transpose();
     const Eigen::MatrixXd rows = random_matrix(5, 12, generator);
-    const double shift = convexification
-                             .shift_for(Eigen::MatrixXd(hessian.triangularView<Eigen::Lower>()).sparseView(),
-                                        rows.sparseView(), std::vector<bool>(12, true), std::vector<bool>(5, true))
-                             .value();
+    const double shift = dmocbench::tests::value_of(
+        convexification.shift_for(Eigen::MatrixXd(hessian.triangularView<Eigen::Lower>()).sparseView(),
+                                  rows.sparseView(), std::vector<bool>(12, true), std::vector<bool>(5, true)));
     const double needed = std::max(0.0, -smallest_reduced_eigenvalue(hessian, rows));
     EXPECT_GE(shift, needed);
     EXPECT_LE(shift, 1.1 * needed);
@@ -44,7 +44,9 @@ TEST(Convexification, LeavesAHessianAloneThatIsNegativeOnlyAcrossTheRows) {
   const Eigen::MatrixXd rows = Eigen::RowVector2d(1.0, 0.0);  // holds the first variable
   Convexification convexification;
   EXPECT_EQ(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {true}), 0.0);
-  EXPECT_GT(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {false}).value(), 5.0);
+  EXPECT_GT(dmocbench::tests::value_of(
+                convexification.shift_for(hessian.sparseView(), rows.sparseView(), {true, true}, {false})),
+            5.0);
   EXPECT_EQ(convexification.shift_for(hessian.sparseView(), rows.sparseView(), {false, true}, {false}), 0.0);
 }
 

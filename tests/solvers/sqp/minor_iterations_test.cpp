@@ -13,9 +13,12 @@
 #include "tests/solvers/sqp/control_bounds.hpp"
 #include "tests/solvers/sqp/random_quadratic_program.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench::sqp {
 namespace {
+
+using dmocbench::tests::value_of;
 
 /// Follows a trace with dense matrices, knowing the quadratic program and the slack start only.
 class Replay {
@@ -36,7 +39,7 @@ class Replay {
       moving_.insert(*minor.entering);
     }
     const bool first_phase = minor.phase == MinorIteration::Phase::feasibility;
-    point_ += minor.step * (first_phase ? along(*minor.entering) : to_minimiser());
+    point_ += minor.step * (first_phase ? along(value_of(minor.entering)) : to_minimiser());
     if (minor.leaving) {
       EXPECT_EQ(moving_.erase(*minor.leaving), 1U) << "leaves but did not move";
       EXPECT_NEAR(distance_to_bound(*minor.leaving), 0.0, accuracy);
@@ -152,7 +155,7 @@ TEST(MinorIterations, EveryOneCanBeReplayedFromItsSets) {
     for (const std::string& method : element_names()) {
       const auto problem = make_problem(name);
       Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(8));
-      SCOPED_TRACE(name + " " + method);
+      SCOPED_TRACE(testing::Message() << name << ' ' << method);
       replay_first_program(program, sample(program, guessed_motion(*problem)));
     }
   }
@@ -204,7 +207,7 @@ std::vector<Count> counts(const std::map<std::string, std::string>& choices, con
         SolverOptions options = with_tolerance(1e-8);
         options.passed_on = choices;
         result.push_back(
-            {.label = name + " " + method + " N = " + std::to_string(intervals),
+            {.label = (testing::Message() << name << ' ' << method << " N = " << intervals).GetString(),
              .solution = make_solver("sqp", options)->solve(program, sample(program, guessed_motion(*problem))),
              .free_variables = static_cast<int>(free_variable_count(program)),
              .rows = static_cast<int>(program.constraint_count())});
@@ -217,16 +220,17 @@ std::vector<Count> counts(const std::map<std::string, std::string>& choices, con
 
 TEST(MinorIterations, FromTheSlackBasisAreOnePerFreeVariableAndOnePerLaterMajorIteration) {
   for (const Count& count : counts({}, {8, 16, 31, 64})) {
-    EXPECT_EQ(*count.solution.minor_iterations, count.free_variables + *count.solution.major_iterations - 1)
+    EXPECT_EQ(value_of(count.solution.minor_iterations),
+              count.free_variables + value_of(count.solution.major_iterations) - 1)
         << count.label;
   }
 }
 
 TEST(MinorIterations, FromACrashBasisAreOnePerDegreeOfFreedomInstead) {
   for (const Count& count : counts({{"crash", "basis"}}, {8, 16, 31, 64})) {
-    EXPECT_EQ(*count.solution.phase_one_minor_iterations, 0) << count.label;
-    EXPECT_EQ(*count.solution.minor_iterations,
-              count.free_variables - count.rows + *count.solution.major_iterations - 1)
+    EXPECT_EQ(value_of(count.solution.phase_one_minor_iterations), 0) << count.label;
+    EXPECT_EQ(value_of(count.solution.minor_iterations),
+              count.free_variables - count.rows + value_of(count.solution.major_iterations) - 1)
         << count.label;
   }
 }
@@ -237,8 +241,10 @@ TEST(MinorIterations, DoNotDependOnPricing) {
            {{"pricing", "lowest"}}, {{"pricing", "last"}}, {{"pricing", "random"}, {"seed", "17"}}}) {
     const std::vector<Count> found = counts(choices, {12, 40});
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_EQ(*found[i].solution.minor_iterations, *expected[i].solution.minor_iterations) << found[i].label;
-      EXPECT_EQ(*found[i].solution.major_iterations, *expected[i].solution.major_iterations) << found[i].label;
+      EXPECT_EQ(value_of(found[i].solution.minor_iterations), value_of(expected[i].solution.minor_iterations))
+          << found[i].label;
+      EXPECT_EQ(value_of(found[i].solution.major_iterations), value_of(expected[i].solution.major_iterations))
+          << found[i].label;
     }
   }
 }
@@ -251,8 +257,8 @@ TEST(MinorIterations, AreMoreThanTheLawSaysWhereControlBoundsAreActive) {
   const Solution solution = make_solver("sqp", options)->solve(bounded, sample(program, guessed_motion(*problem)));
   ASSERT_EQ(solution.status, Status::solved);
   EXPECT_NEAR((solution.primal.array().abs() - 16.0).abs().minCoeff(), 0.0, 1e-9);  // a bound is active
-  EXPECT_GT(*solution.minor_iterations,
-            static_cast<int>(free_variable_count(bounded)) + *solution.major_iterations - 1);
+  EXPECT_GT(value_of(solution.minor_iterations),
+            static_cast<int>(free_variable_count(bounded)) + value_of(solution.major_iterations) - 1);
 }
 
 TEST(MinorIterations, AreAsManyAsTheObserverSaw) {
@@ -262,12 +268,12 @@ TEST(MinorIterations, AreAsManyAsTheObserverSaw) {
   SolverOptions options = with_tolerance(1e-8);
   options.on_minor_iteration = [&](const MinorIteration& minor) { seen.push_back(minor); };
   const Solution solution = make_solver("sqp", options)->solve(program, sample(program, guessed_motion(*problem)));
-  EXPECT_EQ(static_cast<int>(seen.size()), *solution.minor_iterations);
+  EXPECT_EQ(static_cast<int>(seen.size()), value_of(solution.minor_iterations));
   EXPECT_EQ(
       std::count_if(seen.begin(), seen.end(),
                     [](const MinorIteration& minor) { return minor.phase == MinorIteration::Phase::feasibility; }),
-      *solution.phase_one_minor_iterations);
-  EXPECT_EQ(seen.back().major, *solution.major_iterations);
+      value_of(solution.phase_one_minor_iterations));
+  EXPECT_EQ(seen.back().major, value_of(solution.major_iterations));
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(),
                              [](const MinorIteration& a, const MinorIteration& b) { return a.major < b.major; }));
 }
