@@ -16,7 +16,7 @@ namespace {
 constexpr auto lanes = static_cast<Eigen::Index>(instance_lanes);
 using Interleaved = Eigen::Matrix<double, lanes, Eigen::Dynamic>;  // a row per lane
 
-Transcription transcribed(const Problem& problem, const std::string& method, std::size_t stages,
+Transcription transcribed(const Problem& problem, const std::string& method, int stages,
                           const Grid& grid = Grid::uniform(5)) {
   return {problem, *make_element(method), make_tableau("gauss", stages), grid};
 }
@@ -65,7 +65,7 @@ TEST(LaneTranscription, HasInEveryLaneTheValuesAndDerivativesOfTheProgram) {
   for (const char* name : {"orbital_transfer", "two_link_manipulator", "cart_pole"}) {
     const auto problem = make_problem(name);
     for (const std::string& method : element_names()) {
-      for (const std::size_t stages : {1U, 2U}) {
+      for (const int stages : {1, 2}) {
         SCOPED_TRACE(std::string(name) + ' ' + method + ' ' + std::to_string(stages));
         Transcription program = transcribed(*problem, method, stages);
         expect_single_values(program, static_cast<unsigned>(stages));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "methods/error.hpp"
@@ -12,31 +11,16 @@ namespace dmocbench::batch {
 
 namespace {
 
-using interior_point::Filter;
-
 // Constants of Wächter and Biegler, by their names there.
 constexpr double mu_0 = 0.1;
-constexpr double kappa_1 = 1e-2;
 constexpr double kappa_epsilon = 10.0;
 constexpr double kappa_mu = 0.2;
 constexpr double theta_mu = 1.5;
-constexpr double tau_min = 0.99;
-constexpr double eta_phi = 1e-8;
-constexpr double delta = 1.0;
-constexpr double s_theta = 1.1;
-constexpr double s_phi = 2.3;
-constexpr double gamma_alpha = 0.05;
-constexpr double theta_min_ratio = 1e-4;
-constexpr double theta_max_ratio = 1e4;
 // Those of interior_point_solver.cpp.
-constexpr double of_warm_start = 1e-6;
 constexpr double short_step = 0.1;
 constexpr double runaway = 1e8;
 constexpr double largest_estimate = 1e3;
-/// A step that bounds shorten by less counts as one of Newton's.
-constexpr double nearly_full = 0.9;
-
-Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
+constexpr double nearly_full = 0.9;  // a step that bounds shorten by less counts as one of Newton's
 
 LaneValues values_of(const LaneProblem& problem) {
   return {LaneVector(problem.constraint_count()), OfLanes::Zero(), OfLanes::Zero(), OfLanes::Zero(), OfLanes::Zero()};
@@ -75,13 +59,6 @@ void LaneRun::run() {
     judge();
     desk_.count_round();
   }
-}
-
-template <class Value>
-OfLanes LaneRun::of_lanes(const Value& value) const {
-  OfLanes result;
-  for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[index_of(lane)] = value(lanes_[lane]);
-  return result;
 }
 
 bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].ticket.instance.multipliers.size() > 0; }
@@ -218,127 +195,6 @@ void LaneRun::solve_systems() {
       give_up(number);
     }
   }
-}
-
-/// From the fraction to the boundary (15a), halve α until filter and decrease accept the point.
-void LaneRun::search_lines() {
-  const OfLanes mu = of_lanes([](const Lane& lane) { return lane.mu; });
-  const OfLanes tau = (1.0 - mu).max(tau_min);  // (8)
-  length_.setZero();
-  if (std::ranges::any_of(lanes_, &Lane::moves)) {
-    OfLanes derivative;
-    lane_loops().dot(problem_.gradient().data(), step_.data(), problem_.variable_count(), derivative.data());
-    share_of_step_ = problem_.length_of(step_, primal_, derivative, values_.objective);
-    OfLanes longest = OfLanes::Ones();
-    if (problem_.has_bounds()) {
-      derivative += mu * problem_.bounds().barrier_derivative(primal_, step_);
-      longest = problem_.bounds().fraction_to_boundary(primal_, step_, tau);
-    }
-    for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-      if (!lanes_[lane].moves) continue;
-      lanes_[lane].derivative = derivative[index_of(lane)];
-      length_[index_of(lane)] = longest[index_of(lane)];
-      begin_search(lane);
-    }
-  }
-  LaneMask fresh{};
-  for (std::size_t lane = 0; lane < instance_lanes; ++lane) fresh[lane] = lanes_[lane].phase == Phase::fresh;
-  search(fresh);
-  primal_.swap(trial_);
-  std::swap(values_, trial_values_);
-  lane_loops().set_to_sum(multipliers_.data(), multipliers_.data(), length_.data(), multiplier_step_.data(),
-                          multipliers_.size());
-  if (!problem_.has_bounds()) return;
-  // The step of z is that from the point before, which now stands in `trial_`.
-  problem_.bounds().set_multiplier_step(trial_, z_, mu, step_, z_step_);
-  const OfLanes of_z = problem_.bounds().multiplier_fraction_to_boundary(z_, z_step_, tau);
-  problem_.bounds().update_multipliers(primal_, z_step_, (length_ > 0.0).select(of_z, 0.0), mu, z_);
-}
-
-/// Evaluates trial points until all lanes have one that is accepted. A lane that has one keeps its length, and gets the
-/// same values again.
-void LaneRun::search(const LaneMask& fresh) {
-  bool is_first = true;
-  const OfLanes push =
-      of_lanes([](const Lane& lane) { return lane.ticket.instance.multipliers.size() > 0 ? of_warm_start : kappa_1; });
-  do {
-    lane_loops().set_to_sum(trial_.data(), primal_.data(), length_.data(), step_.data(), primal_.size());
-    problem_.evaluate(fresh, push, trial_, trial_values_);
-    for (std::size_t number = 0; number < instance_lanes; ++number) {
-      Lane& lane = lanes_[number];
-      if (is_first && fresh[number]) evaluate_start(number);
-      if (!lane.is_searching) continue;
-      lane.is_searching = !try_step(number);
-      if (!lane.is_searching) continue;
-      length_[index_of(number)] *= 0.5;
-      if (length_[index_of(number)] >= lane.smallest_length) continue;
-      length_[index_of(number)] = 0.0;
-      give_up(number);
-    }
-    is_first = false;
-  } while (std::ranges::any_of(lanes_, &Lane::is_searching));
-}
-
-void LaneRun::begin_search(std::size_t number) {
-  constexpr double shortest = 1e-14;
-  Lane& lane = lanes_[number];
-  lane.is_newton = lane.shift.value() == 0.0;
-  lane.shift.keep();
-  lane.is_searching = true;
-  const double theta = values_.theta[index_of(number)];
-  double length = Filter::margin;  // (23)
-  if (lane.derivative < 0.0) {
-    length = std::min(length, -Filter::margin * theta / lane.derivative);
-    if (theta <= lane.theta_min) {
-      length = std::min(length, delta * std::pow(theta, s_theta) / std::pow(-lane.derivative, s_phi));
-    }
-  }
-  lane.smallest_length = std::max(gamma_alpha * length, shortest);
-}
-
-double LaneRun::barrier_function(std::size_t lane, const LaneValues& values) const {
-  return values.objective[index_of(lane)] + lanes_[lane].mu * values.barrier[index_of(lane)];
-}
-
-/// Whether filter and decrease allow the trial point, A-5.2 to. Differences within rounding count as
-/// none.
-bool LaneRun::try_step(std::size_t number) {
-  Lane& lane = lanes_[number];
-  const double length = length_[index_of(number)];
-  const double theta_before = values_.theta[index_of(number)];
-  const double theta = trial_values_.theta[index_of(number)];
-  const double objective = values_.objective[index_of(number)];
-  const double phi_before = barrier_function(number, values_);
-  const double phi = barrier_function(number, trial_values_);
-  if (!std::isfinite(theta) || !std::isfinite(phi)) return false;
-  constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
-  const double rounding = safety * std::sqrt(static_cast<double>(problem_.variable_count())) *
-                          std::numeric_limits<double>::epsilon() *
-                          (std::abs(objective) + std::abs(phi_before - objective));
-  if (!lane.filter.accepts(theta - rounding_of_theta_, phi - rounding)) return false;
-  const bool is_nearer = theta <= (1.0 - Filter::margin) * theta_before;  // (18a)
-  const bool is_rounding = theta <= rounding_of_theta_ && theta_before <= rounding_of_theta_;
-  const bool is_descent = lane.derivative < 0.0 &&
-                          length * std::pow(-lane.derivative, s_phi) > delta * std::pow(theta_before, s_theta);  // (19)
-  if (theta_before <= lane.theta_min && (is_descent || is_rounding)) {
-    // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
-    const bool is_decrease = phi - phi_before <= eta_phi * length * lane.derivative + rounding;  // (20)
-    return is_decrease || (is_rounding && is_nearer);
-  }
-  const bool is_lower = phi - phi_before <= -Filter::margin * theta_before + rounding;  // (18b)
-  if (!is_nearer && !is_lower) return false;
-  lane.filter.add(theta_before, phi_before);  // (22)
-  return true;
-}
-
-/// A-1, with the values at the start.
-void LaneRun::evaluate_start(std::size_t number) {
-  Lane& lane = lanes_[number];
-  const double theta = trial_values_.theta[index_of(number)];
-  if (!std::isfinite(theta) || !std::isfinite(trial_values_.objective[index_of(number)])) return give_up(number);
-  lane.theta_min = theta_min_ratio * std::max(1.0, theta);
-  lane.theta_max = theta_max_ratio * std::max(1.0, theta);
-  lane.filter.reset(lane.theta_max);
 }
 
 void LaneRun::differentiate() {

@@ -16,6 +16,12 @@
 
 namespace dmocbench::batch {
 
+[[nodiscard]] constexpr Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
+
+/// How far a start is pushed away from its bounds: κ_1 of a cold one, and that of a warm one.
+inline constexpr double kappa_1 = 1e-2;
+inline constexpr double of_warm_start = 1e-6;  // μ, too
+
 /// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
 /// with one, without restoration and second-order corrections. Numbers in brackets are the equations, A-1 to A-9 the
 /// steps, of Wächter and Biegler (2006).
@@ -83,7 +89,11 @@ class LaneRun {
   [[nodiscard]] bool is_anyone(Phase phase) const;
   /// A number of every lane, `value(lane)`.
   template <class Value>
-  [[nodiscard]] OfLanes of_lanes(const Value& value) const;
+  [[nodiscard]] OfLanes of_lanes(const Value& value) const {
+    OfLanes result;
+    for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[index_of(lane)] = value(lanes_[lane]);
+    return result;
+  }
 
   const BatchOptions& options_;
   Desk& desk_;

@@ -30,6 +30,14 @@ namespace {
 /// The desk of one batch, for all its threads.
 class BatchDesk final : public Desk {
  private:
+  /// What `use` makes of the instance as a program of its own.
+  template <class Use>
+  auto with_instance(const BatchInstance& instance, const Use& use) {
+    if (options_.set_parameters) options_.set_parameters(instance.parameters);
+    InstanceProgram program(program_, instance.start, instance.rows);
+    return use(program);
+  }
+
   Solution solve_alone(const BatchInstance& instance) {
     SolverOptions single;
     single.tolerance = options_.tolerance;
@@ -45,14 +53,6 @@ class BatchDesk final : public Desk {
       refused.message = error.what();
       return refused;
     }
-  }
-
-  /// What `use` makes of the instance as a program of its own.
-  template <class Use>
-  auto with_instance(const BatchInstance& instance, const Use& use) {
-    if (options_.set_parameters) options_.set_parameters(instance.parameters);
-    InstanceProgram program(program_, instance.start, instance.rows);
-    return use(program);
   }
 
  public:

@@ -22,7 +22,7 @@ namespace {
 
 /// A program and what its instances are made of.
 struct Case {
-  Case(const std::string& name, const std::string& method, std::size_t stages, std::size_t intervals,
+  Case(const std::string& name, const std::string& method, int stages, std::size_t intervals,
        const std::string& parameter = "", double value = 0.0)
       : problem(make_problem(name)) {
     if (!parameter.empty()) problem->set_parameter(parameter, value);
@@ -119,7 +119,7 @@ bool are_same(const Solution& a, const Solution& b) {
 
 TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForEveryFamilyAndSeveralStages) {
   for (const std::string& method : element_names()) {
-    for (const std::size_t stages : {1U, 2U}) {
+    for (const int stages : {1, 2}) {
       SCOPED_TRACE(method + ' ' + std::to_string(stages));
       Case("orbital_transfer", method, stages, 16).expect_answers_of_single_solves(12, 0.02);
     }
@@ -143,6 +143,41 @@ TEST(SolveBatch, StartsWarmFromMultipliers) {
     EXPECT_EQ(solution.status, Status::solved);
     EXPECT_LE(*solution.major_iterations, 3);
   }
+}
+
+TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForOtherParameters) {
+  const auto problem = make_problem("two_link_manipulator");
+  const std::string name = "mass_1";
+  Transcription program(*problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(16),
+                        OpenParameters{{name}});
+  const Eigen::VectorXd start = sample(program, guessed_motion(*problem));
+  const auto number = std::ranges::find(problem->parameters(), name, &Parameter::name) - problem->parameters().begin();
+  const auto parameters = [&](std::size_t index) {
+    Eigen::VectorXd values = program.parameter_values();
+    values[number] *= 1.0 + 0.01 * static_cast<double>(index);
+    return values;
+  };
+  constexpr std::size_t count = 11;
+  std::vector<BatchInstance> instances(count);
+  for (std::size_t i = 0; i < count; ++i)
+    instances[i] = {.start = start, .rows = {}, .multipliers = {}, .parameters = parameters(i)};
+  std::vector<Solution> solutions(count);
+  const auto next = [&](std::size_t index, BatchInstance& instance) {
+    if (index < count) instance = instances[index];
+    return index < count;
+  };
+  BatchOptions options;
+  options.set_parameters = parameters_of(program);
+  solve_batch(
+      program, lanes_of(program), start, next,
+      [&](std::size_t index, const Solution& solution) { solutions[index] = solution; }, options);
+  for (std::size_t i = 0; i < count; ++i) {
+    program.set_parameters(instances[i].parameters);
+    const Solution alone = InteriorPointSolver().solve(program, start);
+    EXPECT_EQ(solutions[i].status, alone.status) << i;
+    EXPECT_NEAR(solutions[i].objective, alone.objective, 1e-10 * std::abs(alone.objective)) << i;
+  }
+  EXPECT_GT(std::abs(solutions[1].objective - solutions[0].objective), 1e-6);
 }
 
 TEST(SolveBatch, ChangesNoDigitOfAnAnswerWhateverItsNeighboursAreAndHoweverManyThreadsThereAre) {
@@ -217,7 +252,7 @@ TEST(SolveBatch, EndsWhenAskedToAndPassesOnWhatIsThrown) {
   const std::vector<BatchInstance> instances = orbit.instances(64, 0.02);
   BatchOptions options;
   options.stop_requested = [] { return true; };
-  orbit.solve(instances, options);
+  static_cast<void>(orbit.solve(instances, options));
   EXPECT_LT(orbit.summary.instances, instances.size());
   const auto fails = [](std::size_t, const Solution&) { throw Error("full"); };
   const auto next = [&](std::size_t index, BatchInstance& instance) {
