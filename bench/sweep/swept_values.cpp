@@ -59,9 +59,9 @@ std::vector<std::vector<double>> sampled(const std::vector<SweptQuantity>& quant
   return instances;
 }
 
-double on_grid(const SweptQuantity& quantity, int i) {
-  if (i + 1 == *quantity.count) return quantity.upper;
-  return quantity.lower + (quantity.upper - quantity.lower) * i / (*quantity.count - 1);
+double on_grid(const SweptQuantity& quantity, int i, int count) {
+  if (i + 1 == count) return quantity.upper;
+  return quantity.lower + (quantity.upper - quantity.lower) * i / (count - 1);
 }
 
 void require_few(double count) {
@@ -114,11 +114,12 @@ std::vector<std::vector<double>> instances_of(const std::vector<SweptQuantity>& 
   if (samples) return sampled(quantities, *samples, seed);
   std::vector<std::vector<double>> instances{{}};
   for (const SweptQuantity& quantity : quantities) {
+    const int count = quantity.count.value_or(1);
     std::vector<std::vector<double>> longer;
     for (const std::vector<double>& values : instances) {
-      for (int i = 0; i < *quantity.count; ++i) {
+      for (int i = 0; i < count; ++i) {
         longer.push_back(values);
-        longer.back().push_back(on_grid(quantity, i));
+        longer.back().push_back(on_grid(quantity, i, count));
       }
     }
     instances = std::move(longer);
@@ -130,7 +131,10 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
   for (const SweptQuantity& quantity : quantities) {
     if (has_parameter(problem, quantity.name)) continue;
     const auto entry = end_entry(quantity.name);
-    if (!entry) static_cast<void>(problem.parameter(quantity.name));  // throws, with the names that there are
+    if (!entry) {
+      static_cast<void>(problem.parameter(quantity.name));  // throws, with the names that there are
+      continue;
+    }
     if (entry->number >= problem.configuration_size()) {
       throw Error(fmt::format("--over {}: the end states of {} have {} entries of q and of v", quantity.name,
                               problem.name(), problem.configuration_size()));

@@ -48,9 +48,9 @@ Eigen::MatrixXd conditions_matrix(const LocalFunctions& functions, const Eigen::
   const auto unknowns = static_cast<Eigen::Index>(functions.inputs.unknowns);
   const auto size = unknowns + static_cast<Eigen::Index>(functions.inputs.rows);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-  const auto add = [&](Eigen::Index row, Eigen::Index column, double value) {
-    matrix(row, column) += value;
-    if (row != column) matrix(column, row) += value;
+  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
+    matrix(i, j) += value;
+    if (i != j) matrix(j, i) += value;
   };
   for (std::size_t e = 0; e < functions.hessian.rows.size(); ++e) {
     add(static_cast<Eigen::Index>(functions.hessian.rows[e]), static_cast<Eigen::Index>(functions.hessian.columns[e]),
@@ -112,7 +112,7 @@ class BackwardRecursion {
   [[nodiscard]] double stiffness(Eigen::Index variable) const {
     return is_fixed(variable) ? 0.0 : conditions_.diagonal[variable];
   }
-  [[nodiscard]] Eigen::Index place(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index k) const {
+  [[nodiscard]] static Eigen::Index place(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index k) {
     return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(k)));
   }
   [[nodiscard]] Eigen::MatrixXd matrix_of_interval(Eigen::Index k) const;
@@ -202,7 +202,7 @@ Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
     const Tape tape(schedule);
     Tape::Workspace workspace(tape);
     std::vector<Tape::Input> bound;
-    for (Eigen::Index i = 0; i < inputs.size(); ++i) bound.push_back({&inputs[i]});
+    for (const double& input : inputs) bound.push_back({&input});
     Eigen::MatrixXd row(1, static_cast<Eigen::Index>(tape.output_count()));
     std::vector<double*> outputs;
     for (Eigen::Index i = 0; i < row.cols(); ++i) outputs.push_back(&row(0, i));
@@ -224,9 +224,9 @@ Deviations BackwardRecursion::at_end() {
   const bool has_fixed_momentum = is_dmoc_ && velocity == 0;
   Equations equations(node + velocity + ties + (has_fixed_momentum ? n_ : 0), 2 * states + velocity + own);
   const Eigen::Index tie = node + velocity;
-  if (ends.size() > 0) {
+  if (const auto& functions = program_.end_functions()) {
     const Eigen::Index first = node + (shape.first_has_velocity ? n_ : 0);  // unknowns of the first end
-    const auto unknowns = static_cast<Eigen::Index>(program_.end_functions()->inputs.unknowns);
+    const auto unknowns = static_cast<Eigen::Index>(functions->inputs.unknowns);
     const Eigen::Index first_tie = unknowns + (shape.first_has_velocity ? n_ : 0);
     const auto block = [&](Eigen::Index row, Eigen::Index rows, Eigen::Index column, Eigen::Index columns) {
       return ends.block(row, column, rows, columns);
