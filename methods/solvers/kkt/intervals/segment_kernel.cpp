@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <type_traits>
 
-// A step is inlined into its sweep so that its blocks can live in registers.
+// A step is inlined into its sweep so that its blocks can live in registers; CMake says otherwise for sanitizers.
+#ifndef DMOCBENCH_INLINE
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
+#endif
 
 // Compiled once per instruction set, each time in a namespace of its own: of two functions of the same name, which were
 // compiled for different sets, a linker would keep either.
