@@ -49,7 +49,7 @@ constexpr double of_warm_start = 1e-6;  // μ, and the push away from bounds
 constexpr double push_of_descent = 1e-8;
 constexpr int most_jammed = 20;     // feasibility steps in a row that bounds leave no room
 constexpr double short_step = 0.1;  // see has_runaway_multipliers
-constexpr double runaway = 1e8;
+constexpr double runaway = 1e6;
 constexpr double correctable = 2.0;   // see try_second_order_correction
 constexpr double most_growth = 10.0;  // of the violation in one step, see try_step
 

@@ -36,6 +36,7 @@ TEST(SymmetricFactorisation, CountsNegativeEigenvaluesAndSolves) {
 
 /// What MUMPS calls is the subroutine that the dynamic linker finds first.
 TEST(SymmetricFactorisation, ThrowsWhereMumpsWouldEndTheProcess) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): dlsym knows no functions
   auto* const abort = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "mumps_abort_"));
   ASSERT_NE(abort, nullptr);
   EXPECT_THROW(abort(), std::bad_alloc);
