@@ -55,7 +55,8 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
   do for [kind in kinds] {
     eval begin_figure(kind, figure, 1300, 620)
     set multiplot title title_text(problem_label(problem).": where the methods end from the guess and perturbed guesses",\
-        sprintf("%s; N = %s.%s", conditions("local_minima"), entry(group, "intervals"), found > drawn\
+        sprintf("Cold starts (the guess and perturbed guesses) by %s; tolerance %s; N = %s.%s",\
+        solver_label(entry(word(distinct(shares, "solver", group, ""), 1), "solver")), told("local_minima", "tolerance"), entry(group, "intervals"), found > drawn\
             ? sprintf(" The %d lowest of %d confirmed minima.", drawn, found) : ""),\
         "Unconfirmed: replayed one by one, the intervals do not join; the answer is no motion.")\
         offset 0, -0.4
@@ -67,7 +68,8 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     }
     set xtics add ("un-\nconfirmed" drawn + 1, "not solved,\nor too coarse" drawn + 2)
     set arrow 1 from first drawn + 0.5, graph 0 to first drawn + 0.5, graph 1 nohead linecolor rgb grey dashtype (4, 4)
-    set ytics nomirror; set grid noxtics ytics
+    if (highest < 10) { set ytics nomirror 1 } else { set ytics nomirror autofreq }
+    set grid noxtics ytics
     set format y "%g"
     set xrange [0.5:drawn + 2.5]
     set yrange [0:1.1 * highest]

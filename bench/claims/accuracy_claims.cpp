@@ -53,6 +53,29 @@ Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
       dmoc.text("intervals"), dmoc.needed("momentum_defect_max"), hamiltonian.needed("momentum_defect_max"), ratio);
 }
 
+/// The sample in which Ipopt is the referee of interior_point: the same programs by both.
+Finding interior_point_beside_ipopt(const ResultTables& tables, const std::string& problem) {
+  const Selection by_ipopt = tables.rows("convergence", problem).where(is_midpoint).where("solver", "ipopt");
+  const Selection ours =
+      tables.rows("convergence_stages", problem).where(is_midpoint).where("solver", "interior_point");
+  double largest = 0.0;
+  std::size_t compared = 0;
+  for (const Row& row : ours) {
+    const Selection partner = by_ipopt.matching(row, {"method", "intervals"});
+    if (partner.empty()) continue;
+    require(is_usable(row) && is_usable(partner.front()), "{} and {}: not solved by both", row.place(),
+            partner.front().place());
+    largest = std::max(largest, std::abs(quotient(row, partner.front(), "objective") - 1.0));
+    ++compared;
+  }
+  require(compared > 1, "convergence.csv and convergence_stages.csv have less than two programs of {} by both solvers",
+          problem);
+  constexpr double equal = 1e-9;
+  return found(largest < equal,
+               "costs of {} programs by interior_point and by Ipopt differ by at most {:.0e}, relative", compared,
+               largest);
+}
+
 }  // namespace
 
 Claims accuracy_claims() {
@@ -74,7 +97,15 @@ Claims accuracy_claims() {
            .states = "staying on Q x Q costs no digits",
            .judge = rounding_floor,
            .cause = "DMOC's momenta are differences of positions divided by h, so that rounding grows as 1/h",
-           .evidence = {"consistency.csv", "figures/{}_momentum.svg"}}};
+           .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
+          {.id = "interior_point_beside_ipopt",
+           .problems = of_paper,
+           .where = "section 4.1, SQP Method",
+           .whose = Whose::ours,
+           .states = "interior_point, which solves where the solver is not the question, has the answers of Ipopt",
+           .judge = interior_point_beside_ipopt,
+           .condition = "warm, from a common start; the answers of both are refined by Newton steps",
+           .evidence = {"convergence.csv", "convergence_stages.csv"}}};
 }
 
 }  // namespace dmocbench

@@ -111,6 +111,7 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"iterations", "iterations", columns(solve, {"crash"}), status},
       {"iterations_tolerances", "iterations_tolerances", columns(solve, {"crash", "tolerance"}), status},
       {"iterations_limited_memory", "iterations_limited_memory", columns(solve, {"crash"}), status},
+      {"iterations_bounds", "iterations_bounds", columns(solve, {"crash"}), status},
       {"iterations_common", "iterations_common", columns(solve, {"crash"}), status},
       {"derivatives", "derivatives", columns(solve, {"hessian", "tolerance"}), status},
       {"derivatives_cold", "derivatives_cold", columns(solve, {"hessian", "tolerance"}), status},

@@ -291,6 +291,9 @@ inline std::map<std::string, Rows> all_rows() {
     row.set("predicted_minors", row.needed("minor_iterations"));
   }
   rows["iterations_limited_memory"] = rows["iterations"];
+  rows["iterations_bounds"] = rows["iterations"];
+  for (Row& row : rows["iterations_bounds"]) row.set("predicted_minors", row.needed("minor_iterations") - 1.0);
+  add_rows_of(rows["iterations_bounds"], oscillator, [](const Row& row) { return row.text("problem") == orbit; });
   rows["iterations_common"] = rows["iterations"];
   for (Row& row : rows["iterations_common"]) {
     row.set("solver", "nlopt");
@@ -299,6 +302,14 @@ inline std::map<std::string, Rows> all_rows() {
   }
   std::erase_if(rows["iterations_common"], [](const Row& row) { return row.text("crash") == "basis"; });
   rows["convergence_stages"] = stages_rows();
+  for (Row& row : rows["convergence_stages"]) {
+    row.set("solver", "interior_point");
+    row.set("objective", 4e-5);
+  }
+  for (Row& row : rows["convergence"]) {
+    row.set("solver", "ipopt");
+    row.set("objective", 4e-5);
+  }
   rows["convergence_equal_accuracy"] = equal_accuracy_rows();
   rows["convergence_512"] = rows["convergence"];
   for (Row& row : rows["convergence_512"]) {

@@ -157,6 +157,14 @@ std::vector<Mistake> mistakes_about_cost() {
        on_orbit("minor_iterations_equal_variable_ratio")},
       {"quasi-Newton iterations that all methods need alike", "iterations_limited_memory",
        set(every_row, "minor_iterations", 100LL), on_orbit("minor_iteration_ratio_by_quasi_newton")},
+      {"minor iterations with bounds that all methods need alike", "iterations_bounds",
+       [](Rows& rows) {
+         set(every_row, "minor_iterations", 1000LL)(rows);
+         set(every_row, "predicted_minors", 900LL)(rows);
+       },
+       "examples/minor_iteration_ratio_with_active_bounds"},
+      {"another optimum by interior_point", "convergence_stages", scale(has("method", "dmoc"), "objective", 1.0 + 1e-7),
+       on_orbit("interior_point_beside_ipopt")},
       {"evaluations that all methods need alike", "iterations_common", set(every_row, "evaluations", 100LL),
        on_orbit("evaluation_ratio_by_slsqp")},
       {"DMOC with the variables of collocation", "convergence",
