@@ -95,7 +95,7 @@ PartFile read_part(const std::filesystem::path& path) {
                 .table = content.substr(std::min(line + 1, content.size()))};
   const bool is_whole = content.substr(0, space) == checksum_in_words(description, file.table) &&
                         file.description.is_object() && file.description.contains("part") &&
-                        file.description.contains("identity");
+                        file.description.contains("identity") && file.description.contains("commit");
   if (is_whole) return file;
   throw Error(fmt::format("{} is no part as it was written; remove it and run that part again", path.string()));
 }
@@ -111,18 +111,24 @@ std::vector<PartFile> read_all_parts(const std::vector<std::filesystem::path>& f
                               file.part().of, first.path.string(), first.part().of));
     }
     require_same_run(fmt::format("{} is of another run than {}", file.path.string(), first.path.filename().string()),
-                     file.description.at("identity"), first.description.at("identity"));
+                     file.description, first.description);
   }
   require_each_once(files);
   return files;
 }
 
-void require_same_run(const std::string& who, const Json& identity, const Json& wanted) {
-  const Json difference = Json::diff(wanted, identity);
+void require_same_run(const std::string& who, const Json& description, const Json& wanted) {
+  const Json& identity = description.at("identity");
+  const Json& wanted_identity = wanted.at("identity");
+  const Json difference = Json::diff(wanted_identity, identity);
   if (difference.empty()) return;
   const std::string path = difference.front().at("path");
-  throw Error(fmt::format("{}: {} is {}, not {}; run that part again, or remove it", who, entry_in_words(path),
-                          value_at(identity, path), value_at(wanted, path)));
+  const std::string commits =
+      path != "/program" ? ""
+                         : fmt::format(" (built from commit {}, not {})", description.at("commit").get<std::string>(),
+                                       wanted.at("commit").get<std::string>());
+  throw Error(fmt::format("{}: {} is {}, not {}{}; run that part again, or remove it", who, entry_in_words(path),
+                          value_at(identity, path), value_at(wanted_identity, path), commits));
 }
 
 std::string in_ranges(const std::vector<std::size_t>& numbers) {

@@ -38,8 +38,9 @@ void write_part(const PartFile& file);
 [[nodiscard]] std::vector<PartFile> read_all_parts(const std::vector<std::filesystem::path>& folders,
                                                    const std::string& name);
 
-/// Throws `Error` that says in what two runs differ: "revolutions of orbital_transfer is 3, not 2". `who` begins it.
-void require_same_run(const std::string& who, const nlohmann::ordered_json& identity,
+/// Throws `Error` that says in what two runs differ: "parameters orbital_transfer revolutions is 3, not 2". `who`
+/// begins it. Both are descriptions with a `commit`, which is only named, and an `identity`, which is compared.
+void require_same_run(const std::string& who, const nlohmann::ordered_json& description,
                       const nlohmann::ordered_json& wanted);
 
 /// "3, 7 to 9": ascending numbers in words.

@@ -57,6 +57,17 @@ void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
       {"of", files.size()}, {"first_utc_time", first}, {"last_utc_time", last}, {"machines", std::move(machines)}};
 }
 
+/// The command line of the whole run, from that of one that joins parts.
+void forget_joining(Json& command_line) {
+  Json words = Json::array();
+  for (std::size_t i = 0; i < command_line.size(); ++i) {
+    const auto word = command_line[i].get<std::string>();
+    if (word == "--join") ++i;  // and the folder
+    if (word != "--join" && !word.starts_with("--join=")) words.push_back(word);
+  }
+  command_line = std::move(words);
+}
+
 }  // namespace
 
 PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const Json& metadata,
@@ -104,9 +115,13 @@ void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
     row.set(case_column, i + 1);
     table.append(std::move(row));
   }
-  const Json description{{"part", part_->in_words()},           {"identity", identity_},
-                         {"rows", table.rows().size()},         {"command_line", metadata.at("command_line")},
-                         {"utc_time", metadata.at("utc_time")}, {"machine", machine_of(metadata)},
+  const Json description{{"part", part_->in_words()},
+                         {"commit", metadata.at("commit")},
+                         {"identity", identity_},
+                         {"rows", table.rows().size()},
+                         {"command_line", metadata.at("command_line")},
+                         {"utc_time", metadata.at("utc_time")},
+                         {"machine", machine_of(metadata)},
                          {"findings", experiment_.findings()}};
   write_part({.path = file(), .description = description, .table = table.csv()});
 }
@@ -134,7 +149,7 @@ RowsOfCases PartsOfRun::join(Json& metadata) const {
   const ExperimentOptions& options = experiment_.card().options;
   const std::vector<PartFile> files = read_all_parts({options.join.begin(), options.join.end()}, options.name);
   require_same_run(fmt::format("{} is of another run than this", files.front().path.string()),
-                   files.front().description.at("identity"), identity_);
+                   files.front().description, {{"commit", metadata.at("commit")}, {"identity", identity_}});
   RowsOfCases rows(cases_.size());
   for (const PartFile& file : files) {
     take_rows(file, rows);
@@ -143,6 +158,7 @@ RowsOfCases PartsOfRun::join(Json& metadata) const {
   const auto lost = std::ranges::find(rows, false, &std::optional<Row>::has_value);
   if (lost != rows.end()) throw Error(fmt::format("no part has a row of {}", cases_[lost - rows.begin()].label()));
   describe_parts(files, metadata);
+  forget_joining(metadata.at("command_line"));
   return rows;
 }
 

@@ -54,11 +54,10 @@ Json parameters_of(const std::vector<Case>& cases) {
 Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
                  const std::vector<std::pair<std::string, std::string>>& options) {
   Json identity{{"experiment", card.name}};
-  for (const char* const key :
-       {"commit", "dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
+  for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
     identity[key] = metadata.at(key);
   }
-  // A tree that was changed has programs of several kinds under one commit.
+  // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
   identity["program"] = fmt::format("{:08x}", crc_32(read_file("/proc/self/exe")));
   identity["parameters"] = parameters_of(cases);
   identity["options"] = Json::object();

@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-/// What two parts have to agree in to be parts of the same run: program and commit, compiler, instruction set and
+/// What two parts have to agree in to be parts of the same run: program, compiler, instruction set and
 /// libraries, parameters of the problems, options (those apart that say where and how fast: --out, --name, --jobs,
 /// --verbose, and those of parts), the cases, and the file that solves start from. `metadata` are those of the run
 /// (`describe_run`), `options` the names and values of the command line.

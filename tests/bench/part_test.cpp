@@ -102,7 +102,7 @@ using PartFiles = tests::InTemporaryFolder;
 
 TEST_F(PartFiles, AreReadAsTheyWereWritten) {
   const PartFile written{.path = folder() / "1-of-2.part",
-                         .description = {{"part", "1/2"}, {"identity", {{"x", 0.1}}}},
+                         .description = {{"part", "1/2"}, {"identity", {{"x", 0.1}}}, {"commit", "a"}},
                          .table = "case,message\n3,\"a, \"\"b\"\"\nc\"\n"};
   write_part(written);
   const PartFile read = read_part(written.path);
@@ -117,7 +117,7 @@ TEST_F(PartFiles, AreNoneWithOneByteMissingOrChanged) {
     std::ofstream(path) << content;
     expect_error_naming({"1-of-1.part"}, [&] { static_cast<void>(read_part(path)); });
   };
-  write_part({.path = path, .description = {{"part", "1/1"}, {"identity", 1}}, .table = "case\n1\n"});
+  write_part({.path = path, .description = {{"part", "1/1"}, {"identity", 1}, {"commit", "a"}}, .table = "case\n1\n"});
   const std::string whole = read_file(path);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string changed = whole;
