@@ -94,19 +94,8 @@ TEST(Accuracy, FallsOneOrderFasterThanTheErrorOfTheNodesOrOfTheControls) {
   }
 }
 
-/// q̈ = q̇² + u from q̇ = 4: the velocity 4/(1 - 4t) leaves every bound at t = ¼.
-class BlowUp final : public tests::SmallProblem {
- public:
-  BlowUp() : SmallProblem("blow_up", at(0.0, 4.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    return one(x.v[0] * x.v[0] + x.u[0]);
-  }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-};
-
 TEST(Accuracy, IsInfiniteWhereTheMotionEndsWithinAnInterval) {
-  const BlowUp problem;
+  const tests::BlowUp problem(4.0);
   const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(2));
   Trajectory motion = read_trajectory(*program, sample(*program, guessed_motion(problem)), Eigen::VectorXd());
   motion.stage_u.setZero();

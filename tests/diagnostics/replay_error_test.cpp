@@ -93,19 +93,8 @@ TEST(CostByIntervals, BeginsEveryIntervalAtItsOwnNode) {
   EXPECT_NEAR(cost_by_intervals(problem, torn), 0.5 * (1.0 + 4.0 + 9.0 + 0.25), 1e-11);
 }
 
-/// q̈ = q̇² from q̇ = 2: the velocity 2/(1 - 2t) leaves every bound at t = ½.
-class BlowUp final : public tests::SmallProblem {
- public:
-  BlowUp() : SmallProblem("blow_up", at(0.0, 2.0), at(1.0, 0.0), 1.0, 1) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    return one(x.v[0] * x.v[0] + x.u[0]);
-  }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-};
-
 TEST(ReplayError, ThrowsWhereTheMotionEndsBeforeTheHorizon) {
-  const BlowUp problem;
+  const tests::BlowUp problem(2.0);
   tests::expect_error_naming({"replay", "interval"}, [&] {
     static_cast<void>(replay_error(problem, controls_alone(problem, 1, Grid::uniform(8), [](double) { return 0.0; })));
   });

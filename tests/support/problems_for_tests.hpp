@@ -147,6 +147,17 @@ class CentralForce : public SmallProblem {
   }
 };
 
+/// q̈ = q̇² + u from q̇ = v: without a control the velocity v/(1 - vt) leaves every bound at t = 1/v.
+class BlowUp final : public SmallProblem {
+ public:
+  explicit BlowUp(double v) : SmallProblem("blow_up", at(0.0, v), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return one(x.v[0] * x.v[0] + x.u[0]);
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
 /// Another problem with its ends replaced.
 class WithEnds : public Problem {
  public:
