@@ -7,10 +7,9 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "bench/sequence/solved_steps.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/element.hpp"
@@ -30,7 +29,6 @@ struct SequenceOptions {
   double disturbance = 0.01;
   std::uint64_t seed = 1;
   std::string over = {};
-  std::filesystem::path out = "results";
 };
 
 /// The homotopy of a problem: what the user names, else a parameter of the paper's problems; none of others.
@@ -125,36 +123,28 @@ void add_options(CommandLine& line, SequenceOptions& options) {
               "of the initial states of a receding horizon, a share of the range of the first motion");
   line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
-  line.option("--out", options.out, "folder for the results");
 }
 
 int run_sequences(CommandLine& line) {
   SequenceOptions options;
   add_options(line, options);
-  const std::vector<std::string> command_line = line.parse();
+  TableRun run("sequence", line);
   options.methods = chosen_of("--method", element_names(), options.methods);
   const auto problems = selected_problems(options.problems, options.settings);
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
-  listen_for_interrupt();
-  const OutputFolder folder(options.out);
-  const ResultLock lock(options.out / "sequence");
-  SolverOptions solver_options;
-  solver_options.stop_requested = interrupt_requested;
+  const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);
   std::vector<Step> steps;
   for (const auto& problem : problems) {
+    run.show(problem->name());
     const std::vector<Step> of_problem = run_problem(options, problem, starts, solver_options);
     steps.insert(steps.end(), of_problem.begin(), of_problem.end());
   }
   const Table summary = sequence_summary(steps);
-  const std::filesystem::path table_file = options.out / "sequence.csv";
-  const std::filesystem::path summary_file = options.out / "sequence_summary.csv";
-  write_file(table_file, step_table(steps).csv());
-  write_file(summary_file, summary.csv());
-  write_complete_run(options.out / "sequence.json", command_line, {table_file, summary_file});
+  run.add("sequence", step_table(steps));
+  run.add("sequence_summary", summary);
   print_summary(summary);
-  fmt::print("sequence: {} steps: {}\n", steps.size(), table_file.string());
-  return 0;
+  return run.write();
 }
 
 int run(int argc, char** argv) {

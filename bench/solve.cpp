@@ -45,8 +45,8 @@ class Solve final : public Experiment {
                         "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
                         "NAME_picture.csv; with several cases each NAME carries the case's label.",
                     .options = {.intervals = "128", .start = "guess"},
-                    .takes_parts = false,
-                    .takes_costates = true}) {}
+                    .takes_costates = true,
+                    .takes_parts = false}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override { return columns_of(checks_); }
   void add_options(CommandLine& line) override {
     line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
