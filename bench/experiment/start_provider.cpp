@@ -306,7 +306,7 @@ Trajectory StartProvider::solve(const Case& the_case) {
   const SolvedCase solved = solve_case(the_case, start, *make_solver(the_case.solver, options_), options_.tolerance, 1);
   if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   if (options_.stop_requested && options_.stop_requested()) throw Interrupted();
-  throw Error(the_case.label() + " could not be solved");
+  throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
 }
 
 const StartProvider::FoundStart& StartProvider::common_start(const Case& the_case) {
