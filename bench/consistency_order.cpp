@@ -15,6 +15,7 @@
 #include "bench/experiment/table_run.hpp"
 #include "bench/structure/one_step_tableaus.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::consistency_order_program {
 
@@ -117,6 +118,8 @@ tl::expected<std::vector<ConsistencyErrors>, std::string> errors_of_step(const C
                                                                          double h) {
   try {
     return order.errors(tableaus, h);
+  } catch (const Stopped&) {
+    throw;
   } catch (const Error& error) {
     return tl::unexpected<std::string>(error.what());
   }
@@ -202,6 +205,8 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
         raise(result.momentum, at.objects.right_momentum[i]);
       }
     }
+  } catch (const Stopped&) {
+    throw;
   } catch (const Error&) {  // the errors of the same step, measured before, say why
     result.left = result.right = result.momentum = std::nullopt;
   }

@@ -18,6 +18,7 @@
 
 #include "bench/experiment/process_pool.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
 
@@ -154,6 +155,10 @@ int run_program(const std::string& name, const std::string& description, int arg
     return report_error(name, std::string(error.what()) + "; --help lists the options");
   } catch (const Interrupted& interrupt) {
     report_error(name, interrupt.what());
+    return 130;
+  } catch (const Stopped& stop) {
+    if (!interrupt_requested()) return report_error(name, stop.what());
+    report_error(name, Interrupted().what());
     return 130;
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");

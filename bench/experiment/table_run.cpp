@@ -23,7 +23,11 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out) {
 }  // namespace
 
 TableRun::TableRun(std::string name, CommandLine& line)
-    : name_(std::move(name)), command_line_(parse(line, out_)), folder_(out_), lock_(out_ / name_) {
+    : name_(std::move(name)),
+      command_line_(parse(line, out_)),
+      folder_(out_),
+      lock_(out_ / name_),
+      scope_(interrupt_requested, 0.0) {
   require_writable(out_ / (name_ + ".json"));
 }
 

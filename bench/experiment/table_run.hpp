@@ -9,11 +9,13 @@
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
 
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
+/// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
 class TableRun {
  public:
   /// Adds the option `--out`, reads the command line and takes the results `name` of that folder, so that no other run
@@ -47,6 +49,7 @@ class TableRun {
   OutputFolder folder_;
   ResultLock lock_;
   ProgressLine progress_;
+  StopScope scope_;
   std::vector<NamedTable> tables_;
   std::ptrdiff_t not_measured_ = 0;  ///< rows of all tables
 };
