@@ -1,5 +1,6 @@
 #include "bench/sequence/neighbours.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -22,12 +23,16 @@ class RecedingHorizon final : public Neighbours {
   [[nodiscard]] std::string name() const override { return "receding_horizon"; }
   [[nodiscard]] bool moves_on() const override { return true; }
   [[nodiscard]] std::shared_ptr<const Problem> next(int /*step*/, const Trajectory& last) override {
-    BoundaryState first{last.q.row(1).transpose(), last.v.row(1).transpose()};
-    disturb(first.q, range_q_);
-    disturb(first.v, range_v_);
+    initial_ = {last.q.row(1).transpose(), last.v.row(1).transpose()};
+    disturb(initial_.q, range_q_);
+    disturb(initial_.v, range_v_);
     final_.q += last.step(0) * final_.v;
     return std::make_shared<RestatedProblem>(
-        base_, RestatedProblem::Changes{.initial = first, .final = final_, .cost_scale = base_->cost_scale()});
+        base_, RestatedProblem::Changes{.initial = initial_, .final = final_, .cost_scale = base_->cost_scale()});
+  }
+  void give_values(Transcription& program) const override {
+    program.set_initial_state(initial_);
+    program.set_final_state(final_);
   }
 
  private:
@@ -38,6 +43,7 @@ class RecedingHorizon final : public Neighbours {
   }
 
   std::shared_ptr<const Problem> base_;
+  BoundaryState initial_;
   BoundaryState final_;
   Eigen::VectorXd range_q_;
   Eigen::VectorXd range_v_;
@@ -53,14 +59,33 @@ class Homotopy final : public Neighbours {
   [[nodiscard]] bool moves_on() const override { return false; }
   [[nodiscard]] std::shared_ptr<const Problem> next(int step, const Trajectory& /*last*/) override {
     const double share = static_cast<double>(step) / steps_;
-    return instance_of(base_, settings_, {quantity_}, {(1.0 - share) * quantity_.lower + share * quantity_.upper});
+    value_ = (1.0 - share) * quantity_.lower + share * quantity_.upper;
+    instance_ = instance_of(base_, settings_, {quantity_}, {value_});
+    return instance_;
+  }
+  void give_values(Transcription& program) const override {
+    if (is_parameter()) {
+      program.set_parameter(quantity_.name, value_);
+      return;
+    }
+    program.set_initial_state(instance_->initial_state());
+    program.set_final_state(instance_->final_state());
+  }
+  [[nodiscard]] std::vector<std::string> open_parameters() const override {
+    return is_parameter() ? std::vector{quantity_.name} : std::vector<std::string>();
   }
 
  private:
+  [[nodiscard]] bool is_parameter() const {
+    return std::ranges::count(base_->parameters(), quantity_.name, &Parameter::name) > 0;
+  }
+
   std::shared_ptr<const Problem> base_;
   std::vector<std::string> settings_;
   SweptQuantity quantity_;
   int steps_;
+  double value_ = 0.0;
+  std::shared_ptr<const Problem> instance_;
 };
 
 }  // namespace

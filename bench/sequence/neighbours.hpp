@@ -8,6 +8,7 @@
 #include "bench/sweep/swept_values.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
 
@@ -24,6 +25,10 @@ class Neighbours {
   [[nodiscard]] virtual std::string name() const = 0;
   /// The problem of step 1, 2, ... behind the one whose solution is `last`.
   [[nodiscard]] virtual std::shared_ptr<const Problem> next(int step, const Trajectory& last) = 0;
+  /// Gives the values of the last `next` to a program of the first problem.
+  virtual void give_values(Transcription& program) const = 0;
+  /// The parameters that such a program has to keep open.
+  [[nodiscard]] virtual std::vector<std::string> open_parameters() const { return {}; }
   /// Whether a step moves on by one interval of the grid, and the start with it.
   [[nodiscard]] virtual bool moves_on() const = 0;
 

@@ -17,14 +17,14 @@ namespace {
 
 bool is_solved(const StepSolve& solve) { return solve.status == name_of(Status::solved); }
 
-/// The answer, and how it was reached; its time is the smallest of several solves.
-std::pair<Solution, StepSolve> solve_step(Transcription& program, const Eigen::VectorXd& start,
-                                          const SolverOptions& options, int repeats) {
-  const auto solver = make_solver("interior_point", options);
-  Solution solution = solver->solve(program, start);
+/// The answer, and how it was reached; its time is the smallest of several solves. Without multipliers the start is
+/// cold.
+std::pair<Solution, StepSolve> solve_step(PreparedSolve& prepared, const Eigen::VectorXd& start,
+                                          const Eigen::VectorXd& multipliers, int repeats) {
+  Solution solution = prepared.solve(start, multipliers);
   double seconds = solution.seconds;
   for (int i = 1; i < repeats && dmocbench::is_solved(solution.status); ++i) {
-    seconds = std::min(seconds, solver->solve(program, start).seconds);
+    seconds = std::min(seconds, prepared.solve(start, multipliers).seconds);
   }
   constexpr double micro = 1e6;
   StepSolve step{.status = std::string(name_of(solution.status)),
@@ -101,36 +101,37 @@ std::optional<bool> Step::is_warm_worse() const {
   return !is_solved(warm) || warm.iterations > cold->iterations;
 }
 
-SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, SolverOptions options,
+SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
                          int repeats)
     : case_(solved.the_case),
       neighbours_(std::move(neighbours)),
-      options_(std::move(options)),
       repeats_(repeats),
+      program_(std::make_unique<Transcription>(*case_.problem, *make_element(case_.method),
+                                               make_tableau(case_.tableau, case_.stages), case_.grid,
+                                               OpenParameters{neighbours_->open_parameters()})),
+      prepared_(std::make_unique<PreparedSolve>(*program_, "interior_point", options)),
       trajectory_(*solved.trajectory),
       primal_(solved.solution.primal),
       multipliers_(solved.solution.multipliers) {}
 
 Step SequenceRun::next(bool also_cold) {
-  case_.problem = neighbours_->next(++step_, trajectory_);
-  const auto program = case_.transcribe();
+  const std::shared_ptr<const Problem> problem = neighbours_->next(++step_, trajectory_);
+  neighbours_->give_values(*program_);
   if (neighbours_->moves_on()) {
-    primal_ = shifted(program->layout().structure().unknowns, primal_);
-    multipliers_ = shifted(program->layout().structure().rows, multipliers_);
+    primal_ = shifted(program_->layout().structure().unknowns, primal_);
+    multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
   }
-  const Eigen::VectorXd start = primal_.cwiseMax(program->variable_lower()).cwiseMin(program->variable_upper());
-  SolverOptions warm_options = options_;
-  warm_options.start_multipliers = multipliers_;
+  const Eigen::VectorXd start = primal_.cwiseMax(program_->variable_lower()).cwiseMin(program_->variable_upper());
   Step step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
             .intervals = case_.intervals(),
             .sequence = neighbours_->name(),
             .number = step_,
             .warm = {}};
-  auto [solution, warm] = solve_step(*program, start, warm_options, repeats_);
+  auto [solution, warm] = solve_step(*prepared_, start, multipliers_, repeats_);
   step.warm = warm;
   if (also_cold || !is_solved(warm)) {
     auto [cold_solution, cold] =
-        solve_step(*program, sample(*program, guessed_motion(*case_.problem)), options_, repeats_);
+        solve_step(*prepared_, sample(*program_, guessed_motion(*problem)), Eigen::VectorXd(), repeats_);
     step.cold = cold;
     if (!is_solved(warm)) solution = std::move(cold_solution);
   }
@@ -140,7 +141,7 @@ Step SequenceRun::next(bool also_cold) {
   }
   primal_ = solution.primal;
   multipliers_ = solution.multipliers;
-  trajectory_ = read_trajectory(*program, primal_, multipliers_);
+  trajectory_ = read_trajectory(*program_, primal_, multipliers_);
   step.objective = trajectory_.cost;
   return step;
 }

@@ -7,6 +7,7 @@
 #include "bench/experiment/solve_case.hpp"
 #include "bench/experiment/table.hpp"
 #include "bench/sequence/neighbours.hpp"
+#include "methods/solvers/prepared_solve.hpp"
 
 namespace dmocbench {
 
@@ -35,7 +36,8 @@ struct Step {
 class SequenceRun {
  public:
   /// `solved`: the case of the first problem with its answer.
-  SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, SolverOptions options, int repeats);
+  SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
+              int repeats);
 
   /// Solves the next problem warm, and cold too if it is asked for or the warm start fails. Where both fail the
   /// sequence ends.
@@ -45,10 +47,11 @@ class SequenceRun {
  private:
   Case case_;
   std::unique_ptr<Neighbours> neighbours_;
-  SolverOptions options_;
   int repeats_;
   int step_ = 0;
   bool is_at_end_ = false;
+  std::unique_ptr<Transcription> program_;  // made once; its values change from step to step
+  std::unique_ptr<PreparedSolve> prepared_;
   Trajectory trajectory_;
   Eigen::VectorXd primal_;
   Eigen::VectorXd multipliers_;

@@ -10,13 +10,6 @@
 
 namespace dmocbench::kkt {
 
-namespace {
-
-/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
-constexpr double smallest_ratio = 1e-7;
-
-}  // namespace
-
 IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
@@ -92,7 +85,7 @@ IntervalKkt::Elimination IntervalKkt::join(const NewtonArrays& arrays, const Kkt
   const auto any_group = [&](const auto& holds) {
     return std::ranges::any_of(groups_, [&](const GroupMemory& memory) { return holds(memory.group()); });
   };
-  if (any_group([](const SegmentGroup& group) { return !(group.smallest_ratio > smallest_ratio); })) {
+  if (any_group([](const SegmentGroup& group) { return !(group.smallest_ratio > smallest_trusted_ratio); })) {
     return {FactorisationStatus::untrusted};
   }
   if (any_group([](const SegmentGroup& group) { return !group.pivots_hold; }) || !join_segments()) {

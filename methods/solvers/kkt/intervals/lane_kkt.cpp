@@ -13,9 +13,6 @@ namespace {
 
 static_assert(lane_count == instance_lanes);
 
-/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
-constexpr double smallest_ratio = 1e-7;
-
 /// The reason why the ends of a program do not fit; null if they do.
 const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
   if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
@@ -166,7 +163,7 @@ void LaneKkt::factorise_reachability() {
 
 LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
   const SegmentGroup& group = memory_.group();
-  if (!(group.lane_smallest_ratio[lane] > smallest_ratio)) return Outcome::failed;
+  if (!(group.lane_smallest_ratio[lane] > smallest_trusted_ratio)) return Outcome::failed;
   const bool pivots_hold = group.lane_pivots_hold[lane] > 0.0;
   if (pivots_hold) {
     const Eigen::Index X = reachability_.rows();

@@ -9,6 +9,9 @@
 
 namespace dmocbench::kkt {
 
+/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
+inline constexpr double smallest_trusted_ratio = 1e-7;
+
 /// Eight segments and their memory, which is first touched by the thread that fills it.
 class GroupMemory {
  public:
