@@ -263,17 +263,19 @@ class Run {
     }
   }
 
-  /// Solves some cases in turn, round after round, each round beginning with another case. If it is interrupted, none
-  /// of them gets a row.
+  /// Solves some cases once, then in turn, round after round, each round beginning with another case; the first solves
+  /// find memory and caches cold and count where there are no others. If it is interrupted, no case gets a row.
   void solve_rounds(const std::vector<std::size_t>& numbers) {
     std::vector<SolvedCase> first;
     std::vector<std::vector<Solution>> rounds(numbers.size());
-    for (std::size_t round = 0; std::cmp_less(round, options_.repeats); ++round) {
+    const int rounds_after_first = options_.repeats > 1 ? options_.repeats : 0;
+    for (std::size_t round = 0; std::cmp_less_equal(round, rounds_after_first); ++round) {
       for (std::size_t turn = 0; turn < numbers.size(); ++turn) {
         const std::size_t i = (turn + round) % numbers.size();
         if (round > 0 && !is_solved(first[i].solution.status)) continue;
         SolvedCase solved = solve(numbers[i], round == 0 ? 1 : solves_per_round(rounds[i].front()));
         if (interrupt_requested()) return;
+        if (round == 1) rounds[i].clear();
         rounds[i].push_back(solved.solution);
         if (round > 0) continue;
         experiment_.solved_once(solved);
@@ -289,7 +291,7 @@ class Run {
   /// Short solves are repeated within a round, so that an interruption by something else is an outlier.
   static int solves_per_round(const Solution& first) {
     constexpr double seconds_of_a_round = 0.02;
-    constexpr double most = 40.0;
+    constexpr double most = 400.0;
     return static_cast<int>(std::clamp(seconds_of_a_round / first.seconds, 1.0, most));
   }
 
