@@ -115,7 +115,7 @@ do for [problem_word in problems_of(name, "state_error")] {
          with linespoints linetype method_style(entry(curve, "method"))\
          title with_slope(stage_label(curve), slope(name."_slopes", curve, "state")),\
          for [guide in guides] nth(guide, 2) * (x / nth(guide, 1))**nth(guide, 3)\
-         with lines linetype 8 dashtype (18 - 3 * nth(guide, 3), 5) title sprintf("C h^%d, guide", nth(guide, 3))
+         with lines linetype 8 dashtype (20 - 3 * nth(guide, 3), 5) title sprintf("C h^%d, guide", nth(guide, 3))
     eval end_figure(kind, figure)
   }
 }

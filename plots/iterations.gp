@@ -41,9 +41,9 @@ do for [name in "iterations iterations_limited_memory"] {
     set key top left font ",12"
     set title title_text(problem_label(problem).": minor iterations of the SQP method, "\
         .(name eq "iterations" ? "exact" : "quasi-Newton")." Hessian",\
-        of_paper(problem, "kepler\\_iterations", "twolink\\_iterations").conditions(name).".",\
-        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations."\
-        .left_out_text(count_of("all", name, where), count_of("''", name, where)))
+        of_paper(problem, "kepler\\_iterations", "twolink\\_iterations").conditions(name)."."\
+        .left_out_text(count_of("all", name, where), count_of("''", name, where)),\
+        "Lines: free variables (less the constraints, where the first basis is chosen for free) + later major iterations.")
     do for [kind in kinds] {
       eval begin_figure(kind, figure_of(problem), 1000, 640)
       plot for [curve in slack] rows(name, with_start(curve, "none"), "minor_iterations")\

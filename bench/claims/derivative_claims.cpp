@@ -19,27 +19,20 @@ Selection with_back_end(const Selection& rows, const std::string& table, const c
 }
 
 /// Adds the ratio of the times by two back ends, round by round the geometric mean over all methods and grids that both
-/// solve, and counts the rows that it leaves out. A single small program would be judged by the clock's noise.
+/// solve, and counts the rows that it leaves out.
 std::string add_ratio(TimedRatios& ratios, const Selection& rows, const char* slow, const char* fast) {
   const Selection slower = with_back_end(rows, "derivatives", slow);
   const Selection faster = with_back_end(rows, "derivatives", fast).usable();
   Selection timed;
   std::vector<std::vector<double>> of_programs;
-  std::size_t rounds = std::numeric_limits<std::size_t>::max();
   for (const Row& row : slower.usable()) {
     const Selection partner = faster.matching(row, {"method", "tableau", "stages", "intervals", "tolerance"});
     if (partner.empty()) continue;
     of_programs.push_back(round_ratios(row.numbers("round_seconds"), partner.front().numbers("round_seconds")));
     require(!of_programs.back().empty(), "{}, column round_seconds: there is no number", row.place());
-    rounds = std::min(rounds, of_programs.back().size());
     timed.append(row);
   }
-  std::vector<double> means;
-  for (std::size_t round = 0; !of_programs.empty() && round < rounds; ++round) {
-    double sum = 0.0;
-    for (const std::vector<double>& of_rounds : of_programs) sum += std::log(of_rounds[round]);
-    means.push_back(std::exp(sum / static_cast<double>(of_programs.size())));
-  }
+  const std::vector<double> means = means_of_rounds(of_programs);
   if (!means.empty()) ratios.add(fmt::format("{} on {} programs", slow, of_programs.size()), means);
   return left_out(slower, timed, fmt::format("not solved by {} or {}, in favour of {} by", slow, fast, slow));
 }

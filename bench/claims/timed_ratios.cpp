@@ -1,6 +1,7 @@
 #include "bench/claims/timed_ratios.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,6 +54,17 @@ std::string TimedRatios::sure() const {
     default:
       return fmt::format("it holds in {} of {} resamples", above, resamples);
   }
+}
+
+std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_programs) {
+  if (of_programs.empty()) return {};
+  std::vector<double> means(std::ranges::min(of_programs, {}, &std::vector<double>::size).size());
+  for (std::size_t round = 0; round < means.size(); ++round) {
+    double sum = 0.0;
+    for (const std::vector<double>& of_rounds : of_programs) sum += std::log(of_rounds[round]);
+    means[round] = std::exp(sum / static_cast<double>(of_programs.size()));
+  }
+  return means;
 }
 
 Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind) {

@@ -36,6 +36,10 @@ class TimedRatios {
   std::vector<std::pair<std::string, RatioInterval>> ratios_;
 };
 
+/// The geometric means over several programs, round by round, of a ratio that each has once per round; as many as the
+/// program with the fewest rounds has. A single small program would be judged by the clock's noise.
+[[nodiscard]] std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_programs);
+
 /// What the ratios say of a claim, in words with `what` in front and `behind` at the end.
 [[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind = "");
 

@@ -51,9 +51,10 @@ std::vector<std::string> take_record(std::string_view& rest) {
 
 Cell::Cell(double number) : text_(fmt::format("{:.17g}", number)) {}
 
-std::string Row::text(std::string_view column) const {
+const std::string& Row::text(std::string_view column) const {
+  static const std::string nothing;
   const auto found = cells_.find(column);
-  return found == cells_.end() ? std::string() : found->second.text();
+  return found == cells_.end() ? nothing : found->second.text();
 }
 
 std::optional<double> Row::number(std::string_view column) const {
@@ -63,13 +64,13 @@ std::optional<double> Row::number(std::string_view column) const {
 
 double Row::needed(std::string_view column) const {
   if (const auto value = number(column)) return *value;
-  const std::string field = text(column);
+  const std::string& field = text(column);
   throw Error(fmt::format("{}, column {}: {}", place_.empty() ? "a row" : place_, column,
                           field.empty() ? "there is no number" : "\"" + field + "\" is no finite number"));
 }
 
 std::vector<double> Row::numbers(std::string_view column) const {
-  const std::string field = text(column);
+  const std::string& field = text(column);
   std::vector<double> numbers;
   for (std::string_view rest = field; !rest.empty();) {
     const std::string_view word = rest.substr(0, rest.find(' '));

@@ -41,7 +41,7 @@ class Row {
  public:
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
   /// The field as it is written to a file; empty if there is none.
-  [[nodiscard]] std::string text(std::string_view column) const;
+  [[nodiscard]] const std::string& text(std::string_view column) const;
   /// The field as a number; `missing` if it is empty or no finite number.
   [[nodiscard]] double number(std::string_view column, double missing) const {
     return number(column).value_or(missing);

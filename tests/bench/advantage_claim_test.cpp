@@ -82,5 +82,21 @@ TEST(ExpenseClaim, IsJudgedByTheTimesOfEverySolver) {
   EXPECT_EQ(judged("collocation_more_expensive", {}).verdict, ClaimVerdict::not_yet);
 }
 
+TEST(ExpenseClaim, TakesTheCoarseGridsTogether) {
+  const auto verdict = [](double coarsest, double coarse, double finest) {
+    return judged("collocation_more_expensive_on_coarse_grids",
+                  {ratio("", "seconds_per_iteration", 32, 1.5), ratio("", "seconds_per_iteration", 128, 1.5),
+                   ratio("intervals", "seconds_per_linear_system", 32, coarsest),
+                   ratio("intervals", "seconds_per_linear_system", 64, coarse),
+                   ratio("intervals", "seconds_per_linear_system", 128, finest),
+                   ratio("intervals", "elimination_operations", 128, 1.3)});
+  };
+  const JudgedClaim claim = verdict(0.98, 1.47, 0.8);
+  EXPECT_EQ(claim.verdict, ClaimVerdict::reproduced);
+  EXPECT_NE(claim.measured.find("intervals N = 32 and 64 1.2"), std::string::npos) << claim.measured;
+  EXPECT_EQ(verdict(0.8, 1.25, 2.0).verdict, ClaimVerdict::differs);
+  EXPECT_EQ(verdict(1.0, 1.1, 2.0).verdict, ClaimVerdict::undecided);
+}
+
 }  // namespace
 }  // namespace dmocbench

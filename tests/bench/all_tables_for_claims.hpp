@@ -164,10 +164,13 @@ inline Rows coercivity_rows() {
 inline Rows advantage_rows() {
   Rows rows;
   const auto append = [&](const char* solver, const char* factorisation, const char* quantity) {
-    rows.push_back(row_of_texts({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals",
-                                 "quantity", "ratio_at_equal_intervals"},
-                                {orbit, "hamiltonian", "gauss", "1", solver, factorisation, "256", quantity, "1.5"}));
-    if (!std::string(quantity).ends_with("operations")) rows.back().set("round_ratios", rounds_around(1.5));
+    for (const char* intervals : {"64", "128", "256"}) {
+      rows.push_back(
+          row_of_texts({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
+                        "ratio_at_equal_intervals"},
+                       {orbit, "hamiltonian", "gauss", "1", solver, factorisation, intervals, quantity, "1.5"}));
+      if (!std::string(quantity).ends_with("operations")) rows.back().set("round_ratios", rounds_around(1.5));
+    }
   };
   append("ipopt", "", "seconds_per_iteration");
   for (const char* factorisation : {"intervals", "sparse"}) {

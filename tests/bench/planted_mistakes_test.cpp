@@ -182,7 +182,7 @@ std::vector<Mistake> mistakes_about_cost() {
       {"a verdict from three rounds", "structure_advantage_ratios", set(sparse, "round_ratios", "1.5 1.5 1.5"),
        on_orbit("collocation_more_expensive"), ClaimVerdict::undecided},
       {"a verdict at the threshold", "structure_advantage_ratios",
-       set(sparse, "round_ratios", tests::rounds_around(1.05)), on_orbit("collocation_more_expensive_on_every_grid"),
+       set(sparse, "round_ratios", tests::rounds_around(1.05)), on_orbit("collocation_more_expensive_on_coarse_grids"),
        ClaimVerdict::undecided},
       {"fewer operations by one elimination", "structure_advantage_ratios",
        set(sparse, "ratio_at_equal_intervals", 0.9), on_orbit("factorisation_more_expensive_by_any_solver")},
