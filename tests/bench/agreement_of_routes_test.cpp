@@ -31,14 +31,14 @@ TEST(AgreementOfRoutes, ConfirmsAReferenceAsFarAsItGoes) {
   const std::vector<double> routes{6.0 + 1e-10, 6.0 - 1e-10};
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 8)).confirmed, "yes");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "to 10 digits");
-  EXPECT_EQ(agreement_of_routes(routes, stated(6.1, 8)).confirmed, "no");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.1, 8), 12).confirmed, "no");
   EXPECT_EQ(agreement_of_routes({6.0}, stated(6.0, 8)).confirmed, "");  // one route certifies nothing
   EXPECT_EQ(agreement_of_routes({}, stated(6.0, 8)).confirmed, "");
 }
 
 TEST(AgreementOfRoutes, ConfirmsNoMoreThanIsKeptFromGridToGrid) {
   const std::vector<double> routes{6.0 + 1e-5, 6.0 + 1e-5};  // both impose a bound at the same points
-  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "no");
+  EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16)).confirmed, "not told by one grid");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 5).confirmed, "to 5 digits");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.1, 16), 5).confirmed, "no");
   EXPECT_EQ(agreement_of_routes(routes, stated(6.0, 16), 9).confirmed, "no");
