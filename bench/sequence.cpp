@@ -27,6 +27,7 @@ struct SequenceOptions {
   int cold_every = 5;
   int repeats = 3;
   double disturbance = 0.01;
+  double barrier = 0.0;
   std::uint64_t seed = 1;
   std::string over = {};
 };
@@ -83,15 +84,18 @@ std::vector<Step> run_problem(const SequenceOptions& options, const std::shared_
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
   std::vector<Step> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
+  const SequenceChoices choices{
+      .repeats = options.repeats,
+      .barrier_parameter = options.barrier > 0.0 ? std::optional(options.barrier) : std::nullopt};
   std::vector<SequenceRun> receding;
   std::vector<SequenceRun> continued;
   for (const SolvedCase& answer : answers) {
     receding.emplace_back(answer,
                           receding_horizon(problem, *answers.front().trajectory, options.disturbance, options.seed),
-                          solver_options, options.repeats);
+                          solver_options, choices);
     if (!quantity) continue;
     continued.emplace_back(answer, homotopy(problem, options.settings, *quantity, options.steps), solver_options,
-                           options.repeats);
+                           choices);
   }
   run_in_turn(receding, options, steps);
   run_in_turn(continued, options, steps);
@@ -121,6 +125,8 @@ void add_options(CommandLine& line, SequenceOptions& options) {
   line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
   line.number("--disturbance", options.disturbance, 0.0, 1.0,
               "of the initial states of a receding horizon, a share of the range of the first motion");
+  line.number("--barrier", options.barrier, 0.0, 1.0,
+              "barrier parameter that warm solves begin with; 0: that with which the solve before ended");
   line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
   line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
 }
@@ -150,9 +156,9 @@ int run_sequences(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "sequence",
-      "Problems that follow each other, each started from the unknowns and multipliers of the one before: a receding "
-      "horizon with disturbances, and a homotopy in a parameter. sequence.csv: iterations and microseconds of every "
-      "step, warm and cold; sequence_summary.csv: median, 99th percentile and largest.",
+      "Problems that follow each other, each started from the motion, multipliers and barrier parameter of the one "
+      "before: a receding horizon with disturbances, and a homotopy in a parameter. sequence.csv: iterations and "
+      "microseconds of every step, warm and cold; sequence_summary.csv: median, 99th percentile and largest.",
       argc, argv, run_sequences);
 }
 

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "bench/experiment/column.hpp"
-#include "bench/sequence/shifted.hpp"
+#include "bench/sequence/one_interval_later.hpp"
+#include "methods/transcription/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -20,11 +21,12 @@ bool is_solved(const StepSolve& solve) { return solve.status == name_of(Status::
 /// The answer, and how it was reached; its time is the smallest of several solves. Without multipliers the start is
 /// cold.
 std::pair<Solution, StepSolve> solve_step(PreparedSolve& prepared, const Eigen::VectorXd& start,
-                                          const Eigen::VectorXd& multipliers, int repeats) {
-  Solution solution = prepared.solve(start, multipliers);
+                                          const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
+                                          int repeats) {
+  Solution solution = prepared.solve(start, multipliers, barrier_parameter);
   double seconds = solution.seconds;
   for (int i = 1; i < repeats && dmocbench::is_solved(solution.status); ++i) {
-    seconds = std::min(seconds, prepared.solve(start, multipliers).seconds);
+    seconds = std::min(seconds, prepared.solve(start, multipliers, barrier_parameter).seconds);
   }
   constexpr double micro = 1e6;
   StepSolve step{.status = std::string(name_of(solution.status)),
@@ -102,36 +104,37 @@ std::optional<bool> Step::is_warm_worse() const {
 }
 
 SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
-                         int repeats)
+                         const SequenceChoices& choices)
     : case_(solved.the_case),
       neighbours_(std::move(neighbours)),
-      repeats_(repeats),
+      choices_(choices),
       program_(std::make_unique<Transcription>(*case_.problem, *make_element(case_.method),
                                                make_tableau(case_.tableau, case_.stages), case_.grid,
                                                OpenParameters{neighbours_->open_parameters()})),
       prepared_(std::make_unique<PreparedSolve>(*program_, "interior_point", options)),
       trajectory_(*solved.trajectory),
-      primal_(solved.solution.primal),
-      multipliers_(solved.solution.multipliers) {}
+      multipliers_(solved.solution.multipliers),
+      barrier_parameter_(solved.solution.barrier_parameter) {}
 
 Step SequenceRun::next(bool also_cold) {
   const std::shared_ptr<const Problem> problem = neighbours_->next(++step_, trajectory_);
   neighbours_->give_values(*program_);
-  if (neighbours_->moves_on()) {
-    primal_ = shifted(program_->layout().structure().unknowns, primal_);
-    multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
-  }
-  const Eigen::VectorXd start = primal_.cwiseMax(program_->variable_lower()).cwiseMin(program_->variable_upper());
+  if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
+  const Motion motion = neighbours_->moves_on() ? one_interval_later(trajectory_) : smooth_motion(trajectory_);
+  const Eigen::VectorXd start = sample(*program_, moved_to_ends(motion, program_->bounds()));
+  std::optional<double> mu = barrier_parameter_;  // none: there is no barrier
+  if (mu && choices_.barrier_parameter) mu = choices_.barrier_parameter;
   Step step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
             .intervals = case_.intervals(),
             .sequence = neighbours_->name(),
             .number = step_,
-            .warm = {}};
-  auto [solution, warm] = solve_step(*prepared_, start, multipliers_, repeats_);
+            .warm = {},
+            .start_barrier_parameter = mu};
+  auto [solution, warm] = solve_step(*prepared_, start, multipliers_, mu, choices_.repeats);
   step.warm = warm;
   if (also_cold || !is_solved(warm)) {
-    auto [cold_solution, cold] =
-        solve_step(*prepared_, sample(*program_, guessed_motion(*problem)), Eigen::VectorXd(), repeats_);
+    auto [cold_solution, cold] = solve_step(*prepared_, sample(*program_, guessed_motion(*problem)), Eigen::VectorXd(),
+                                            std::nullopt, choices_.repeats);
     step.cold = cold;
     if (!is_solved(warm)) solution = std::move(cold_solution);
   }
@@ -139,9 +142,9 @@ Step SequenceRun::next(bool also_cold) {
     is_at_end_ = true;
     return step;
   }
-  primal_ = solution.primal;
   multipliers_ = solution.multipliers;
-  trajectory_ = read_trajectory(*program_, primal_, multipliers_);
+  barrier_parameter_ = solution.barrier_parameter;
+  trajectory_ = read_trajectory(*program_, solution.primal, multipliers_);
   step.objective = trajectory_.cost;
   return step;
 }
@@ -159,6 +162,8 @@ Table step_table(const std::vector<Step>& steps) {
           {"status", "", "of the warm solve", from(&Step::warm, &StepSolve::status)},
           {"iterations", "", "of the warm solve", from(&Step::warm, &StepSolve::iterations)},
           {"microseconds", "us", "of the warm solve, the solver alone", from(&Step::warm, &StepSolve::microseconds)},
+          {"start_barrier_parameter", "", "that the warm solve began with; empty where the problem has no barrier",
+           from(&Step::start_barrier_parameter)},
           {"cold_status", "", "of a solve from the guess; empty where none was asked for", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
           {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},

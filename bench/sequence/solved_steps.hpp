@@ -24,12 +24,20 @@ struct Step {
   std::size_t intervals = 0;
   std::string sequence;
   int number = 0;
-  StepSolve warm;                                ///< from the unknowns and multipliers of the last step
-  std::optional<StepSolve> cold = std::nullopt;  ///< from the problem's guess, where it was asked for
+  StepSolve warm;  ///< from the motion, multipliers and barrier parameter of the last step
+  std::optional<double> start_barrier_parameter = std::nullopt;  ///< of the warm solve, where the problem has a barrier
+  std::optional<StepSolve> cold = std::nullopt;                  ///< from the problem's guess, where it was asked for
   std::optional<double> objective = std::nullopt;
 
   /// Whether the cold start did better: it was solved and the warm one was not, or in fewer iterations.
   [[nodiscard]] std::optional<bool> is_warm_worse() const;
+};
+
+/// How the steps of a sequence are solved.
+struct SequenceChoices {
+  int repeats = 1;  ///< solves of every step; its time is the smallest of them
+  /// The barrier parameter that warm solves begin with; none for that with which the solve before ended.
+  std::optional<double> barrier_parameter = std::nullopt;
 };
 
 /// One method on its way through a sequence.
@@ -37,7 +45,7 @@ class SequenceRun {
  public:
   /// `solved`: the case of the first problem with its answer.
   SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> neighbours, const SolverOptions& options,
-              int repeats);
+              const SequenceChoices& choices);
 
   /// Solves the next problem warm, and cold too if it is asked for or the warm start fails. Where both fail the
   /// sequence ends.
@@ -47,14 +55,14 @@ class SequenceRun {
  private:
   Case case_;
   std::unique_ptr<Neighbours> neighbours_;
-  int repeats_;
+  SequenceChoices choices_;
   int step_ = 0;
   bool is_at_end_ = false;
   std::unique_ptr<Transcription> program_;  // made once; its values change from step to step
   std::unique_ptr<PreparedSolve> prepared_;
   Trajectory trajectory_;
-  Eigen::VectorXd primal_;
   Eigen::VectorXd multipliers_;
+  std::optional<double> barrier_parameter_;  // with which the last solve ended
 };
 
 /// A row per step.

@@ -43,6 +43,9 @@ struct Solution {
   /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none where it was not asked,
   /// or cannot be told.
   std::optional<double> correction;
+  /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
+  /// nor inequalities, or the solver does not tell.
+  std::optional<double> barrier_parameter;
 
   // Counts; none where a solver does not tell them.
   std::optional<int> major_iterations;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -40,9 +41,11 @@ class PreparedSolve {
   PreparedSolve(NonlinearProgram& program, std::unique_ptr<Solver> solver, Judgement judgement = Judgement::confirmed);
 
   /// As `Solver::solve`, from a start (variable_count() entries) and, unless they are empty, multipliers
-  /// (constraint_count() entries; else those of the options). The solution is valid until the next call. Throws `Error`
-  /// if a size is wrong.
-  const Solution& solve(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers = Eigen::VectorXd());
+  /// (constraint_count() entries) and a barrier parameter (`Solution::barrier_parameter` of a neighbour); else those of
+  /// the options. The solution is valid until the next call. Throws `Error` if a size is wrong or the parameter is not
+  /// positive.
+  const Solution& solve(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
+                        std::optional<double> barrier_parameter = std::nullopt);
 
   /// The last solution; "not run" before the first.
   [[nodiscard]] const Solution& solution() const noexcept { return solution_; }
@@ -50,7 +53,8 @@ class PreparedSolve {
   [[nodiscard]] NonlinearProgram& program() const noexcept { return program_; }
 
  private:
-  void solve_anew(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers);
+  void solve_anew(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                  std::optional<double> barrier_parameter);
 
   NonlinearProgram& program_;
   std::unique_ptr<Solver> solver_;

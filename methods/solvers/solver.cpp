@@ -24,6 +24,9 @@ void SolverOptions::validate() const {
   if (!(most_seconds >= 0.0) || std::isinf(most_seconds)) {
     throw Error(fmt::format("the time limit must be a number of seconds, or 0 for none, got {}", most_seconds));
   }
+  if (start_barrier_parameter && !(*start_barrier_parameter > 0.0 && std::isfinite(*start_barrier_parameter))) {
+    throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *start_barrier_parameter));
+  }
 }
 
 Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,9 @@ struct SolverOptions {
   /// λ of a program that is nearly the same, one per constraint: a warm start, for solvers that can use it
   /// (`interior_point`). Empty for none.
   Eigen::VectorXd start_multipliers;
+  /// μ > 0 to begin with, for solvers that can use it (`interior_point`). None for the solver's own choice. Without
+  /// meaning where a program has neither bounds nor inequalities: it has no barrier.
+  std::optional<double> start_barrier_parameter;
   /// Options by name, as a command line gives them; they win over what is set otherwise. Ipopt and NLopt get them as
   /// they stand, our own solvers read them into their typed options.
   std::map<std::string, std::string> passed_on;
@@ -51,9 +55,10 @@ class PreparedRun {
   PreparedRun(PreparedRun&&) = delete;
   PreparedRun& operator=(PreparedRun&&) = delete;
 
-  /// As `Solver::run`, from a start and, unless they are empty, multipliers (constraint_count() entries). Writes all
-  /// that the method itself knows of a solution; the memory of its vectors is used again.
-  virtual void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, Solution& solution) = 0;
+  /// As `Solver::run`, from a start and, unless they are empty, multipliers (constraint_count() entries) and a barrier
+  /// parameter. Writes all that the method itself knows of a solution; the memory of its vectors is used again.
+  virtual void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                   std::optional<double> barrier_parameter, Solution& solution) = 0;
 
  protected:
   PreparedRun() = default;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/sequence/neighbours.hpp"
-#include "bench/sequence/shifted.hpp"
+#include "bench/sequence/one_interval_later.hpp"
 #include "bench/sequence/solved_steps.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
@@ -22,6 +22,24 @@ TEST(Shifted, BelongsToTheNodeOrIntervalBehind) {
   EXPECT_EQ(shifted(places, values), expected);
 }
 
+TEST(OneIntervalLater, GoesOnBeyondTheEndWithTheVelocityThere) {
+  Trajectory motion;
+  motion.tableau = make_tableau("gauss", 1);
+  motion.node_times = Eigen::Vector3d(0.0, 0.5, 1.0);
+  motion.q = Eigen::Vector3d(1.0, 2.0, 4.0);
+  motion.v = Eigen::Vector3d(1.0, 3.0, 5.0);
+  motion.stage_times = Eigen::Vector2d(0.25, 0.75);
+  motion.stage_u = Eigen::Vector2d(6.0, 7.0);
+  const Motion later = one_interval_later(motion);
+  EXPECT_EQ(later.horizon, 1.0);
+  EXPECT_NEAR(later.at(0.0).q[0], 2.0, 1e-14);
+  EXPECT_NEAR(later.at(0.0).v[0], 3.0, 1e-14);
+  EXPECT_NEAR(later.at(0.25).u[0], 7.0, 1e-14);
+  EXPECT_NEAR(later.at(0.5).q[0], 4.0, 1e-14);
+  EXPECT_NEAR(later.at(1.0).q[0], 4.0 + 0.5 * 5.0, 1e-14);
+  EXPECT_NEAR(later.at(1.0).v[0], 5.0, 1e-14);
+}
+
 class SequenceOfProblems : public testing::Test {
  protected:
   SolvedCase solved_first(const std::string& method) {
@@ -29,11 +47,12 @@ class SequenceOfProblems : public testing::Test {
                         .method = method,
                         .tableau = "gauss",
                         .solver = "interior_point",
-                        .grid = Grid::uniform(16)};
+                        .grid = Grid::uniform(intervals_)};
     const Motion start = tests::common_start(*problem_);
     return solve_case(the_case, {start}, *make_solver("interior_point"), 1e-10, 1);
   }
   std::shared_ptr<const Problem> problem_ = make_problem("two_link_manipulator");
+  int intervals_ = 16;
 };
 
 TEST_F(SequenceOfProblems, BeginsAtTheSecondNodeOfTheLastSolutionButForTheDisturbance) {
@@ -67,7 +86,7 @@ TEST_F(SequenceOfProblems, IsSolvedWarmInFewerIterationsThanCold) {
   for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
     SCOPED_TRACE(method);
     const SolvedCase first = solved_first(method);
-    SequenceRun run(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, 1);
+    SequenceRun run(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, {});
     for (int step = 0; step < 5; ++step) {
       const Step solved = run.next(true);
       EXPECT_EQ(solved.warm.status, "solved");
@@ -76,6 +95,35 @@ TEST_F(SequenceOfProblems, IsSolvedWarmInFewerIterationsThanCold) {
       EXPECT_EQ(solved.number, step + 1);
     }
   }
+}
+
+TEST_F(SequenceOfProblems, OfTheOrbitTakesNoMoreIterationsByDmocThanWhereVelocitiesAreUnknowns) {
+  problem_ = make_problem("orbital_transfer");
+  intervals_ = 64;
+  const auto iterations_of = [&](const std::string& method) {
+    const SolvedCase first = solved_first(method);
+    SequenceRun run(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, {});
+    int iterations = 0;
+    for (int step = 0; step < 20; ++step) iterations += run.next(false).warm.iterations;
+    return iterations;
+  };
+  constexpr int differences = 2;  // by rounding, of about 60
+  EXPECT_LE(iterations_of("dmoc"), iterations_of("tangent") + differences);
+}
+
+TEST_F(SequenceOfProblems, CarriesTheBarrierParameterWhereThereIsABarrierUnlessOneIsChosen) {
+  const SolvedCase without = solved_first("dmoc");
+  SequenceRun unbounded(without, receding_horizon(problem_, *without.trajectory, 0.01, 1), {}, {});
+  EXPECT_FALSE(unbounded.next(false).start_barrier_parameter);
+
+  problem_ = make_problem("cart_pole");
+  const SolvedCase first = solved_first("dmoc");
+  SequenceRun carries(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, {});
+  EXPECT_EQ(carries.next(false).start_barrier_parameter, first.solution.barrier_parameter);
+  EXPECT_LT(carries.next(false).start_barrier_parameter, 1e-8);
+  SequenceRun chosen(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, {.barrier_parameter = 1e-5});
+  EXPECT_EQ(chosen.next(false).start_barrier_parameter, 1e-5);
+  EXPECT_EQ(chosen.next(false).start_barrier_parameter, 1e-5);
 }
 
 TEST_F(SequenceOfProblems, GoesFromTheLowerToTheUpperValueOfItsQuantity) {

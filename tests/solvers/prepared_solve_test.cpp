@@ -108,6 +108,34 @@ TEST(PreparedSolve, TakesItsOwnSolutionAsAStart) {
   EXPECT_NEAR(warm.objective, cold.objective, 1e-12);
 }
 
+TEST(PreparedSolve, BeginsWithTheBarrierParameterThatItIsGiven) {
+  const auto problem = make_problem("cart_pole");
+  const auto program = transcribe(*problem, "dmoc", 16);
+  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
+  PreparedSolve prepared(*program);
+  const Solution cold = prepared.solve(start);
+  ASSERT_TRUE(cold.barrier_parameter.has_value());
+  EXPECT_LE(*cold.barrier_parameter, 1e-9);
+  SolverOptions options;
+  options.start_multipliers = cold.multipliers;
+  options.start_barrier_parameter = 1e-3;
+  const Solution far = make_solver("interior_point", options)->solve(*program, cold.primal);
+  expect_same(prepared.solve(cold.primal, cold.multipliers, 1e-3), far, "1e-3");
+  const Solution& warm = prepared.solve(cold.primal, cold.multipliers, cold.barrier_parameter);
+  EXPECT_TRUE(is_solved(warm.status)) << warm.message;
+  EXPECT_LT(warm.major_iterations, far.major_iterations);
+}
+
+TEST(PreparedSolve, HasNoBarrierParameterWithoutBounds) {
+  const auto problem = make_problem("orbital_transfer");
+  const auto program = transcribe(*problem, "dmoc", 16);
+  PreparedSolve prepared(*program);
+  const Solution cold = prepared.solve(sample(*program, guessed_motion(*problem)));
+  EXPECT_FALSE(cold.barrier_parameter.has_value());
+  const Solution plain = prepared.solve(cold.primal, cold.multipliers);
+  expect_same(prepared.solve(cold.primal, cold.multipliers, 1e-3), plain, "without meaning");
+}
+
 TEST(PreparedSolve, JudgesLikeEverySolveOrByResidualsAlone) {
   const auto problem = make_problem("orbital_transfer");
   const auto program = transcribe(*problem, "dmoc", 16);
@@ -152,6 +180,10 @@ TEST(PreparedSolve, RefusesWrongSizesInASentence) {
                              [&] { static_cast<void>(prepared.solve(Eigen::VectorXd::Zero(3))); });
   tests::expect_error_naming({"multipliers", "2", "constraints"},
                              [&] { static_cast<void>(prepared.solve(start, Eigen::VectorXd::Zero(2))); });
+  for (const double mu : {0.0, -1.0, std::nan("")}) {
+    tests::expect_error_naming({"barrier parameter", "positive"},
+                               [&] { static_cast<void>(prepared.solve(start, Eigen::VectorXd(), mu)); });
+  }
   tests::expect_error_naming({"no solver", "simplex"},
                              [&] { const PreparedSolve none(*program, std::string_view("simplex")); });
 }

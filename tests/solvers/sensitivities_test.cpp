@@ -80,7 +80,8 @@ void expect_derivatives(const Family& family, double value, double step, const M
 
 TEST(Sensitivities, InAParameterAreTheSlopesOfAnswers) {
   for (const auto& [name, parameter] :
-       {std::pair{"orbital_transfer", "target_altitude"}, std::pair{"two_link_manipulator", "mass_1"}}) {
+       {std::pair{"orbital_transfer", "target_altitude"}, std::pair{"two_link_manipulator", "mass_1"},
+        std::pair{"double_integrator", "horizon"}}) {
     const double value = make_problem(name)->parameter(parameter);
     const auto base = make_problem(name);
     for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
@@ -119,7 +120,7 @@ TEST(Sensitivities, WhereControlsAreOnTheirBoundsMoveWithThem) {
   const Motion& start = tests::common_start(base);
   const double largest =
       tests::solve(base, Scheme{"dmoc"}, Grid::uniform(24), start).trajectory.stage_u.cwiseAbs().maxCoeff();
-  for (const char* method : {"dmoc", "tangent"}) {
+  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
     SCOPED_TRACE(method);
     const Family family = [&](double share) {
       const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
@@ -128,6 +129,47 @@ TEST(Sensitivities, WhereControlsAreOnTheirBoundsMoveWithThem) {
       return tests::transcribe(problem, Scheme{method}, Grid::uniform(24));
     };
     expect_derivatives(family, 0.85, 2e-3, start);
+  }
+}
+
+/// The largest speed of the first joint along the optimum without bounds.
+double largest_speed(const Problem& base, const Motion& start) {
+  return tests::solve(base, Scheme{"dmoc"}, Grid::uniform(24), start).trajectory.stage_v.col(0).cwiseAbs().maxCoeff();
+}
+
+// Rows of DMOC, unknowns of tangent-space collocation.
+TEST(Sensitivities, WhereVelocitiesAreOnTheirBoundsMoveWithThem) {
+  const TwoLinkManipulator base;
+  const Motion& start = tests::common_start(base);
+  const double largest = largest_speed(base, start);
+  for (const char* method : {"dmoc", "tangent"}) {
+    SCOPED_TRACE(method);
+    const Family family = [&](double share) {
+      const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
+        statement.v = Bounds{Eigen::Vector2d(-share * largest, -tests::infinity),
+                             Eigen::Vector2d(share * largest, tests::infinity)};
+      });
+      return tests::transcribe(problem, Scheme{method}, Grid::uniform(24));
+    };
+    expect_derivatives(family, 0.9, 2e-3, start);
+  }
+}
+
+TEST(Sensitivities, WherePathConstraintsAreActiveMoveWithThem) {
+  const TwoLinkManipulator base;
+  const Motion& start = tests::common_start(base);
+  const double largest = largest_speed(base, start);
+  for (const char* method : {"dmoc", "hamiltonian"}) {
+    SCOPED_TRACE(method);
+    const Family family = [&](double share) {
+      const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {
+        statement.path = [=](const ControlledState& x) {
+          return ExpressionVector::Constant(1, share * share * largest * largest - x.v[0] * x.v[0]);
+        };
+      });
+      return tests::transcribe(problem, Scheme{method}, Grid::uniform(24));
+    };
+    expect_derivatives(family, 0.9, 2e-3, start);
   }
 }
 

@@ -65,15 +65,17 @@ class InteriorPointRun final : public PreparedRun {
         newton_(program_, *kkt_),
         allowed_(program, options.tolerance) {}
 
-  void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, Solution& solution) override {
-    std::optional<Status> end = begin(start, multipliers);
+  void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
+           Solution& solution) override {
+    std::optional<Status> end = begin(start, multipliers, barrier_parameter);
     while (!end) end = iterate();
     write(*end, solution);
   }
 
  private:
   /// A status ends the solve, here and below.
-  [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers) {
+  [[nodiscard]] std::optional<Status> begin(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                                            std::optional<double> barrier_parameter) {
     program_.read_bounds();
     newton_.begin_solve();
     length_ = 0.0;
@@ -81,15 +83,12 @@ class InteriorPointRun final : public PreparedRun {
     descents_ = 0;
     message_.clear();
     const bool is_warm = multipliers.size() > 0;
-    if (program_.has_bounds()) mu_ = is_warm ? of_warm_start : mu_0;
+    if (program_.has_bounds()) mu_ = barrier_parameter.value_or(is_warm ? of_warm_start : mu_0);
     program_.set_interior(start, is_warm ? of_warm_start : kappa_1, at_);
     if (!program_.evaluate(at_, mu_, values_)) return Status::evaluation_failed;
     program_.differentiate(at_.x);
-    if (is_warm) {
-      at_.multipliers = multipliers;
-    } else {
-      newton_.estimate_multipliers(at_);
-    }
+    if (is_warm) at_.multipliers = multipliers;
+    if (!is_warm) newton_.estimate_multipliers(at_);
     if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
     if (is_warm) program_.bounds().balance(mu_, gradient_, at_);
     const double theta = std::max(1.0, values_.theta);
@@ -150,6 +149,7 @@ class InteriorPointRun final : public PreparedRun {
     solution.message = message_;
     solution.primal = at_.x;
     solution.multipliers = at_.multipliers;
+    solution.barrier_parameter = program_.has_bounds() ? std::optional(mu_) : std::nullopt;
     solution.major_iterations = iterations_;
     solution.linear_systems = newton_.factorisations();
     solution.linear_seconds = newton_.linear_seconds();
@@ -385,7 +385,7 @@ Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd
   auto kkt = interior_point::make_kkt(program, choices_);
   if (kkt) {
     interior_point::InteriorPointRun(program, std::move(*kkt), options())
-        .run(start, options().start_multipliers, solution);
+        .run(start, options().start_multipliers, options().start_barrier_parameter, solution);
     return solution;
   }
   solution.status = Status::invalid_program;

@@ -1,6 +1,17 @@
-#include "bench/sequence/shifted.hpp"
+#include "bench/sequence/one_interval_later.hpp"
 
 namespace dmocbench {
+
+Motion one_interval_later(const Trajectory& trajectory) {
+  const Motion motion = smooth_motion(trajectory);
+  const auto at = [motion, step = trajectory.step(0)](double t) {
+    MotionPoint point = motion.at(t + step);
+    const double beyond = t + step - motion.horizon;
+    if (beyond > 0.0) point.q += beyond * point.v;
+    return point;
+  };
+  return {at, motion.horizon};
+}
 
 Eigen::VectorXd shifted(const Places& places, const Eigen::VectorXd& values) {
   Eigen::VectorXd result = values;
