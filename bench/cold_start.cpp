@@ -24,8 +24,8 @@ class ColdStart final : public Experiment {
                  "methods. "
                  "NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on the best "
                  "branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds to there. "
-                 "NAME_profiles.csv: the share solved within a budget of evaluations or seconds. A start that is lost "
-                 "keeps its row and counts.",
+                 "NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of evaluations alone "
+                 "where solves are those of a batch). A start that is lost keeps its row and counts.",
              .options = {.problems = {"all"},
                          .solvers = {"interior_point", "ipopt", "sqp"},
                          .intervals = "64",
@@ -34,7 +34,8 @@ class ColdStart final : public Experiment {
                          .most_iterations = 200,
                          .jobs = 2},
              .tells_branches = false,
-             .problems_are_independent = true}) {}
+             .problems_are_independent = true,
+             .takes_batches = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     return {
         {"start", "", "number of the start, cold; 0 is the guess itself", from(&SolvedCase::the_case, &Case::variant)},

@@ -21,9 +21,10 @@ class LocalMinima final : public Experiment {
                  "Solves every case from many perturbed guesses; the minima found and how often each method ends in "
                  "which (NAME_minima.csv), and how often it finds the best one, with a confidence interval "
                  "(NAME_shares.csv).",
-             .options = {.intervals = "64", .start = "guess", .jobs = 2},
+             .options = {.intervals = "64", .start = "guess", .jobs = 2, .batch = true},
              .tells_branches = false,
-             .problems_are_independent = true}) {}
+             .problems_are_independent = true,
+             .takes_batches = true}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     return Columns<SolvedCase>{{"start", "", "number of the start; 0 is the guess itself",
                                 from(&SolvedCase::the_case, &Case::variant)}} +

@@ -25,9 +25,11 @@ class Sweep final : public Experiment {
                     .options = {.problems = {"two_link_manipulator"},
                                 .methods = {"dmoc"},
                                 .solvers = {"interior_point"},
-                                .intervals = "64"},
+                                .intervals = "64",
+                                .batch = true},
                     .tells_branches = false,
-                    .cases_stand_alone = true}) {}
+                    .cases_stand_alone = true,
+                    .takes_batches = true}) {}
 
   void add_options(CommandLine& line) override {
     line.option("--over", over_,
@@ -55,12 +57,15 @@ class Sweep final : public Experiment {
     for (std::size_t i = problems.size(); i < instances_.size(); ++i) {
       problems.push_back(instance_of(base, card_.options.settings, quantities_, instances_[i]));
     }
+    const std::vector<std::string> varied = varied_parameters(*base, quantities_);
     std::vector<Case> cases;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
       for (const Case& of_curve : curve) {
         Case instance = of_curve;
         instance.problem = problems[i];
         instance.nominal = base;
+        instance.parameters = parameters_of_instance(*base, quantities_, instances_[i]);
+        instance.varied = varied;
         instance.variant = std::to_string(i);
         cases.push_back(std::move(instance));
       }

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/case_batch.hpp"
 #include "bench/experiment/case_list.hpp"
+#include "bench/experiment/cases_of_run.hpp"
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/outcome.hpp"
 #include "bench/experiment/parts_of_run.hpp"
 #include "bench/experiment/process_pool.hpp"
@@ -25,20 +28,6 @@ namespace dmocbench {
 
 namespace {
 
-std::vector<Case> with_variants(const Experiment& experiment, const std::vector<Case>& cases) {
-  std::vector<Case> result;
-  for (const std::vector<Case>& curve : curves_of(cases)) {
-    const std::vector<Case> variants = experiment.variants(curve);
-    result.insert(result.end(), variants.begin(), variants.end());
-  }
-  return result;
-}
-
-Columns<SolvedCase> columns_of(const Experiment& experiment) {
-  Columns<SolvedCase> columns = core_columns() + experiment.columns();
-  return experiment.card().takes_turns ? columns + columns_of_rounds() : columns;
-}
-
 /// One run of an experiment: its cases, its table, its files.
 class Run {
  public:
@@ -47,7 +36,7 @@ class Run {
       : experiment_(experiment),
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
-        cases_(with_tolerances(with_variants(experiment, expand_cases(options_)), chosen_tolerances(options_))),
+        cases_(cases_of(experiment)),
         starts_({.kind = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().tells_branches,
@@ -152,11 +141,7 @@ class Run {
       solve_in_turn();
     } else {
       first_solved_ = cases_.empty() ? 0 : experiment_.solved_first(curves_of(cases_).front());
-      if (options_.jobs > 1) {
-        solve_in_processes();
-      } else {
-        solve_span(0, cases_.size());
-      }
+      options_.jobs > 1 ? solve_in_processes() : solve_span(0, cases_.size());
     }
   }
 
@@ -170,13 +155,10 @@ class Run {
   void replace_earlier_files() {
     metadata_["complete"] = false;
     write_metadata(prefix_.string() + ".json", metadata_);
-    const std::string start = options_.start.substr(0, options_.start.rfind("_nodes.csv"));
-    std::error_code none;  // they need not exist
     for (const std::string& suffix : experiment_.further_files()) {
       const std::string file = prefix_.string() + suffix;
-      const bool is_start = std::filesystem::equivalent(file, start + "_nodes.csv", none) ||
-                            std::filesystem::equivalent(file, start + "_stages.csv", none);
-      if (!is_start) std::filesystem::remove(file, none);
+      std::error_code none;  // it need not exist
+      if (!is_file_of_motion(file, options_.start)) std::filesystem::remove(file, none);
     }
   }
 
@@ -195,10 +177,28 @@ class Run {
   }
 
   void solve_span(std::size_t first, std::size_t end) {
+    if (options_.batch && options_.repeats == 1) solve_batches(first, end);
     for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
       solve_curve(curve, first);
       first += curve.size();
     }
+  }
+
+  /// What batches leave is solved alone.
+  void solve_batches(std::size_t first, std::size_t end) {
+    solve_in_batches({.cases = cases_,
+                      .is_wanted = is_own_,
+                      .options = solver_options_,
+                      .start = [this](const Case& the_case) { return start_of(the_case); },
+                      .keep = [this](SolvedCase& solved, std::size_t number) { keep(completed(solved), number); },
+                      .show = [this](const std::string& activity) { show(activity); }},
+                     {first, end});
+  }
+
+  [[nodiscard]] Start start_of(const Case& the_case) {
+    Start start = starts_.start_for(the_case);
+    start.motion = experiment_.start_for(the_case, std::move(start.motion));
+    return start;
   }
 
   void solve_curve(const std::vector<Case>& curve, std::size_t first) {
@@ -206,7 +206,7 @@ class Run {
     for (std::size_t i = 0; i < curve.size(); ++i) {
       if (interrupt_requested()) return;
       const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
-      if (!is_own_[first + position]) continue;
+      if (!is_own_[first + position] || rows_[first + position]) continue;
       SolvedCase solved = solve(first + position, options_.repeats);
       if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
       experiment_.solved_once(solved);
@@ -220,8 +220,7 @@ class Run {
     const Case& the_case = cases_[number];
     SolvedCase unsolved{.the_case = the_case};
     try {
-      Start start = starts_.start_for(the_case);
-      start.motion = experiment_.start_for(the_case, std::move(start.motion));
+      const Start start = start_of(the_case);
       show(the_case.label());
       SolverOptions options = solver_options_;
       options.tolerance = the_case.tolerance.value_or(options.tolerance);
@@ -384,6 +383,11 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     if (card.compares_tolerances) {
       line.list("--tolerances", experiment.options().tolerances,
                 "several tolerances, a row for each; wins over --tolerance");
+    }
+    if (card.takes_batches) {
+      line.flag("--batch,!--no-batch", experiment.options().batch,
+                "solves by interior_point that differ in start, parameters or ends side by side, without times; not "
+                "with --seconds, --option, --verbose or --repeats");
     }
     if (card.takes_parts) add_part_options(line, experiment.options());
     experiment.add_options(line);

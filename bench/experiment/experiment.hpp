@@ -27,6 +27,8 @@ struct ExperimentCard {
   bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
   bool takes_costates = false;       ///< a start from a file brings its costates as start multipliers
   bool cases_stand_alone = false;    ///< what is wrong with the first case is wrong with that one alone
+  bool takes_batches = false;        ///< cases of one program may be solved side by side, without times: --batch is
+                                     ///< offered; `solver_for`, `solved_first` and `solved_once` are those above
   bool takes_parts = true;           ///< --part is offered: `finish` needs nothing of solves but rows and findings
 };
 

@@ -170,6 +170,13 @@ std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {
   return name.substr(0, name.size() - ending.size()) + "_stages.csv";
 }
 
+bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file) {
+  const std::string name = nodes_file.substr(0, nodes_file.rfind("_nodes.csv"));
+  std::error_code none;  // they need not exist
+  return std::filesystem::equivalent(file, name + "_nodes.csv", none) ||
+         std::filesystem::equivalent(file, name + "_stages.csv", none);
+}
+
 Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
   const std::filesystem::path stages_file = stages_file_of(nodes_file);
   const Table nodes = table_in(nodes_file);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "bench/experiment/table.hpp"
 #include "methods/mechanics/problem.hpp"
@@ -22,6 +23,9 @@ namespace dmocbench {
 
 /// The stage table beside a node table: X_stages.csv beside X_nodes.csv. Throws `Error` if the name has another ending.
 [[nodiscard]] std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file);
+
+/// Whether a file is one of the two that hold the motion of this node table.
+[[nodiscard]] bool is_file_of_motion(const std::filesystem::path& file, const std::string& nodes_file);
 
 /// Reads a motion back from FILE, a node table, and the stage table beside it (X_nodes.csv and X_stages.csv): piecewise
 /// cubic Hermite in q and v, controls linear between stage times. Throws `Error` that names the file and what is

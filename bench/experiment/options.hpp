@@ -34,6 +34,7 @@ struct ExperimentOptions {
   double most_seconds = 0.0;    ///< of a solve, and of its set-up; 0 for no limit
   double start_seconds = 30.0;  ///< of the search of a problem's common start
   int jobs = 1;                 ///< problems worked on at the same time, where an experiment allows it
+  bool batch = false;           ///< cases of one program are solved side by side, where an experiment allows it
   int repeats = 1;              ///< solves per row; times are their medians
   bool verbose = false;
   std::filesystem::path out = "results";

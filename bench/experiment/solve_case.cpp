@@ -78,7 +78,7 @@ int settle_exactly(Case the_case, Transcription& program, double tolerance, Solu
 
 /// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
 void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
-  const Accuracy found = accuracy(*solved.the_case.problem, motion);
+  const Accuracy found = accuracy(solved.program->traced_problem(), motion);
   solved.accuracy = found;
   if (found.relative_jump <= largest_jump_of_a_motion) return;
   solved.solution.status = Status::too_coarse;
@@ -147,6 +147,35 @@ void note_solver(SolvedCase& solved) {
                           status == Status::evaluation_failed || status == Status::not_confirmed ||
                           status == Status::diverged;
   if (asked == "interior_point" && has_failed) solved.note("--solver auto goes on from here with ipopt.");
+}
+
+/// Says on which branch the answer is, and why it did not begin at the start that was asked for.
+void tell_start(SolvedCase& solved, const Start& start) {
+  if (start.branch && solved.trajectory) {
+    solved.branch = is_on_branch(*solved.trajectory, *start.branch) ? "same" : "other";
+  }
+  if (start.note.empty()) return;
+  solved.branch = "unknown";
+  solved.note(start.note);
+}
+
+/// Reads the trajectory of an answer, judges it and says what went wrong.
+void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& time) {
+  Solution& solution = solved.solution;
+  Transcription& program = *solved.program;
+  if (solution.primal.allFinite() && solution.primal.size() > 0) {
+    try {
+      solved.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
+    } catch (const Error& error) {
+      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing tells whether it is a motion
+      solved.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
+    }
+  }
+  if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
+  note_solver(solved);
+  tell_start(solved, start);
+  const std::string missed = describe_violation(*solved.the_case.problem, program, solution, solved.tolerance);
+  if (!missed.empty()) solved.note(missed);
 }
 
 bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
@@ -218,26 +247,30 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
     if (polishes) result.polish_steps = settling_steps + polish(program, solution);
   }
 
-  if (solution.primal.allFinite() && solution.primal.size() > 0) {
-    try {
-      result.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
-      if (start.branch) result.branch = is_on_branch(*result.trajectory, *start.branch) ? "same" : "other";
-    } catch (const Error& error) {
-      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing tells whether it is a motion
-      result.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
-    }
-  }
-  if (result.trajectory && is_solved(solution.status)) judge_in_time(result, *result.trajectory, time);
-  note_solver(result);
-  if (!start.note.empty()) {
-    result.branch = "unknown";
-    result.note(start.note);
-  }
-  const std::string missed = describe_violation(*the_case.problem, program, solution, tolerance);
-  if (!missed.empty()) result.note(missed);
+  read_and_judge(result, start, time);
   result.seconds_left = time.left();
   repeat(result, start, solver, first, repeats);
   return result;
+}
+
+void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options) {
+  const TimeOfCase time(options);
+  {
+    const StopScope scope = time.scope();
+    settle(*solved.program, solved.tolerance, solved.solution);
+  }
+  read_and_judge(solved, start, time);
+}
+
+void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<JudgedAnswer> answer) {
+  const SolvedCase& judged = answer->judged;
+  solved.trajectory = judged.trajectory;
+  if (solved.trajectory) solved.trajectory->cost = solved.solution.objective / solved.program->cost_scale();
+  solved.accuracy = judged.accuracy;
+  solved.solution.status = judged.solution.status;
+  solved.solution.message = judged.solution.message;
+  solved.answer = std::move(answer);
+  tell_start(solved, start);
 }
 
 bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
@@ -284,10 +317,22 @@ namespace {
 /// True of answers that a solver found, motions or not.
 bool is_judged(Status status) { return is_solved(status) || status == Status::too_coarse; }
 
+/// Those of the answer, found out once for all cases that end at it.
+IndependentChecks shared_checks(SolvedCase& solved) {
+  SolvedCase& judged = solved.answer->judged;
+  const std::string before = judged.solution.message;
+  if (!solved.answer->checks) solved.answer->checks = check_independently(judged);
+  const std::string& now = judged.solution.message;
+  solved.solution.status = judged.solution.status;
+  solved.solution.message = now.starts_with(before) ? solved.solution.message + now.substr(before.size()) : now;
+  return *solved.answer->checks;
+}
+
 }  // namespace
 
 IndependentChecks check_independently(SolvedCase& solved) {
   if (!solved.trajectory) return {};
+  if (solved.answer) return shared_checks(solved);
   const Problem& problem = *solved.the_case.problem;
   const Trajectory& trajectory = *solved.trajectory;
   if (const auto undefined = undefined_point(problem, trajectory); undefined && is_judged(solved.solution.status)) {

@@ -33,6 +33,10 @@ struct Case {
   std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
   /// The problem of which this is an instance with other values: where its common start is looked for. Null for none.
   std::shared_ptr<const Problem> nominal = nullptr;
+  /// Of an instance: all its parameters, in the order of those of `nominal`, and the names of those that instances
+  /// vary.
+  Eigen::VectorXd parameters = {};
+  std::vector<std::string> varied = {};
 
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
   /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
@@ -53,6 +57,8 @@ struct SolveTimes {
   std::optional<double> linear_seconds = std::nullopt;  ///< of solvers that tell it
 };
 
+struct JudgedAnswer;
+
 /// The result of one solve.
 struct SolvedCase {
   Case the_case;
@@ -70,6 +76,8 @@ struct SolvedCase {
   double tolerance = 0.0;                          ///< of the solver; 0 if the case could not start
   std::optional<int> polish_steps = std::nullopt;  ///< none if the answer was not to be polished
   double seconds_left = unbounded;                 ///< of the solver's limit, for what is measured of the answer
+  bool is_timed = true;  ///< false of one of a batch: eight are solved side by side, so that none has a time
+  std::shared_ptr<JudgedAnswer> answer = nullptr;  ///< of one of a batch: what it shares with others of the same answer
 
   /// The program that the solver sees, unless the case could not start.
   [[nodiscard]] const NonlinearProgram& solved_program() const {
@@ -77,6 +85,19 @@ struct SolvedCase {
   }
   /// Adds a sentence to the message of the row.
   void note(const std::string& sentence) { solution.message += " " + sentence; }
+};
+
+/// Checks of a trajectory that rely on neither solver nor discretisation. What cannot be computed stays empty.
+struct IndependentChecks {
+  std::optional<ReplayError> replay;              ///< the controls integrated on the continuous equations
+  std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
+  std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
+};
+
+/// An answer that many starts may end at, with all that is found out of it.
+struct JudgedAnswer {
+  SolvedCase judged;
+  std::optional<IndependentChecks> checks = std::nullopt;  ///< none until they are asked for
 };
 
 /// The columns that begin every experiment's table.
@@ -100,6 +121,13 @@ struct Start {
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
                                     int repeats, bool polishes = false);
 
+/// What follows a solve: settles the answer (its program, start, solution and tolerance are there), reads the
+/// trajectory, judges it by the replay of each interval, and says what there is to say. `options` are the solver's.
+void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options);
+
+/// The same of a solved case whose answer is known to be this one, which is judged once for all of them.
+void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<JudgedAnswer> answer);
+
 /// Keeps the times of several solves, and replaces those of the answer by their medians.
 void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 
@@ -115,13 +143,6 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 /// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
 [[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
 [[nodiscard]] bool is_usable(const Row& row);
-
-/// Checks of a trajectory that rely on neither solver nor discretisation. What cannot be computed stays empty.
-struct IndependentChecks {
-  std::optional<ReplayError> replay;              ///< the controls integrated on the continuous equations
-  std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
-  std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
-};
 
 /// Says of a solved case what the end of its time left out.
 void note_stop(SolvedCase& solved, const std::string& what);

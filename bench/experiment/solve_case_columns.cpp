@@ -17,9 +17,11 @@ auto count(std::size_t (*of_program)(const NonlinearProgram&)) {
   return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(solved.solved_program())) : Cell(); };
 }
 
-/// A number of seconds; no case that could not start has any.
+/// A number of seconds; no case that could not start has any, nor one of a batch.
 auto seconds(double Solution::*member) {
-  return [=](const SolvedCase& solved) { return solved.program ? Cell(solved.solution.*member) : Cell(); };
+  return [=](const SolvedCase& solved) {
+    return solved.program && solved.is_timed ? Cell(solved.solution.*member) : Cell();
+  };
 }
 
 std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
@@ -76,15 +78,19 @@ const Columns<SolvedCase>& core_columns() {
       {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
       {"minor_iterations", "", "those of its quadratic programs",
        from(&SolvedCase::solution, &Solution::minor_iterations)},
-      {"setup_seconds", "s", "transcription: tracing, differentiation, structure", from(&SolvedCase::setup_seconds)},
-      {"evaluation_seconds", "s", "part of the solve spent in evaluations", seconds(&Solution::evaluation_seconds)},
-      {"seconds", "s", "wall clock of the solve", seconds(&Solution::seconds)},
+      {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty of one of a batch",
+       from(&SolvedCase::setup_seconds)},
+      {"evaluation_seconds", "s", "part of the solve spent in evaluations; empty of one of a batch",
+       seconds(&Solution::evaluation_seconds)},
+      {"seconds", "s", "wall clock of the solve; empty of one of a batch, which shares its time with others",
+       seconds(&Solution::seconds)},
       {"largest_jump", "", "largest |(q, v)| by which an interval, replayed from its first node, misses the next one",
        from(&SolvedCase::accuracy, &Accuracy::jump)},
       {"relative_jump", "", "the same of q or of v, whichever is larger relative to its range",
        from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
       {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
-      {"answered_by", "", "whose answer it is: the solver itself, or the one that auto ended with",
+      {"answered_by", "",
+       "whose answer it is: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
        from(&SolvedCase::solution, &Solution::solver)},
       {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
   };

@@ -1,9 +1,13 @@
 // Many instances of one program: the batch in lanes, on one thread and on all, against loops over single solvers.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,11 +17,13 @@
 
 #include "bench/experiment/solve_case.hpp"
 #include "bench/speed/benchmark_program.hpp"
+#include "bench/summary/ratio_interval.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/batch/instance_program.hpp"
+#include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/lane_transcription.hpp"
@@ -31,30 +37,45 @@ namespace {
 constexpr int intervals = 64;
 constexpr std::size_t most_instances = 4096;
 
+/// Where instances start; all starts are moved with their ends (`ClampedEnds`).
+enum class Start : std::uint8_t {
+  cold,     ///< at the guess of the problem
+  warm,     ///< at the motion of the problem itself, which is solved before, with its multipliers
+  nearest,  ///< at the motion of the nearest instance that is solved before, with its multipliers; the first are warm
+};
+
+std::string name_of(Start start) { return start == Start::cold ? "cold" : start == Start::warm ? "warm" : "nearest"; }
+
 /// A program and its instances: every component of the states at both ends drawn uniformly within 10 % of its value, or
-/// of the way from end to end where that is 0. Cold ones start at the guess of the problem, warm ones at the motion and
-/// with the multipliers of the problem itself, which is solved before; both moved with the ends (`ClampedEnds`).
+/// of the way from end to end where that is 0.
 class Instances {
  public:
-  Instances(const std::string& name, bool is_warm) : problem_(make_problem(name)) {
+  Instances(const std::string& name, Start start) : problem_(make_problem(name)) {
     program_ =
         Case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(intervals)}.transcribe();
     start_ = sample(*program_, guessed_motion(*problem_));
     ends_ = std::make_unique<ClampedEnds>(*program_);
-    if (is_warm) {
+    if (start != Start::cold) {
       const Solution neighbour = make_solver("interior_point")->solve(*program_, start_);
       start_ = neighbour.primal;
       multipliers_ = neighbour.multipliers;
     }
-    for (std::size_t i = 0; i < most_instances; ++i) states_.push_back({moved(true), moved(false)});
+    for (std::size_t i = 0; i < most_instances; ++i) {
+      units_.clear();
+      const BoundaryState first = moved(true);
+      const BoundaryState last = moved(false);
+      states_.push_back({first, last, Eigen::Map<const Eigen::VectorXd>(units_.data(), std::ssize(units_))});
+    }
   }
 
   [[nodiscard]] Transcription& program() { return *program_; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
-  void fill(std::size_t index, BatchInstance& instance) {
-    instance.start = start_;
+  /// What was drawn for an instance, between -1 and 1.
+  [[nodiscard]] const Eigen::VectorXd& place(std::size_t index) const { return states_[index].place; }
+  void fill(std::size_t index, BatchInstance& instance, const Solution* neighbour = nullptr) {
+    instance.start = neighbour == nullptr ? start_ : neighbour->primal;
     instance.rows = program_->constraint_lower();
-    instance.multipliers = multipliers_;
+    instance.multipliers = neighbour == nullptr ? multipliers_ : neighbour->multipliers;
     ends_->write(states_[index].first, states_[index].last, instance.start, instance.rows);
   }
 
@@ -62,6 +83,7 @@ class Instances {
   struct Ends {
     BoundaryState first;
     BoundaryState last;
+    Eigen::VectorXd place;
   };
 
   BoundaryState moved(bool is_first) {
@@ -73,8 +95,9 @@ class Instances {
         double& value = (end.*part)[i];
         const double size = value != 0.0 ? value : (last.*part)[i] - (first.*part)[i];
         constexpr double share = 0.1;
-        const double unit = static_cast<double>(engine_()) / 4294967296.0;  // the same numbers everywhere
-        value += share * (2.0 * unit - 1.0) * std::abs(size);
+        const double unit = 2.0 * static_cast<double>(engine_()) / 4294967296.0 - 1.0;  // the same numbers everywhere
+        value += share * unit * std::abs(size);
+        units_.push_back(unit);
       }
     }
     return end;
@@ -86,13 +109,14 @@ class Instances {
   Eigen::VectorXd start_;
   Eigen::VectorXd multipliers_;
   std::vector<Ends> states_;
+  std::vector<double> units_;  // of the instance that is drawn
   std::mt19937 engine_{20090101U};
 };
 
 /// A way to solve them, or to fill them only.
 struct Way {
   std::string problem;
-  bool is_warm = false;
+  Start start = Start::cold;
   std::string name;  ///< batch, fill, or a solver, called in a loop
   std::size_t threads = 1;
   std::size_t instances = most_instances;
@@ -102,10 +126,12 @@ struct Way {
 struct Tally {
   std::vector<double> iterations;
   double solved = 0.0;
-  double one_by_one = 0.0;
+  double turns_of_lanes = 0.0;  ///< that solves took: a system each, and one for the start
+  BatchSummary batch;
 
   void add(const Solution& solution) {
     iterations.push_back(solution.major_iterations.value_or(0));
+    if (solution.solver == "batch") turns_of_lanes += solution.linear_systems.value_or(0) + 1.0;
     solved += is_solved(solution.status) ? 1.0 : 0.0;
   }
 };
@@ -113,14 +139,25 @@ struct Tally {
 void solve_in_lanes(Instances& instances, const Way& way, Tally& tally) {
   BatchOptions options;
   options.threads = way.threads;
-  const BatchSummary summary = solve_batch(
-      instances.program(), lanes_of(instances.program()), instances.start(),
-      [&](std::size_t index, BatchInstance& instance) {
-        if (index < way.instances) instances.fill(index, instance);
-        return index < way.instances;
-      },
-      [&](std::size_t, const Solution& solution) { tally.add(solution); }, options);
-  tally.one_by_one = static_cast<double>(summary.solved_one_by_one);
+  const MakeLanes lanes = lanes_of(instances.program());
+  const TakeSolution take = [&](std::size_t, const Solution& solution) { tally.add(solution); };
+  if (way.start == Start::nearest) {
+    const auto place = [&](std::size_t index, Eigen::VectorXd& coordinates) {
+      if (index < way.instances) coordinates = instances.place(index);
+      return index < way.instances;
+    };
+    const auto next = [&](std::size_t index, const Solution* neighbour, BatchInstance& instance) {
+      instances.fill(index, instance, neighbour);
+    };
+    tally.batch =
+        solve_batch_from_neighbours(instances.program(), lanes, instances.start(), place, next, take, options);
+    return;
+  }
+  const auto next = [&](std::size_t index, BatchInstance& instance) {
+    if (index < way.instances) instances.fill(index, instance);
+    return index < way.instances;
+  };
+  tally.batch = solve_batch(instances.program(), lanes, instances.start(), next, take, options);
 }
 
 void solve_in_a_loop(Instances& instances, const Way& way, Tally& tally) {
@@ -135,10 +172,25 @@ void solve_in_a_loop(Instances& instances, const Way& way, Tally& tally) {
   }
 }
 
+constexpr std::array phase_names{"tapes", "linear_systems", "line_search", "one_by_one", "exchange", "rest"};
+static_assert(phase_names.size() == batch_phases);
+
+/// What counters tell of a batch: how many instances lanes could not finish, how full lanes were, and the shares of
+/// time by phase.
+void count_batch(benchmark::State& state, const BatchSummary& batch, double turns_of_lanes) {
+  if (batch.instances == 0) return;
+  state.counters["one_by_one"] = static_cast<double>(batch.solved_one_by_one) / static_cast<double>(batch.instances);
+  state.counters["lanes_in_use"] = turns_of_lanes / static_cast<double>(batch.rounds * instance_lanes);
+  const double total = std::accumulate(batch.seconds.begin(), batch.seconds.end(), 0.0);
+  for (std::size_t i = 0; i < batch_phases; ++i) {
+    state.counters[fmt::format("share_{}", phase_names[i])] = batch.seconds[i] / total;
+  }
+}
+
 /// Every turn solves all instances; its time is that of one of them.
 void run(benchmark::State& state, const Way& way) {
   set_thread_count(1);
-  Instances instances(way.problem, way.is_warm);
+  Instances instances(way.problem, way.start);
   Tally tally;
   for ([[maybe_unused]] auto turn : state) {
     tally = {};
@@ -146,19 +198,18 @@ void run(benchmark::State& state, const Way& way) {
     way.name == "batch" ? solve_in_lanes(instances, way, tally) : solve_in_a_loop(instances, way, tally);
     state.SetIterationTime(seconds_since(begin) / static_cast<double>(way.instances));
   }
-  state.SetLabel(fmt::format("problem={} start={} way={} threads={} instances={}", way.problem,
-                             way.is_warm ? "warm" : "cold", way.name, way.threads, way.instances));
+  state.SetLabel(fmt::format("problem={} start={} way={} threads={} instances={}", way.problem, name_of(way.start),
+                             way.name, way.threads, way.instances));
   if (tally.iterations.empty()) return;
   const auto count = static_cast<double>(tally.iterations.size());
   state.counters["median_iterations"] = median(tally.iterations);
   state.counters["solved"] = tally.solved / count;
-  state.counters["one_by_one"] = tally.one_by_one / count;
+  count_batch(state, tally.batch, tally.turns_of_lanes);
 }
 
 /// PROBLEM/START/WAY/threads_COUNT
 void add(const Way& way) {
-  const std::string name =
-      fmt::format("{}/{}/{}/threads_{}", way.problem, way.is_warm ? "warm" : "cold", way.name, way.threads);
+  const std::string name = fmt::format("{}/{}/{}/threads_{}", way.problem, name_of(way.start), way.name, way.threads);
   benchmark::RegisterBenchmark(name.c_str(),
                                [way](benchmark::State& state) {
                                  try {
@@ -177,13 +228,13 @@ void register_batches() {
   constexpr std::size_t of_ipopt = 32;
   const std::size_t all_threads = thread_count();
   for (const std::string& problem : paper_problem_names()) {
-    for (const bool is_warm : {false, true}) {
-      const Way way{.problem = problem, .is_warm = is_warm, .name = "batch"};
+    for (const Start start : {Start::cold, Start::warm, Start::nearest}) {
       const auto variant = [&](const char* name, std::size_t threads, std::size_t instances) {
-        add({.problem = problem, .is_warm = is_warm, .name = name, .threads = threads, .instances = instances});
+        add({.problem = problem, .start = start, .name = name, .threads = threads, .instances = instances});
       };
-      add(way);
+      variant("batch", 1, most_instances);
       if (all_threads > 1) variant("batch", all_threads, most_instances);
+      if (start == Start::nearest) continue;  // whose loops are the warm ones
       variant("fill", 1, most_instances);
       variant("interior_point", 1, of_interior_point);
       variant("ipopt", 1, of_ipopt);
@@ -191,11 +242,20 @@ void register_batches() {
   }
 }
 
-/// A row per benchmark, medians of the repetitions; `ratio` is how many times as long as one instance of the batch on
-/// all threads it takes.
+std::vector<std::string> counter_names() {
+  std::vector<std::string> names{"median_iterations", "solved", "one_by_one", "lanes_in_use"};
+  for (const char* const phase : phase_names) names.push_back(fmt::format("share_{}", phase));
+  return names;
+}
+
+/// A row per benchmark: medians of the repetitions, with 99 % intervals (bootstrap); `ratio` is how many times as long
+/// as one instance of the batch on all threads it takes, of the same start.
 Table batch_table(const Benchmarks& benchmarks) {
-  Table table({"problem", "start", "way", "threads", "instances", "repetitions", "seconds", "solves_per_second",
-               "ratio", "median_iterations", "solved", "one_by_one"});
+  std::vector<std::string> columns{"problem",     "start",      "way",           "threads",       "instances",
+                                   "repetitions", "seconds",    "seconds_lower", "seconds_upper", "solves_per_second",
+                                   "rate_lower",  "rate_upper", "ratio"};
+  for (const std::string& name : counter_names()) columns.push_back(name);
+  Table table(columns);
   std::map<std::string, double> fastest;  // per problem and start: of the batch
   const auto key = [](const Benchmark& of) { return of.label("problem") + of.label("start"); };
   const auto seconds = [](const Benchmark& of) { return 1e-9 * of.median_of("real_time").value_or(NAN); };
@@ -209,11 +269,19 @@ Table batch_table(const Benchmarks& benchmarks) {
     for (const char* label : {"problem", "start", "way", "threads", "instances"}) {
       row.set(label, benchmark.label(label));
     }
-    row.set("repetitions", static_cast<int>(benchmark.numbers.at("real_time").size()));
+    const std::vector<double>& times = benchmark.numbers.at("real_time");
+    const RatioInterval interval = ratio_interval(times);
+    row.set("repetitions", static_cast<int>(times.size()));
     row.set("seconds", seconds(benchmark));
-    if (benchmark.label("way") != "fill") row.set("solves_per_second", 1.0 / seconds(benchmark));
+    row.set("seconds_lower", 1e-9 * interval.lower);
+    row.set("seconds_upper", 1e-9 * interval.upper);
+    if (benchmark.label("way") != "fill") {
+      row.set("solves_per_second", 1.0 / seconds(benchmark));
+      row.set("rate_lower", 1e9 / interval.upper);
+      row.set("rate_upper", 1e9 / interval.lower);
+    }
     if (fastest.contains(key(benchmark))) row.set("ratio", seconds(benchmark) / fastest.at(key(benchmark)));
-    for (const char* counter : {"median_iterations", "solved", "one_by_one"}) {
+    for (const std::string& counter : counter_names()) {
       if (const auto value = benchmark.median_of(counter)) row.set(counter, *value);
     }
     table.append(std::move(row));

@@ -11,6 +11,7 @@
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/restated_problem.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
 #include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
@@ -147,6 +148,24 @@ void require_quantities(const Problem& problem, const std::vector<SweptQuantity>
                               quantity.name, problem.name()));
     }
   }
+}
+
+std::vector<std::string> varied_parameters(const Problem& problem, const std::vector<SweptQuantity>& quantities) {
+  std::vector<std::string> names;
+  for (const SweptQuantity& quantity : quantities) {
+    if (has_parameter(problem, quantity.name)) names.push_back(quantity.name);
+  }
+  return names;
+}
+
+Eigen::VectorXd parameters_of_instance(const Problem& problem, const std::vector<SweptQuantity>& quantities,
+                                       const std::vector<double>& values) {
+  Eigen::VectorXd parameters = parameter_values(problem);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!has_parameter(problem, quantities[i].name)) continue;
+    parameters[static_cast<Eigen::Index>(parameter_number(problem, quantities[i].name))] = values[i];
+  }
+  return parameters;
 }
 
 std::shared_ptr<const Problem> instance_of(const std::shared_ptr<const Problem>& base,

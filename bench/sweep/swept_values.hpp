@@ -34,6 +34,14 @@ inline constexpr long long most_instances = 100000;
 /// that its bounds leave free.
 void require_quantities(const Problem& problem, const std::vector<SweptQuantity>& quantities);
 
+/// The names of the quantities that are parameters of the problem, and not entries of an end state.
+[[nodiscard]] std::vector<std::string> varied_parameters(const Problem& problem,
+                                                         const std::vector<SweptQuantity>& quantities);
+/// All parameters of the problem, in its order, where these quantities have these values.
+[[nodiscard]] Eigen::VectorXd parameters_of_instance(const Problem& problem,
+                                                     const std::vector<SweptQuantity>& quantities,
+                                                     const std::vector<double>& values);
+
 /// The problem with these values of its quantities, its cost scaled like the base's. `settings` ("parameter=value") are
 /// set first. Throws `Error` if a parameter does not allow its value.
 [[nodiscard]] std::shared_ptr<const Problem> instance_of(const std::shared_ptr<const Problem>& base,

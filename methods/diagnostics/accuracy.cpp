@@ -10,7 +10,6 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
-#include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -50,6 +49,10 @@ std::vector<double> carried(EquationsOfMotion& motion, const Trajectory& traject
 }  // namespace
 
 Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance) {
+  return accuracy(TracedProblem(problem), trajectory, tolerance);
+}
+
+Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, double tolerance) {
   const Eigen::Index n = trajectory.q.cols();
   const double moves = std::max(range_of(trajectory.q), range_of(trajectory.v));
   const auto scale = [&](double range) { return range > 0.0 ? range : (moves > 0.0 ? moves : 1.0); };
@@ -81,7 +84,6 @@ Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double t
   constexpr double shortest = 1e-9;      // 0 would be no limit
   constexpr std::size_t per_part = 256;  // takes some ten milliseconds
   const std::size_t parts = part_count(intervals, per_part);
-  const TracedProblem traced(problem);
   std::vector<std::unique_ptr<EquationsOfMotion>> motions;  // one per part, since each has memory of its own
   motions.reserve(parts);
   for (std::size_t part = 0; part < parts; ++part) motions.push_back(std::make_unique<EquationsOfMotion>(traced));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/trajectory.hpp"
 
 namespace dmocbench {
@@ -28,6 +29,8 @@ struct Accuracy {
 /// With one stage the jump is O(h³) on smooth optima, one order more than the error at the nodes. With s > 1 it is
 /// between O(h^(s+2)) and O(h^(2s+1)): stage controls have order s + 1 (methods/README.md, "Where the order is").
 [[nodiscard]] Accuracy accuracy(const Problem& problem, const Trajectory& trajectory, double tolerance = 1e-12);
+/// The same by formulas that are traced already, for the present values of parameters that are kept open.
+[[nodiscard]] Accuracy accuracy(const TracedProblem& traced, const Trajectory& trajectory, double tolerance = 1e-12);
 
 /// See `accuracy`.
 inline constexpr double smallest_range = 1e-8;

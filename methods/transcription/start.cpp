@@ -1,6 +1,7 @@
 #include "methods/transcription/start.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/equations_of_motion.hpp"
@@ -60,13 +61,14 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
   tables.tableau = transcription.tableau();
   tables.node_times = horizon * transcription.grid().relative_times();
   for (Eigen::MatrixXd* table : {&tables.q, &tables.p, &tables.v}) table->setZero(tables.node_times.size(), n);
-  LegendreTransform legendre(problem);
+  std::optional<LegendreTransform> legendre;  // where nodes carry momenta
+  if (transcription.layout().node_state() == NodeState::momentum) legendre.emplace(problem);
   for (Eigen::Index k = 0; k < tables.node_times.size(); ++k) {
     const MotionPoint node = point_at(tables.node_times[k]);
     tables.q.row(k) = node.q.transpose();
     tables.v.row(k) = node.v.transpose();
-    if (transcription.layout().node_state() != NodeState::momentum) continue;
-    tables.p.row(k) = legendre.momentum(node.q, node.v, tables.node_times[k]).transpose();
+    if (!legendre) continue;
+    tables.p.row(k) = legendre->momentum(node.q, node.v, tables.node_times[k]).transpose();
   }
   const Eigen::Index s = tables.stages();
   tables.stage_v.resize(widths.size() * s, n);

@@ -31,6 +31,8 @@ class Desk {
   virtual void confirm(const Ticket& ticket, Solution& solution) = 0;
   [[nodiscard]] virtual bool is_stopped() = 0;
   virtual void count_round() = 0;
+  /// Where the time of a thread went.
+  virtual void add_seconds(const BatchSeconds& seconds) = 0;
 
  protected:
   Desk() = default;

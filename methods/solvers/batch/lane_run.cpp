@@ -6,20 +6,14 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
 
 namespace dmocbench::batch {
 
 namespace {
 
-// Constants of Wächter and Biegler, by their names there.
-constexpr double mu_0 = 0.1;
-constexpr double kappa_epsilon = 10.0;
-constexpr double kappa_mu = 0.2;
-constexpr double theta_mu = 1.5;
-// Those of interior_point_solver.cpp.
-constexpr double short_step = 0.1;
-constexpr double runaway = 1e8;
-constexpr double largest_estimate = 1e3;
+using namespace interior_point::constants;  // NOLINT(google-build-using-namespace): named as in the papers
+
 constexpr double nearly_full = 0.9;  // a step that bounds shorten by less counts as one of Newton's
 
 LaneValues values_of(const LaneProblem& problem) {
@@ -52,6 +46,7 @@ LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> l
       balanced_(primal_) {}
 
 void LaneRun::run() {
+  clock_.begin();
   for (refill(); !std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.phase == Phase::idle; }); refill()) {
     solve_systems();
     search_lines();
@@ -59,15 +54,19 @@ void LaneRun::run() {
     judge();
     desk_.count_round();
   }
+  desk_.add_seconds(clock_.seconds());
 }
 
 bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].ticket.instance.multipliers.size() > 0; }
+
+double LaneRun::push_of(std::size_t lane) const { return is_warm(lane) ? of_warm_start : kappa_1; }
 
 bool LaneRun::is_anyone(Phase phase) const {
   return std::ranges::any_of(lanes_, [&](const Lane& lane) { return lane.phase == phase; });
 }
 
 void LaneRun::refill() {
+  const PhaseClock::Within within(clock_, BatchPhase::exchange);
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
     while (lanes_[lane].phase == Phase::idle && !desk_.is_stopped()) {
       if (!desk_.fetch(lanes_[lane].ticket)) return;
@@ -88,6 +87,7 @@ void LaneRun::begin(std::size_t number) {
   lane.shift = {};
   lane.iterations = 0;
   lane.systems = 0;
+  lane.evaluations = {};
   lane.moves = false;
   lane.is_newton = false;
   lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? of_warm_start : mu_0;
@@ -96,8 +96,7 @@ void LaneRun::begin(std::size_t number) {
   const Eigen::VectorXd& parameters = instance.parameters;
   problem_.program().set_parameters(number, {parameters.data(), static_cast<std::size_t>(parameters.size())});
   primal_.of(number).head(problem_.variable_count()) = instance.start;
-  problem_.bounds().push_inside(number, is_warm(number) ? of_warm_start : kappa_1, 0, problem_.variable_count(),
-                                primal_);
+  problem_.bounds().push_inside(number, push_of(number), 0, problem_.variable_count(), primal_);
   if (is_warm(number)) {
     multipliers_.of(number) = instance.multipliers;
   } else {
@@ -108,16 +107,17 @@ void LaneRun::begin(std::size_t number) {
 
 /// Assembles the systems of this round.
 kkt::LaneKkt::Systems LaneRun::systems() {
-  const bool is_plain =
-      primal_.size() == problem_.variable_count() && !problem_.has_bounds() && !is_anyone(Phase::estimating);
+  const bool is_plain = primal_.size() == problem_.variable_count() && !problem_.has_bounds() &&
+                        !is_anyone(Phase::estimating) && !is_anyone(Phase::restoring);
   kkt::LaneKkt::Systems systems{.hessian = problem_.hessian().data(),
                                 .jacobian = problem_.jacobian().data(),
                                 .diagonal = sigma_.data(),
                                 .compliance = compliance_.data(),
                                 .gradient = problem_.gradient_of_lagrangian().data(),
                                 .constraints = values_.constraints.data()};
-  const OfLanes shift =
-      of_lanes([](const Lane& lane) { return lane.phase == Phase::estimating ? 1.0 : lane.shift.value(); });
+  const OfLanes shift = of_lanes([](const Lane& lane) {
+    return lane.phase == Phase::estimating || lane.phase == Phase::restoring ? 1.0 : lane.shift.value();
+  });
   if (is_plain) {
     if ((shift != shift_in_sigma_).any()) {
       for (Eigen::Index i = 0; i < sigma_.size(); ++i) sigma_[i] = shift;
@@ -143,11 +143,13 @@ void LaneRun::assemble_systems(const OfLanes& shift) {
     problem_.bounds().add_barrier(primal_, z_, of_lanes([](const Lane& lane) { return lane.mu; }), sigma_, gradient_);
   }
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    if (lanes_[lane].phase != Phase::estimating) continue;
+    const Phase phase = lanes_[lane].phase;
+    if (phase != Phase::estimating && phase != Phase::restoring) continue;
     problem_.hessian().of(lane).setZero();
     sigma_.of(lane).setZero();
-    residuals_.of(lane).setZero();
     gradient_.of(lane).setZero();
+    if (phase == Phase::restoring) continue;
+    residuals_.of(lane).setZero();
     gradient_.of(lane).head(n) = problem_.gradient().of(lane);
     problem_.bounds().subtract_multipliers(lane, z_, gradient_);
   }
@@ -162,12 +164,16 @@ void LaneRun::assemble_systems(const OfLanes& shift) {
 void LaneRun::solve_systems() {
   LaneMask wanted{};
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    wanted[lane] = lanes_[lane].phase == Phase::estimating || lanes_[lane].phase == Phase::newton;
+    wanted[lane] = lanes_[lane].phase != Phase::idle && lanes_[lane].phase != Phase::fresh;
     lanes_[lane].moves = false;
     lanes_[lane].waits = false;
   }
   if (std::ranges::none_of(wanted, std::identity{})) return;
-  problem_.evaluate_hessian(primal_, multipliers_);
+  {
+    const PhaseClock::Within within(clock_, BatchPhase::tapes);
+    problem_.evaluate_hessian(primal_, multipliers_);
+  }
+  const PhaseClock::Within within(clock_, BatchPhase::linear_systems);
   const kkt::LaneKkt::Outcomes outcomes = kkt_->solve(systems(), wanted, step_.data(), multiplier_step_.data());
   for (Eigen::Index j = problem_.variable_count(); const Eigen::Index row : problem_.inequalities()) {
     step_[j] = compliance_[row] * (multiplier_step_[row] - gradient_[j]);
@@ -189,7 +195,7 @@ void LaneRun::solve_systems() {
       if (!is_usable) multipliers_.of(number).setZero();
     } else if (outcomes[number] == solved) {
       lane.moves = true;
-    } else if (outcomes[number] == wrong_inertia && lane.shift.raise()) {
+    } else if (outcomes[number] == wrong_inertia && lane.phase == Phase::newton && lane.shift.raise()) {
       lane.waits = true;
     } else {
       give_up(number);
@@ -198,6 +204,7 @@ void LaneRun::solve_systems() {
 }
 
 void LaneRun::differentiate() {
+  const PhaseClock::Within within(clock_, BatchPhase::tapes);
   problem_.differentiate(primal_);
   problem_.find_gradient_of_lagrangian(multipliers_);
   if (!problem_.has_bounds()) return;
@@ -243,7 +250,18 @@ void LaneRun::judge(std::size_t number) {
     if (desk_.is_stopped()) finish(number, Status::interrupted);
     return;
   }
+  if (lane.moves || lane.phase == Phase::fresh) {
+    ++lane.evaluations.gradient;
+    ++lane.evaluations.jacobian;
+  }
   if (!std::isfinite(size_of_gradient_[index_of(number)])) return give_up(number);
+  if (lane.phase == Phase::restoring) {
+    if (desk_.is_stopped()) return finish(number, Status::interrupted);
+    if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
+    ++lane.iterations;
+    if (is_restored(number)) lane.phase = Phase::estimating;
+    return;
+  }
   const bool is_cold_start = lane.phase == Phase::fresh && !is_warm(number);
   // Where bounds allow short steps only, every one of them may multiply the multipliers.
   const bool has_runaway_multipliers =
@@ -261,6 +279,7 @@ void LaneRun::judge(std::size_t number) {
   if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
   update_barrier_parameter(number);
   ++lane.iterations;
+  ++lane.evaluations.hessian;
   lane.shift.begin();
 }
 
@@ -321,6 +340,8 @@ void LaneRun::give_up(std::size_t number) {
   solution_.solver = "batch";
   solution_.major_iterations = lane.iterations;
   solution_.linear_systems = lane.systems;
+  solution_.evaluations = lane.evaluations;
+  const PhaseClock::Within within(clock_, BatchPhase::one_by_one);
   desk_.solve_one_by_one(lane.ticket, solution_);
 }
 
@@ -340,9 +361,14 @@ void LaneRun::finish(std::size_t number, Status status) {
   solution_.correction.reset();
   solution_.major_iterations = lane.iterations;
   solution_.linear_systems = lane.systems;
+  solution_.evaluations = lane.evaluations;
   // Where the last step was a full one of Newton's and short, the next one is shorter.
   const bool is_settled = lane.is_newton && lane.share_moved <= settled;
-  if (status == Status::solved && !is_settled) desk_.confirm(lane.ticket, solution_);
+  if (status == Status::solved && !is_settled) {
+    const PhaseClock::Within within(clock_, BatchPhase::one_by_one);
+    desk_.confirm(lane.ticket, solution_);
+  }
+  const PhaseClock::Within within(clock_, BatchPhase::exchange);
   desk_.deliver(lane.ticket.index, solution_);
 }
 

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 
+#include "methods/program/solution.hpp"
 #include "methods/program/status.hpp"
 #include "methods/solvers/batch/desk.hpp"
 #include "methods/solvers/batch/lane_problem.hpp"
 #include "methods/solvers/batch/lane_vector.hpp"
+#include "methods/solvers/batch/phase_clock.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/kkt/intervals/lane_kkt.hpp"
@@ -18,13 +20,9 @@ namespace dmocbench::batch {
 
 [[nodiscard]] constexpr Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
-/// How far a start is pushed away from its bounds: κ_1 of a cold one, and that of a warm one.
-inline constexpr double kappa_1 = 1e-2;
-inline constexpr double of_warm_start = 1e-6;  // μ, too
-
 /// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
-/// with one, without restoration and second-order corrections. Numbers in brackets are the equations, A-1 to A-9 the
-/// steps, of Wächter and Biegler (2006).
+/// with one, without second-order corrections, and with the first half of its restoration (lane_restoration.cpp).
+/// Numbers in brackets are the equations, A-1 to A-9 the steps, of Wächter and Biegler (2006).
 ///
 /// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which says what
 /// a round means to it; a lane whose inertia was wrong waits for the next round with a larger shift.
@@ -42,6 +40,7 @@ class LaneRun {
     fresh,       ///< its start is to be evaluated
     estimating,  ///< the next system is that of the least-squares multipliers, (36)
     newton,      ///< the next system is that of a Newton step, (13)
+    restoring,   ///< the next system is that of a step of least length to where the linearised constraints hold
   };
   struct Lane {
     Phase phase = Phase::idle;
@@ -50,6 +49,9 @@ class LaneRun {
     interior_point::InertiaShift shift;
     double theta_min = 0.0;
     double theta_max = 0.0;
+    double theta_at_begin = 0.0;  ///< θ of the start, at least 1
+    double theta_restored = 0.0;  ///< θ at which the restoration of feasibility may end
+    int jammed = 0;               ///< its very short steps in a row
     double mu = 0.0;
     // Of the present step.
     bool is_searching = false;  ///< its length is not accepted yet
@@ -61,6 +63,7 @@ class LaneRun {
     bool is_newton = false;    ///< it was a full Newton step
     int iterations = 0;
     int systems = 0;
+    EvaluationCounts evaluations;
   };
 
   void refill();
@@ -76,6 +79,10 @@ class LaneRun {
   void begin_search(std::size_t lane);
   void search(const LaneMask& fresh);
   [[nodiscard]] bool try_step(std::size_t lane);
+  // Restoration of feasibility.
+  [[nodiscard]] bool begin_restoration(std::size_t lane);
+  [[nodiscard]] bool try_feasibility_step(std::size_t lane);
+  [[nodiscard]] bool is_restored(std::size_t lane);
   void evaluate_start(std::size_t lane);
   void judge(std::size_t lane);
   [[nodiscard]] bool is_solved(std::size_t lane) const;
@@ -86,6 +93,8 @@ class LaneRun {
   void finish(std::size_t lane, Status status);
   [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
+  /// How far a start is pushed away from its bounds.
+  [[nodiscard]] double push_of(std::size_t lane) const;
   [[nodiscard]] bool is_anyone(Phase phase) const;
   /// A number of every lane, `value(lane)`.
   template <class Value>
@@ -97,6 +106,7 @@ class LaneRun {
 
   const BatchOptions& options_;
   Desk& desk_;
+  PhaseClock clock_;
   LaneProblem problem_;
   std::unique_ptr<kkt::LaneKkt> kkt_;
   StopRule allowed_;

@@ -5,27 +5,20 @@
 #include <utility>
 
 #include "methods/solvers/batch/lane_run.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
 
 namespace dmocbench::batch {
 
 namespace {
 
 using interior_point::Filter;
-
-// Constants of Wächter and Biegler, by their names there.
-constexpr double tau_min = 0.99;
-constexpr double eta_phi = 1e-8;
-constexpr double delta = 1.0;
-constexpr double s_theta = 1.1;
-constexpr double s_phi = 2.3;
-constexpr double gamma_alpha = 0.05;
-constexpr double theta_min_ratio = 1e-4;
-constexpr double theta_max_ratio = 1e4;
+using namespace interior_point::constants;  // NOLINT(google-build-using-namespace): named as in the papers
 
 }  // namespace
 
 /// From the fraction to the boundary (15a), halve α until filter and decrease accept the point.
 void LaneRun::search_lines() {
+  const PhaseClock::Within within(clock_, BatchPhase::line_search);
   const OfLanes mu = of_lanes([](const Lane& lane) { return lane.mu; });
   const OfLanes tau = (1.0 - mu).max(tau_min);  // (8)
   length_.setZero();
@@ -63,32 +56,41 @@ void LaneRun::search_lines() {
 /// same values again.
 void LaneRun::search(const LaneMask& fresh) {
   bool is_first = true;
-  const OfLanes push =
-      of_lanes([](const Lane& lane) { return lane.ticket.instance.multipliers.size() > 0 ? of_warm_start : kappa_1; });
+  bool has_returned = false;  // a lane goes back to where the search began
+  OfLanes push;
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) push[index_of(lane)] = push_of(lane);
   do {
+    has_returned = false;
     lane_loops().set_to_sum(trial_.data(), primal_.data(), length_.data(), step_.data(), primal_.size());
-    problem_.evaluate(fresh, push, trial_, trial_values_);
+    {
+      const PhaseClock::Within within(clock_, BatchPhase::tapes);
+      problem_.evaluate(fresh, push, trial_, trial_values_);
+    }
     for (std::size_t number = 0; number < instance_lanes; ++number) {
       Lane& lane = lanes_[number];
       if (is_first && fresh[number]) evaluate_start(number);
       if (!lane.is_searching) continue;
-      lane.is_searching = !try_step(number);
+      lane.is_searching = lane.phase == Phase::restoring ? !try_feasibility_step(number) : !try_step(number);
       if (!lane.is_searching) continue;
       length_[index_of(number)] *= 0.5;
       if (length_[index_of(number)] >= lane.smallest_length) continue;
       length_[index_of(number)] = 0.0;
-      give_up(number);
+      has_returned = begin_restoration(number) || has_returned;
     }
     is_first = false;
-  } while (std::ranges::any_of(lanes_, &Lane::is_searching));
+  } while (has_returned || std::ranges::any_of(lanes_, &Lane::is_searching));
 }
 
 void LaneRun::begin_search(std::size_t number) {
-  constexpr double shortest = 1e-14;
   Lane& lane = lanes_[number];
+  lane.is_searching = true;
+  if (lane.phase == Phase::restoring) {
+    lane.is_newton = false;
+    lane.smallest_length = shortest_feasibility_step;
+    return;
+  }
   lane.is_newton = lane.shift.value() == 0.0;
   lane.shift.keep();
-  lane.is_searching = true;
   const double theta = values_.theta[index_of(number)];
   double length = Filter::margin;  // (23)
   if (lane.derivative < 0.0) {
@@ -97,7 +99,7 @@ void LaneRun::begin_search(std::size_t number) {
       length = std::min(length, delta * std::pow(theta, s_theta) / std::pow(-lane.derivative, s_phi));
     }
   }
-  lane.smallest_length = std::max(gamma_alpha * length, shortest);
+  lane.smallest_length = std::max(gamma_alpha * length, shortest_step);
 }
 
 double LaneRun::barrier_function(std::size_t lane, const LaneValues& values) const {
@@ -108,6 +110,8 @@ double LaneRun::barrier_function(std::size_t lane, const LaneValues& values) con
 /// none.
 bool LaneRun::try_step(std::size_t number) {
   Lane& lane = lanes_[number];
+  ++lane.evaluations.objective;
+  ++lane.evaluations.constraints;
   const double length = length_[index_of(number)];
   const double theta_before = values_.theta[index_of(number)];
   const double theta = trial_values_.theta[index_of(number)];
@@ -115,6 +119,8 @@ bool LaneRun::try_step(std::size_t number) {
   const double phi_before = barrier_function(number, values_);
   const double phi = barrier_function(number, trial_values_);
   if (!std::isfinite(theta) || !std::isfinite(phi)) return false;
+  // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
+  if (theta > std::max(most_growth * theta_before, lane.theta_at_begin)) return false;
   constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
   const double rounding = safety * std::sqrt(static_cast<double>(problem_.variable_count())) *
                           std::numeric_limits<double>::epsilon() *
@@ -139,9 +145,12 @@ bool LaneRun::try_step(std::size_t number) {
 void LaneRun::evaluate_start(std::size_t number) {
   Lane& lane = lanes_[number];
   const double theta = trial_values_.theta[index_of(number)];
+  ++lane.evaluations.objective;
+  ++lane.evaluations.constraints;
   if (!std::isfinite(theta) || !std::isfinite(trial_values_.objective[index_of(number)])) return give_up(number);
-  lane.theta_min = theta_min_ratio * std::max(1.0, theta);
-  lane.theta_max = theta_max_ratio * std::max(1.0, theta);
+  lane.theta_at_begin = std::max(1.0, theta);
+  lane.theta_min = theta_min_ratio * lane.theta_at_begin;
+  lane.theta_max = theta_max_ratio * lane.theta_at_begin;
   lane.filter.reset(lane.theta_max);
 }
 

@@ -111,6 +111,11 @@ class BatchDesk final : public Desk {
     if (options_.stop_requested()) is_stopped_ = true;
   }
 
+  void add_seconds(const BatchSeconds& seconds) override {
+    const std::lock_guard lock(taking_);
+    for (std::size_t i = 0; i < seconds.size(); ++i) summary_.seconds[i] += seconds[i];
+  }
+
   /// Ends the batch with what a thread has thrown; the first one counts.
   void fail(std::exception_ptr error) {
     const std::lock_guard lock(taking_);
@@ -196,23 +201,23 @@ BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes,
   std::vector<std::unique_ptr<LaneProgram>> lanes;
   for (std::size_t i = 0; i < threads; ++i) lanes.push_back(make_lanes());
   batch::BatchDesk desk(program, lanes.front()->parameter_count(), next, take, options);
-  const auto work = [&](std::unique_ptr<LaneProgram> mine, std::unique_ptr<kkt::LaneKkt> kkt) {
+  // All of them read the program, which belongs to one thread at a time as soon as threads work.
+  std::vector<std::unique_ptr<batch::LaneRun>> runs;
+  for (std::unique_ptr<LaneProgram>& mine : lanes) {
+    runs.push_back(
+        std::make_unique<batch::LaneRun>(program, std::move(mine), batch::make_kkt(program, usual), options, desk));
+  }
+  const auto work = [&](batch::LaneRun& run) {
     try {
-      batch::LaneRun(program, std::move(mine), std::move(kkt), options, desk).run();
+      run.run();
     } catch (...) {
       desk.fail(std::current_exception());
     }
   };
-  std::vector<std::unique_ptr<kkt::LaneKkt>> systems;
-  for (std::size_t i = 0; i < threads; ++i) systems.push_back(batch::make_kkt(program, usual));
   {
     std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < threads; ++i) {
-      helpers.emplace_back([&work, mine = std::move(lanes[i]), kkt = std::move(systems[i])]() mutable {
-        work(std::move(mine), std::move(kkt));
-      });
-    }
-    work(std::move(lanes.front()), std::move(systems.front()));
+    for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back([&work, &run = *runs[i]] { work(run); });
+    work(*runs.front());
   }
   return desk.summary();
 }

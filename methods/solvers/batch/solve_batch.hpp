@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include <Eigen/Core>
@@ -40,6 +42,19 @@ struct BatchOptions {
   std::function<void(const Eigen::VectorXd& parameters)> set_parameters = {};
 };
 
+/// What a batch spends time on.
+enum class BatchPhase : std::uint8_t {
+  tapes,           ///< values and derivatives of the program
+  linear_systems,  ///< assembling and solving them
+  line_search,     ///< all else of the search for a step's length
+  one_by_one,      ///< instances that lanes cannot finish, and waiting for the program that they share
+  exchange,        ///< fetching instances and delivering answers
+  rest,            ///< judging iterates
+};
+inline constexpr std::size_t batch_phases = 6;
+/// By phase.
+using BatchSeconds = std::array<double, batch_phases>;
+
 /// How a batch went.
 struct BatchSummary {
   std::size_t instances = 0;
@@ -48,6 +63,8 @@ struct BatchSummary {
   std::size_t solved_one_by_one = 0;
   /// Iterations of eight lanes together; those of all instances, divided by eight times this, is how full lanes were.
   std::size_t rounds = 0;
+  /// Of all threads together.
+  BatchSeconds seconds{};
 };
 
 /// Fetches the next instance into `instance`, whose vectors keep their memory; false if there is none left.

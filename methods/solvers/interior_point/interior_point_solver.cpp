@@ -13,6 +13,7 @@
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter.hpp"
 #include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
@@ -26,32 +27,11 @@ namespace interior_point {
 
 namespace {
 
-// Constants of Wächter and Biegler, by their names there.
-constexpr double mu_0 = 0.1;
-constexpr double kappa_1 = 1e-2;
-constexpr double kappa_epsilon = 10.0;
-constexpr double kappa_mu = 0.2;
-constexpr double theta_mu = 1.5;
-constexpr double tau_min = 0.99;
-constexpr double eta_phi = 1e-8;
-constexpr double delta = 1.0;
-constexpr double s_theta = 1.1;
-constexpr double s_phi = 2.3;
-constexpr double gamma_alpha = 0.05;
-constexpr double kappa_soc = 0.99;
-constexpr double kappa_resto = 0.9;
-constexpr int p_max = 4;
-constexpr double theta_min_ratio = 1e-4;
-constexpr double theta_max_ratio = 1e4;
+using namespace constants;  // NOLINT(google-build-using-namespace): named as in the papers
+
 constexpr double largest_z = 1e3;
-// Ours.
-constexpr double of_warm_start = 1e-6;  // μ, and the push away from bounds
 constexpr double push_of_descent = 1e-8;
-constexpr int most_jammed = 20;     // feasibility steps in a row that bounds leave no room
-constexpr double short_step = 0.1;  // see has_runaway_multipliers
-constexpr double runaway = 1e6;
-constexpr double correctable = 2.0;   // see try_second_order_correction
-constexpr double most_growth = 10.0;  // of the violation in one step, see try_step
+constexpr double correctable = 2.0;  // see try_second_order_correction
 
 /// One solve by the method of Wächter and Biegler (README.md). Numbers in brackets are those of its equations, A-1 to
 /// A-9 the steps of its Algorithm A.
@@ -182,7 +162,6 @@ class InteriorPointRun final : public PreparedRun {
 
   /// (23).
   [[nodiscard]] double smallest_length(double derivative) const {
-    constexpr double shortest = 1e-14;
     double length = Filter::margin;
     if (derivative < 0.0) {
       length = std::min(length, -Filter::margin * values_.theta / derivative);
@@ -190,7 +169,7 @@ class InteriorPointRun final : public PreparedRun {
         length = std::min(length, delta * std::pow(values_.theta, s_theta) / std::pow(-derivative, s_phi));
       }
     }
-    return std::max(gamma_alpha * length, shortest);
+    return std::max(gamma_alpha * length, shortest_step);
   }
 
   /// false if a value is not finite.
@@ -265,7 +244,8 @@ class InteriorPointRun final : public PreparedRun {
     }
     const double enough = kappa_resto * values_.theta;
     filter_.add(values_.theta, values_.phi);
-    for (int jammed = 0; jammed < most_jammed && take_feasibility_step(); jammed = length_ < 1e-3 ? jammed + 1 : 0) {
+    for (int jammed = 0; jammed < most_jammed && take_feasibility_step();
+         jammed = length_ < very_short_step ? jammed + 1 : 0) {
       ++iterations_;
       report("rows");
       if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
@@ -292,13 +272,13 @@ class InteriorPointRun final : public PreparedRun {
 
   /// False if no length of the step lets the violation shrink.
   [[nodiscard]] bool take_feasibility_step() {
-    constexpr double shortest = 1e-10;
-    constexpr double sufficient = 1e-4;
     const double mu = std::max(mu_, values_.constraints.lpNorm<Eigen::Infinity>());
     program_.differentiate(at_.x);
     if (!newton_.feasibility_step(at_, mu, values_.constraints, step_)) return false;
-    for (length_ = program_.bounds().fraction_to_boundary(at_, step_, tau_min); length_ > shortest; length_ *= 0.5) {
-      if (evaluate_trial(step_, length_) && trial_values_.theta <= (1.0 - sufficient * length_) * values_.theta) {
+    for (length_ = program_.bounds().fraction_to_boundary(at_, step_, tau_min); length_ > shortest_feasibility_step;
+         length_ *= 0.5) {
+      if (evaluate_trial(step_, length_) &&
+          trial_values_.theta <= (1.0 - sufficient_decrease * length_) * values_.theta) {
         accept_trial();
         return true;
       }

@@ -1,0 +1,48 @@
+// The restoration of feasibility of `LaneRun`: steps of least length to where the linearised constraints hold, until
+// the filter accepts a point. Where there are bounds, or these steps end, an instance is left to `interior_point`.
+#include <cmath>
+
+#include "methods/solvers/batch/lane_run.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
+
+namespace dmocbench::batch {
+
+/// The lane goes back to the point where its search began. False if there is no restoration for it.
+bool LaneRun::begin_restoration(std::size_t number) {
+  Lane& lane = lanes_[number];
+  const double theta = values_.theta[index_of(number)];
+  if (lane.phase == Phase::restoring || problem_.has_bounds() || theta <= options_.tolerance) {
+    give_up(number);
+    return false;
+  }
+  lane.filter.add(theta, barrier_function(number, values_));
+  lane.theta_restored = interior_point::constants::kappa_resto * theta;
+  lane.jammed = 0;
+  lane.phase = Phase::restoring;
+  lane.is_searching = false;
+  lane.moves = false;
+  lane.waits = true;
+  return true;
+}
+
+bool LaneRun::try_feasibility_step(std::size_t number) {
+  ++lanes_[number].evaluations.objective;
+  ++lanes_[number].evaluations.constraints;
+  const Eigen::Index at = index_of(number);
+  const double theta = trial_values_.theta[at];
+  return std::isfinite(theta) && std::isfinite(trial_values_.objective[at]) &&
+         theta <= (1.0 - interior_point::constants::sufficient_decrease * length_[at]) * values_.theta[at];
+}
+
+/// Whether the filter accepts the point that a step has led to.
+bool LaneRun::is_restored(std::size_t number) {
+  Lane& lane = lanes_[number];
+  const Eigen::Index at = index_of(number);
+  const double theta = values_.theta[at];
+  if (theta <= lane.theta_restored && lane.filter.accepts(theta, barrier_function(number, values_))) return true;
+  lane.jammed = length_[at] < interior_point::constants::very_short_step ? lane.jammed + 1 : 0;
+  if (lane.jammed >= interior_point::constants::most_jammed) give_up(number);
+  return false;
+}
+
+}  // namespace dmocbench::batch
