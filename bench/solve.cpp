@@ -8,7 +8,11 @@
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/start_provider.hpp"
+#include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench::solve_program {
 
@@ -47,11 +51,22 @@ class Solve final : public Experiment {
                     .options = {.intervals = "128", .start = "guess"},
                     .takes_costates = true,
                     .takes_parts = false}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override { return columns_of(checks_); }
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return columns_of(checks_) +
+           Columns<SolvedCase>{
+               {"estimated_error", "",
+                "with --accuracy: relative error of q, p and cost, by an estimate that uses no reference",
+                of(estimated_error_)}};
+  }
   void add_options(CommandLine& line) override {
     line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
     line.flag("--costates,!--no-costates", card_.takes_costates,
               "--start FILE brings the file's costates as multipliers, for --solver interior_point and auto");
+    line.option(
+        "--accuracy", accuracy_,
+        "estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: refines one case grid by grid, "
+        "beginning with --intervals or --grid");
+    line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
   }
   void check(const std::vector<Case>& cases) override {
     single_ = cases.size() == 1;
@@ -60,8 +75,28 @@ class Solve final : public Experiment {
     }
     has_several_solvers_ =
         std::ranges::any_of(cases, [&](const Case& the_case) { return the_case.solver != cases.front().solver; });
+    check_accuracy();
     for (const Case& the_case : cases) labels_.push_back(label_of(the_case));
     if (!trace_file_.empty()) check_trace();
+  }
+  void adapt(Case& the_case, Start& start, SolverOptions& options) override {
+    if (accuracy_.empty()) return;
+    const auto begin = Clock::now();
+    const AdaptiveAnswer answer = adapted(the_case, start, options);
+    const double spent = seconds_since(begin);
+    const GridAttempt& last = answer.grids.back();
+    if (answer.outcome != AdaptiveOutcome::reached) {
+      const bool is_solved_there = is_solved(last.status);
+      throw NoStart(answer.message, is_solved_there ? Status::not_confirmed : last.status);
+    }
+    the_case.grid = answer.program->grid();
+    the_case.stages = static_cast<int>(last.stages);
+    start.motion = smooth_motion(answer.trajectory);
+    start.with_costates = answer.trajectory;
+    estimated_error_ = answer.estimate.relative;
+    constexpr double moment = 1e-9;
+    if (options.most_seconds > 0.0) options.most_seconds = std::max(options.most_seconds - spent, moment);
+    options.tolerance = adaptive_.solver_tolerance(options.tolerance);
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (!trace_file_.empty()) {
@@ -107,6 +142,7 @@ class Solve final : public Experiment {
                                      {"answered_by", solved.solution.solver},
                                      {"intervals", the_case.intervals()},
                                      {"costates_are_estimated", solved.solution.multipliers_are_estimated}});
+      if (estimated_error_) metadata["motions"].back()["estimated_error"] = *estimated_error_;
       fmt::print("solve: {}: {}_nodes.csv\n", the_case.label(), file);
       fmt::print("solve: {}: intervals join to {:.1e} of the range, worst is interval {}\n", the_case.label(),
                  solved.accuracy->relative_jump, solved.accuracy->interval);
@@ -118,6 +154,57 @@ class Solve final : public Experiment {
   }
 
  private:
+  /// Throws `Error` if --accuracy and --refine do not fit each other or the cases.
+  void check_accuracy() {
+    if (accuracy_.empty()) {
+      if (!refine_.empty()) throw Error("--refine says how --accuracy is reached; give --accuracy too");
+      return;
+    }
+    if (!single_) throw Error("--accuracy refines exactly one case: one method, one number of stages, one first grid");
+    if (!trace_file_.empty()) throw Error("--accuracy solves on several grids, --trace tells of one; leave one out");
+    adaptive_.accuracy = parse_number("--accuracy", accuracy_);
+    if (!refine_.empty()) adaptive_.refinement = refinement_named(refine_);
+    try {
+      adaptive_.validate();
+    } catch (const Error& error) {
+      throw Error(fmt::format("--accuracy: {}", error.what()));
+    }
+  }
+  /// The answer by --accuracy; tells of every grid as soon as it is solved.
+  [[nodiscard]] AdaptiveAnswer adapted(const Case& the_case, const Start& start, const SolverOptions& options) {
+    adaptive_.solver = the_case.solver;
+    adaptive_.solver_options = options;
+    if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
+      throw Error("--accuracy refines with --form bolza and --derivatives tape");
+    }
+    const AdaptiveTask task{.problem = the_case.problem.get(),
+                            .method = the_case.method,
+                            .tableau = the_case.tableau,
+                            .stages = the_case.stages,
+                            .first = the_case.grid,
+                            .start = start.motion};
+    const Unit time = the_case.problem->card().time_unit;
+    int number = 0;
+    const auto tell = [&](const GridAttempt& grid) {
+      if (number == 0) {
+        fmt::print("solve: grid intervals stages estimated_error largest_step smallest_step{}\n",
+                   time.name.empty() ? "" : " [" + time.name + "]");
+      }
+      fmt::print("solve: {:4} {:9} {:6} {:>15} {:12.4g} {:13.4g}\n", ++number, grid.intervals, grid.stages,
+                 is_solved(grid.status) ? fmt::format("{:.2e}", grid.relative) : std::string(name_of(grid.status)),
+                 time.factor * grid.largest_step, time.factor * grid.smallest_step);
+    };
+    const StopScope scope(options.stop_requested, options.most_seconds);
+    try {
+      AdaptiveAnswer answer = solve_adaptively(task, adaptive_, tell);
+      fmt::print("solve: {}\n", answer.message);
+      return answer;
+    } catch (const Stopped&) {
+      const bool interrupted = options.stop_requested && options.stop_requested();
+      throw NoStart("The time was up between two grids.", interrupted ? Status::interrupted : Status::time_limit);
+    }
+  }
+
   /// What tells the motion of a case from those of the others, behind the table's name.
   [[nodiscard]] std::string label_of(const Case& the_case) const {
     if (single_) return "";
@@ -147,6 +234,10 @@ class Solve final : public Experiment {
   std::vector<MinorIteration> trace_;
   std::vector<SolvedCase> motions_;  // solved, each with its trajectory
   IndependentChecks checks_;         // of the case that is completed
+  std::string accuracy_;             // empty: one grid
+  std::string refine_;
+  AdaptiveOptions adaptive_;
+  std::optional<double> estimated_error_;
 };
 
 int run(int argc, char** argv) { return run_experiment(Solve(), argc, argv); }

@@ -10,9 +10,11 @@
 #include "problems/container_crane.hpp"
 #include "problems/double_integrator.hpp"
 #include "problems/double_oscillator.hpp"
+#include "problems/eccentric_transfer.hpp"
 #include "problems/forced_oscillator.hpp"
 #include "problems/hang_glider.hpp"
 #include "problems/hovercraft.hpp"
+#include "problems/hypersensitive.hpp"
 #include "problems/kepler_cartesian.hpp"
 #include "problems/link_chain.hpp"
 #include "problems/orbital_transfer.hpp"
@@ -55,6 +57,8 @@ constexpr std::array registry{
     Maker{make<ContainerCrane>},
     Maker{make<DoubleOscillator>},
     Maker{make<Beam>},
+    Maker{make<EccentricTransfer>},
+    Maker{make<Hypersensitive>},
 };
 
 constexpr auto problem_name = [](const Maker create) { return create()->name(); };

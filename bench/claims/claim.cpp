@@ -25,6 +25,7 @@ std::vector<Claims> chapters() {
           joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
                   rotation_claims()}),
           joined({optimal_momentum_claims(), smoothness_claims()}),
+          adaptive_claims(),
           library_claims()};
 }
 

@@ -144,6 +144,7 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
 [[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers
+[[nodiscard]] Claims adaptive_claims();           ///< grids that an estimate of the error chooses
 [[nodiscard]] Claims library_claims();            ///< the whole library
 
 // Shared by the predicates.

@@ -217,16 +217,18 @@ class Run {
   /// The solved case. Without a start or memory, or where a library fails, its row says so, and the run goes
   /// on; what is wrong with the first case is wrong with the run.
   SolvedCase solve(std::size_t number, int repeats) {
-    const Case& the_case = cases_[number];
+    Case the_case = cases_[number];
     SolvedCase unsolved{.the_case = the_case};
     try {
       const Start start = start_of(the_case);
       show(the_case.label());
       SolverOptions options = solver_options_;
       options.tolerance = the_case.tolerance.value_or(options.tolerance);
+      experiment_.adapt(the_case, start, options);
       return solve_case(the_case, start, *experiment_.solver_for(the_case, options), options.tolerance, repeats,
                         experiment_.card().polishes);
     } catch (const NoStart& reason) {
+      unsolved.solution.status = reason.status;
       unsolved.solution.message = reason.what();
     } catch (const Error& error) {
       if (number == first_solved_ && !experiment_.card().cases_stand_alone) throw;

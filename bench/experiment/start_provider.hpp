@@ -20,7 +20,8 @@ namespace dmocbench {
 /// There is no motion that a case could start from; the sentence gives the reason.
 class NoStart : public Error {
  public:
-  using Error::Error;
+  explicit NoStart(const std::string& sentence, Status of_row = Status::not_run) : Error(sentence), status(of_row) {}
+  Status status;  ///< what the case's row says
 };
 
 /// Where solves start: the common start, the problem's guess or a file.

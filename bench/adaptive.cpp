@@ -1,0 +1,94 @@
+// Grids that the error chooses: how good the estimate of the error is, and how many intervals it saves.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/adaptive/effectivity.hpp"
+#include "bench/adaptive/needed_intervals.hpp"
+#include "bench/experiment/table_run.hpp"
+#include "methods/error.hpp"
+#include "methods/transcription/element.hpp"
+#include "methods/transcription/start.hpp"
+
+namespace dmocbench::adaptive_program {
+
+/// Slow and fast by turns: what adaptive grids are for.
+const std::vector<std::string> uneven{"eccentric_transfer", "hypersensitive"};
+
+/// The problems with these solved: the paper's, the uneven ones and eight of the library.
+const std::vector<std::string> all_problems{"orbital_transfer",  "two_link_manipulator", "eccentric_transfer",
+                                            "hypersensitive",    "kepler_cartesian",     "link_chain",
+                                            "double_integrator", "forced_oscillator",    "cart_pole",
+                                            "planar_quadrotor",  "spherical_pendulum",   "hovercraft"};
+
+bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+struct Tables {
+  std::vector<MeasuredEffectivity> effectivity;
+  std::vector<NeededGrid> needed;
+  std::vector<StepOfGrid> steps;
+};
+
+void compare_grids(const TableRun& run, const CertifiedProblem& certified, int rounds, Tables& tables) {
+  constexpr double accuracy = 1e-8;
+  const std::string name = certified.problem().name();
+  const SolverOptions options = TableRun::solver_options();
+  const bool is_uneven = is_one_of(uneven, name);
+  // What is timed begins where a user begins; the paper's problems have several minima near the guess.
+  const Motion start = is_uneven ? guessed_motion(certified.problem()) : smooth_motion(certified.motion());
+  for (const std::string& method : element_names()) {
+    for (const int stages : {1, 2, 3}) {
+      const Scheme scheme{name, method, "gauss", stages};
+      run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
+      tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start, is_uneven && stages > 1 ? rounds : 0,
+                                             options, tables.steps));
+      if (!is_uneven) continue;
+      run.show(fmt::format("{} {} s = {}, uniform", name, method, stages));
+      tables.needed.push_back(needed_uniform(certified, scheme, accuracy, options));
+    }
+  }
+}
+
+int measure_all(CommandLine& line) {
+  int rounds = 11;
+  bool is_quick = false;
+  line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
+  line.flag("--quick", is_quick, "the paper's and the uneven problems alone");
+  TableRun run("adaptive", line);
+  Tables tables;
+  for (const std::string& name : all_problems) {
+    if (is_quick && !is_one_of(uneven, name)) continue;
+    run.show(name + ", certified");
+    const CertifiedProblem certified(name, TableRun::solver_options());
+    for (const std::string& method : element_names()) {
+      for (const int stages : {1, 2}) {
+        run.show(fmt::format("{} {} s = {}, effectivity", name, method, stages));
+        const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());
+        tables.effectivity.insert(tables.effectivity.end(), rows.begin(), rows.end());
+      }
+    }
+    if (is_one_of({"orbital_transfer", "two_link_manipulator"}, name) || is_one_of(uneven, name)) {
+      compare_grids(run, certified, rounds, tables);
+    }
+  }
+  run.add("adaptive", needed_columns(), tables.needed);
+  run.add("adaptive_effectivity", effectivity_columns(), tables.effectivity);
+  run.add("adaptive_steps", step_columns(), tables.steps);
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "adaptive",
+      "Grids adapted to an accuracy by an estimate of the error: adaptive_effectivity.csv holds the estimate against "
+      "the "
+      "true error, which is that against the indirect solution; adaptive.csv tells how many intervals reach 1e-8 on "
+      "adapted and on uniform grids, and how long the whole way takes; adaptive_steps.csv has the steps.",
+      argc, argv, measure_all);
+}
+
+}  // namespace dmocbench::adaptive_program

@@ -1,0 +1,52 @@
+#include "bench/adaptive/certified_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/start_provider.hpp"
+#include "methods/adaptive/error_estimate.hpp"
+#include "methods/error.hpp"
+#include "methods/indirect/solve_indirect.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// DMOC with two stages from the common start of the problem.
+Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const SolverOptions& options) {
+  StartProvider starts({}, options);
+  return starts.solve({.problem = problem,
+                       .method = "dmoc",
+                       .tableau = "gauss",
+                       .stages = 2,
+                       .solver = "interior_point",
+                       .grid = Grid::uniform(128)});
+}
+
+double largest_row_of(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
+
+}  // namespace
+
+CertifiedProblem::CertifiedProblem(const std::string& name, const SolverOptions& options)
+    : problem_(make_problem(name)),
+      optimum_(solve_indirect(*problem_, direct_motion(problem_, options))),
+      motion_(optimum_.trajectory()) {}
+
+TrueError true_error(const CertifiedProblem& certified, const Trajectory& answer) {
+  const Trajectory optimum = certified.optimum().sampled_like(answer);
+  const Eigen::MatrixXd q = optimum.q - answer.q;
+  const Eigen::MatrixXd p = optimum.p - answer.p;
+  const Eigen::MatrixXd psi_q = optimum.psi_q - answer.psi_q;
+  const Eigen::MatrixXd psi_p = optimum.psi_p - answer.psi_p;
+  const double objective = optimum.cost - answer.cost;
+  return {.state = largest_row_of(q),
+          .momentum = largest_row_of(p),
+          .costate = std::sqrt((psi_q.rowwise().squaredNorm() + psi_p.rowwise().squaredNorm()).maxCoeff()),
+          .objective = std::abs(objective),
+          .relative = relative_size(answer, q, p, objective, certified.problem().cost_scale())};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,168 @@
+// Grids that an estimate of the error chooses: how good the estimate is, what it saves, whether DMOC stays ahead.
+#include <algorithm>
+
+#include "bench/claims/claim.hpp"
+#include "bench/claims/timed_ratios.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr double smallest_effectivity = 0.3;
+constexpr double largest_effectivity = 3.0;
+/// Uniform grids of this many times the intervals are "many times as many".
+constexpr double many_times = 4.0;
+constexpr double seconds_of_a_loop = 0.02;
+/// A method that needs this many times DMOC's variables needs more of them.
+constexpr double more_variables = 1.05;
+
+const Problems uneven_problems{"eccentric_transfer", "hypersensitive"};
+
+Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
+  const Selection all = tables.rows("adaptive_effectivity");
+  const Selection measured = all.where("verdict", "measured");
+  require(!measured.empty(), "adaptive_effectivity.csv has no error above the floor of rounding");
+  const auto effectivity = [](const Row& row) {
+    const double value = row.needed("effectivity");
+    require(value >= 0.0, "{}: effectivity is {}, below 0", row.place(), value);
+    return value;
+  };
+  const auto words_of = [&](const Row& row) {
+    return fmt::format("{:.2f} ({}, {}, s = {}, N = {}, {})", effectivity(row), row.text("problem"), row.text("method"),
+                       row.text("stages"), row.text("intervals"), row.text("quantity"));
+  };
+  const Row* least = &measured.front();
+  const Row* most = least;
+  std::size_t outside = 0;
+  for (const Row& row : measured) {
+    const double value = effectivity(row);
+    if (value < effectivity(*least)) least = &row;
+    if (value > effectivity(*most)) most = &row;
+    if (value < smallest_effectivity || value > largest_effectivity) ++outside;
+  }
+  const Selection unsolved = all.where([](const Row& row) { return row.text("status") != "solved"; });
+  return found(
+      outside == 0 && unsolved.empty(),
+      "estimated over true error from {} to {}; {} of {} outside of 0.3 to 3, {} below the floor, {} not solved; "
+      "{} problems",
+      words_of(*least), words_of(*most), outside, measured.size(), all.where("verdict", "floor").size(),
+      unsolved.size(), measured.distinct("problem").size());
+}
+
+/// The rows of a problem, method and kind of grid that reached the accuracy; there is at least one.
+Selection reached(const ResultTables& tables, const std::string& problem, const std::string& method,
+                  const std::string& grid) {
+  const Selection rows = tables.rows("adaptive", problem)
+                             .where("method", method)
+                             .where("grid", grid)
+                             .where("status", "solved")
+                             .with_number("intervals");
+  require(!rows.empty(), "adaptive.csv has no {} grid of {} by {} that reaches the accuracy", grid, problem, method);
+  return rows;
+}
+
+const Row& fewest_intervals(const Selection& rows) {
+  return *std::ranges::min_element(rows, {}, [](const Row& row) {
+    const double intervals = row.needed("intervals");
+    require(intervals >= 1.0, "{}: {} intervals", row.place(), intervals);
+    return intervals;
+  });
+}
+
+/// The best number of stages of each kind of grid; the ratio at equal numbers of stages beside it.
+Finding fewer_intervals(const ResultTables& tables, const std::string& problem) {
+  std::string words;
+  bool holds = true;
+  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+    const Selection adapted = reached(tables, problem, method, "adapted");
+    const Selection uniform = reached(tables, problem, method, "uniform");
+    const Row& best = fewest_intervals(adapted);
+    const Row& other = fewest_intervals(uniform);
+    const double ratio = quotient(other, best, "intervals");
+    holds = holds && ratio >= many_times;
+    words +=
+        fmt::format("{}{} {} (s = {}) against {} (s = {}), {:.1f} times", words.empty() ? "" : "; ", method,
+                    best.text("intervals"), best.text("stages"), other.text("intervals"), other.text("stages"), ratio);
+    for (const Row& row : adapted) {
+      const Selection same = uniform.matching(row, {"tableau", "stages"});
+      if (same.size() != 1) continue;
+      words += fmt::format(", s = {}: {:.1f}", row.text("stages"), quotient(same.front(), row, "intervals"));
+    }
+  }
+  return found(holds, "adapted grids need {}", words);
+}
+
+Finding quick(const ResultTables& tables, const std::string& problem) {
+  const Selection timed = reached(tables, problem, "dmoc", "adapted").with_number("seconds");
+  require(!timed.empty(), "adaptive.csv has no times of {} by dmoc", problem);
+  const Row& best = *std::ranges::min_element(timed, {}, [](const Row& row) { return row.needed("seconds"); });
+  std::vector<double> shares = best.numbers("round_seconds");
+  for (double& share : shares) {
+    require(share > 0.0, "{}: round_seconds has {}", best.place(), share);
+    share = seconds_of_a_loop / share;
+  }
+  TimedRatios ratios(1.0);
+  ratios.add(fmt::format("s = {}, {} grids", best.text("stages"), best.text("grids")), shares);
+  return judged(ratios, "20 ms over the time of the whole way: ",
+                fmt::format("; median {:.1f} ms", 1e3 * best.needed("seconds")));
+}
+
+Finding more_variables_by_collocation(const ResultTables& tables, const std::string& problem) {
+  const Selection dmoc = reached(tables, problem, "dmoc", "adapted");
+  std::string words;
+  bool holds = true;
+  for (const std::string method : {"hamiltonian", "tangent"}) {
+    const Selection others = reached(tables, problem, method, "adapted");
+    for (const Row& own : dmoc) {
+      const Selection same = others.matching(own, {"tableau", "stages"});
+      require(same.size() == 1, "adaptive.csv: {} has no adapted grid with {} stages beside DMOC's on {}", method,
+              own.text("stages"), problem);
+      const double ratio = quotient(same.front(), own, "variables_at_accuracy");
+      holds = holds && ratio >= more_variables;
+      words += fmt::format("{}{} s = {}: {:.2f}", words.empty() ? "" : ", ", method, own.text("stages"), ratio);
+    }
+  }
+  return found(holds, "variables over DMOC's at equal accuracy: {}", words);
+}
+
+}  // namespace
+
+Claims adaptive_claims() {
+  return {
+      {.id = "error_estimate_is_effective",
+       .problems = examples,
+       .where = "section 5, Adaptive Time Steps",
+       .whose = Whose::ours,
+       .states = "from one solve, the error of state, momentum, costate and cost is estimated within a factor of 0.3 "
+                 "to 3",
+       .judge = effective,
+       .condition = "true errors are those against the indirect solution, above rounding",
+       .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
+      {.id = "adapted_grids_need_fewer_intervals",
+       .problems = uneven_problems,
+       .where = "section 5, Adaptive Time Steps",
+       .whose = Whose::ours,
+       .states = "for an error of 1e-8 uniform grids need at least four times as many intervals as grids that error "
+                 "control adapts, the best number of stages of each",
+       .judge = fewer_intervals,
+       .condition = "true errors of q, p and cost, relative to their ranges",
+       .evidence = {"adaptive.csv", "figures/{}_adaptive.svg"}},
+      {.id = "adapting_takes_less_than_20_ms",
+       .problems = uneven_problems,
+       .where = "section 5, Adaptive Time Steps",
+       .whose = Whose::ours,
+       .states = "from the guess to an estimated error of 1e-8, all grids counted, takes less than 20 ms",
+       .judge = quick,
+       .condition = "DMOC by interior_point, the quickest number of stages",
+       .evidence = {"adaptive.csv"}},
+      {.id = "dmoc_keeps_its_advantage_on_adapted_grids",
+       .problems = uneven_problems,
+       .where = "section 5, Adaptive Time Steps",
+       .whose = Whose::ours,
+       .states = "on grids adapted to the same error collocation needs more variables than DMOC",
+       .judge = more_variables_by_collocation,
+       .condition = "more: at least 1.05 times as many, by the true error and the order at exactly 1e-8",
+       .evidence = {"adaptive.csv"}}};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,202 @@
+#include "methods/adaptive/adaptive_solve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "methods/adaptive/graded_grid.hpp"
+#include "methods/choose.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/transcription/element.hpp"
+#include "methods/transcription/sample_multipliers.hpp"
+#include "methods/transcription/shooting_element.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr int most_stages = 3;
+
+/// The share of the accuracy that the next grid is made for.
+constexpr double margin = 0.5;
+
+/// Grid after grid.
+class AdaptiveRun {
+ public:
+  AdaptiveRun(const AdaptiveTask& task, const AdaptiveOptions& options)
+      : task_(task), options_(options), element_(make_element(task.method)), grid_(task.first), stages_(task.stages) {
+    solver_options_ = options.solver_options;
+    solver_options_.tolerance = options.solver_tolerance(solver_options_.tolerance);
+  }
+
+  AdaptiveAnswer run(const std::function<void(const GridAttempt&)>& on_grid) {
+    for (int number = 0; number < options_.most_grids; ++number) {
+      const bool is_solved_here = attempt();
+      if (on_grid) on_grid(answer_.grids.back());
+      if (!is_solved_here) return end(AdaptiveOutcome::not_solved, failure());
+      if (has_ended()) return std::move(answer_);
+      if (!choose_next()) return std::move(answer_);
+    }
+    return end(AdaptiveOutcome::too_many,
+               fmt::format("After {} grids the estimated error is still {:.1e}, not {:g}.", options_.most_grids,
+                           answer_.estimate.relative, options_.accuracy));
+  }
+
+ private:
+  AdaptiveAnswer end(AdaptiveOutcome outcome, std::string message) {
+    answer_.outcome = outcome;
+    answer_.message = std::move(message);
+    return std::move(answer_);
+  }
+
+  /// Solves on the present grid and estimates the error. False if it was not solved.
+  bool attempt() {
+    const auto begin = Clock::now();
+    answer_.program =
+        std::make_unique<Transcription>(*task_.problem, *element_, make_tableau(task_.tableau, stages_), grid_);
+    Transcription& program = *answer_.program;
+    if (!estimator_) estimator_.emplace(program);
+    answer_.solution = solve(program);
+    const Solution& solution = answer_.solution;
+    const Eigen::VectorXd steps = program.guessed_horizon() * grid_.relative_widths();
+    GridAttempt record{.intervals = steps.size(),
+                       .stages = stages_,
+                       .status = solution.status,
+                       .message = solution.message,
+                       .relative = std::numeric_limits<double>::infinity(),
+                       .largest_step = steps.maxCoeff(),
+                       .smallest_step = steps.minCoeff(),
+                       .iterations = solution.major_iterations.value_or(0)};
+    if (is_solved(solution.status)) {
+      answer_.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
+      answer_.estimate = estimator_->estimate(program, solution.primal, solution.multipliers, answer_.trajectory);
+      record.relative = answer_.estimate.relative;
+      record.floor = answer_.estimate.floor;
+    }
+    record.seconds = seconds_since(begin);
+    answer_.grids.push_back(record);
+    return is_solved(solution.status);
+  }
+
+  [[nodiscard]] Solution solve(Transcription& program) const {
+    const auto solver = make_solver(options_.solver, solver_options_);
+    if (answer_.grids.empty()) return solver->solve(program, sample(program, task_.start));
+    const Eigen::VectorXd start = sample(program, smooth_motion(answer_.trajectory));
+    SolverOptions warm = solver_options_;
+    warm.start_multipliers = sample_multipliers(program, answer_.trajectory);
+    Solution solution = make_solver(options_.solver, warm)->solve(program, start);
+    if (is_solved(solution.status) || must_stop()) return solution;
+    return solver->solve(program, start);
+  }
+
+  [[nodiscard]] std::string failure() const {
+    const GridAttempt& last = answer_.grids.back();
+    return fmt::format("Grid {}, {} intervals: {}: {}", answer_.grids.size(), last.intervals, name_of(last.status),
+                       last.message);
+  }
+
+  bool has_ended() {
+    const ErrorEstimate& estimate = answer_.estimate;
+    if (estimate.relative <= options_.accuracy) {
+      answer_.outcome = AdaptiveOutcome::reached;
+      answer_.message = fmt::format("The estimated error is {:.1e} on {} intervals with {} stage{}.", estimate.relative,
+                                    answer_.grids.back().intervals, stages_, stages_ == 1 ? "" : "s");
+      return true;
+    }
+    return stopped_by_rounding(estimate.floor);
+  }
+
+  /// Where a floor is above the accuracy, with the sentence that says so.
+  bool stopped_by_rounding(double floor) {
+    if (floor <= options_.accuracy) return false;
+    answer_.outcome = AdaptiveOutcome::rounding;
+    answer_.message = fmt::format(
+        "An accuracy of {:g} is more than doubles can give: with the steps that it takes, rounding of positions leaves "
+        "{:.0e} of the momenta; the estimated error is {:.1e}.",
+        options_.accuracy, floor, answer_.estimate.relative);
+    return true;
+  }
+
+  /// The next grid and number of stages; false if there is none.
+  bool choose_next() {
+    const ErrorEstimate& estimate = answer_.estimate;
+    const Tableau& tableau = answer_.program->tableau();
+    const double share = std::isfinite(estimate.relative) ? margin * options_.accuracy / estimate.relative : margin;
+    Eigen::VectorXd widths = equidistributed_widths(grid_, estimate.defects, tableau.order, share);
+    const auto present = static_cast<double>(grid_.intervals());
+    const double asked = grid_.relative_widths().cwiseQuotient(widths).sum();
+    constexpr double most_growth = 4.0;
+    if (options_.refinement == Refinement::hp && stages_ < most_stages && asked > 2.0 * present) {
+      ++stages_;
+      widths *= asked / present;
+    } else {
+      widths *= std::max(1.0, asked / (most_growth * present));
+    }
+    const Grid next = graded_grid(grid_, widths, options_.largest_ratio);
+    if (static_cast<Eigen::Index>(next.intervals()) > options_.most_intervals) {
+      answer_.outcome = AdaptiveOutcome::too_many;
+      answer_.message = fmt::format("An accuracy of {:g} takes more than {} intervals; the estimated error is {:.1e}.",
+                                    options_.accuracy, options_.most_intervals, estimate.relative);
+      return false;
+    }
+    const double narrower = grid_.relative_widths().minCoeff() / next.relative_widths().minCoeff();
+    if (stopped_by_rounding(estimate.floor * narrower)) return false;
+    grid_ = next;
+    return true;
+  }
+
+  const AdaptiveTask& task_;
+  const AdaptiveOptions& options_;
+  std::unique_ptr<Element> element_;
+  SolverOptions solver_options_;
+  Grid grid_;
+  int stages_;
+  std::optional<ErrorEstimator> estimator_;
+  AdaptiveAnswer answer_;
+};
+
+struct NamedRefinement {
+  const char* name;
+  Refinement refinement;
+};
+constexpr std::array refinements{NamedRefinement{"h", Refinement::h}, NamedRefinement{"hp", Refinement::hp}};
+
+}  // namespace
+
+Refinement refinement_named(std::string_view name) {
+  return one_of(refinements, &NamedRefinement::name, name, "there is no refinement").refinement;
+}
+
+double AdaptiveOptions::solver_tolerance(double tolerance) const {
+  constexpr double of_accuracy = 1e-2;
+  constexpr double least = 1e-12;
+  return std::min(tolerance, std::max(of_accuracy * accuracy, least));
+}
+
+void AdaptiveOptions::validate() const {
+  if (!(accuracy >= finest && accuracy <= coarsest)) {
+    throw Error(fmt::format("the accuracy must lie between {:g} and {:g}, got {:g}: doubles have 16 digits", finest,
+                            coarsest, accuracy));
+  }
+  if (!(largest_ratio > 1.0)) throw Error("the largest ratio of neighbouring steps must be above 1");
+}
+
+AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
+                                const std::function<void(const GridAttempt&)>& on_grid) {
+  options.validate();
+  if (is_single_shooting(task.method)) {
+    throw Error("single shooting has no nodes to refine between; choose multiple_shooting");
+  }
+  return AdaptiveRun(task, options).run(on_grid);
+}
+
+}  // namespace dmocbench

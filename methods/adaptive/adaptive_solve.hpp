@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/adaptive/error_estimate.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/program/solution.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/grid.hpp"
+#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench {
+
+/// What is refined where an answer is not accurate enough.
+enum class Refinement : std::uint8_t {
+  h,   ///< the steps
+  hp,  ///< the steps, and the number of stages, up to three: see `solve_adaptively`
+};
+
+/// The refinement of that name, "h" or "hp". Throws `Error` that lists the names if there is none.
+[[nodiscard]] Refinement refinement_named(std::string_view name);
+
+/// What is asked of an adaptive solve.
+struct AdaptiveOptions {
+  double accuracy = 1e-6;  ///< of `ErrorEstimate::relative`
+  Refinement refinement = Refinement::h;
+  double largest_ratio = 2.0;  ///< of neighbouring steps
+  int most_grids = 20;
+  Eigen::Index most_intervals = 1 << 20;
+  std::string solver = "interior_point";
+  SolverOptions solver_options;
+
+  /// What solves are given instead of a tolerance: a hundredth of `accuracy` if that is less, but not below 1e-12.
+  [[nodiscard]] double solver_tolerance(double tolerance) const;
+
+  /// The accuracies that may be asked for: doubles have 16 digits.
+  static constexpr double finest = 1e-14;
+  static constexpr double coarsest = 0.1;
+  /// Throws `Error` that names the number if it is out of range.
+  void validate() const;
+};
+
+/// One grid on the way.
+struct GridAttempt {
+  Eigen::Index intervals = 0;
+  Eigen::Index stages = 0;
+  Status status = Status::not_run;
+  std::string message;    ///< of the solver
+  double relative = 0.0;  ///< `ErrorEstimate::relative`, infinite where there is none
+  double floor = 0.0;     ///< `ErrorEstimate::floor`
+  double largest_step = 0.0;
+  double smallest_step = 0.0;
+  int iterations = 0;
+  double seconds = 0.0;  ///< set-up, solve, replay, estimate
+};
+
+/// How an adaptive solve ended.
+enum class AdaptiveOutcome : std::uint8_t {
+  reached,     ///< the estimated error is at most what was asked for
+  not_solved,  ///< a program was not solved
+  rounding,    ///< rounding keeps doubles from being that accurate
+  too_many,    ///< that accuracy would take more grids or intervals than allowed
+};
+
+/// The answer on the last grid, and the grids before it.
+struct AdaptiveAnswer {
+  AdaptiveOutcome outcome = AdaptiveOutcome::not_solved;
+  std::string message;  ///< a sentence
+  std::vector<GridAttempt> grids;
+  std::unique_ptr<Transcription> program;  ///< of the last grid
+  Solution solution;
+  Trajectory trajectory;   ///< of the last grid that was solved; without nodes if none was
+  ErrorEstimate estimate;  ///< of it
+};
+
+/// What is solved: a problem by a method, from a first grid and a motion.
+struct AdaptiveTask {
+  const Problem* problem = nullptr;
+  std::string method;   ///< as `make_element` takes it
+  std::string tableau;  ///< as `make_tableau` takes it, with `stages`
+  int stages = 1;
+  Grid first = Grid::uniform(32);
+  Motion start;
+};
+
+/// Solves on one grid after the other until the estimated error (`ErrorEstimator`) is at most `options.accuracy`.
+///
+/// The next grid is `graded_grid` of `equidistributed_widths`, for half the accuracy asked for; it has at most four
+/// times as many intervals. Solves begin at the motion on the grid before, with the multipliers that belong to its
+/// costates
+/// (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are fewer than three
+/// stages and the next grid would have more than twice as many intervals, the number of stages grows by one instead, on
+/// as many intervals as before.
+///
+/// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
+/// where a program is not solved (`solution` says why). `on_grid` is told of every grid. Throws `Stopped` where a
+/// `StopScope` says so outside of a solve, and `Error` as `Transcription` and `ErrorEstimator` do.
+[[nodiscard]] AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
+                                              const std::function<void(const GridAttempt&)>& on_grid = {});
+
+}  // namespace dmocbench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/transcription/grid.hpp"
+
+namespace dmocbench {
+
+/// The grid whose steps follow wished ones: `wished` holds a relative width per interval of `grid`, and the new grid
+/// has about as many intervals there as that asks for.
+///
+/// No step is more than `largest_ratio` (> 1) times as wide as its neighbour: with the number ξ of a node as a
+/// continuous variable, dτ/dξ = s(τ), and |ds/dτ| <= ln(largest_ratio) keeps s(τ(ξ + 1)) <= largest_ratio s(τ(ξ)). The
+/// s used is the largest one below the wishes that has this slope, made smaller by a common factor so that the number
+/// of intervals is whole. Widths below twice `Grid::narrowest` are raised to that. Throws `Error` if more than
+/// Grid::most_intervals are asked for, or a wish is not positive.
+[[nodiscard]] Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest_ratio);
+
+/// The widths that spread defects evenly: with defects d_k of order h^(r + 1), w_k (g/d_k)^(1/(r + 1)), where g is such
+/// that the sum of all defects falls to `share` of what it is. `defects` are >= 0; those far below the others count as
+/// 1e-6 of the largest. No width becomes more than four times as wide or eight times as narrow.
+[[nodiscard]] Eigen::VectorXd equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order,
+                                                     double share);
+
+}  // namespace dmocbench

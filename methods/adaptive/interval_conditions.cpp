@@ -1,0 +1,75 @@
+#include "methods/adaptive/interval_conditions.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace dmocbench {
+
+namespace {
+
+Eigen::Index at(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index interval) {
+  return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(interval)));
+}
+
+Eigen::MatrixXd gathered(const std::vector<ColumnPlace>& places, Eigen::Index intervals, const Eigen::VectorXd& from) {
+  Eigen::MatrixXd table(intervals, static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index j = 0; j < table.cols(); ++j) {
+    for (Eigen::Index k = 0; k < intervals; ++k) table(k, j) = from[at(places, j, k)];
+  }
+  return table;
+}
+
+void scatter(const std::vector<ColumnPlace>& places, const Eigen::MatrixXd& table, Eigen::VectorXd& to) {
+  for (Eigen::Index j = 0; j < table.cols(); ++j) {
+    for (Eigen::Index k = 0; k < table.rows(); ++k) to[at(places, j, k)] += table(k, j);
+  }
+}
+
+}  // namespace
+
+IntervalConditions::IntervalConditions(Transcription& program, const Eigen::VectorXd& primal,
+                                       const Eigen::VectorXd& multipliers)
+    : program_(program),
+      hessians_(program.tabulate(program.functions().hessian.schedule, primal, multipliers)),
+      jacobians_(program.tabulate(program.functions().jacobian.schedule, primal)) {}
+
+LocalValues IntervalConditions::zero() const {
+  const LocalInputs& inputs = program_.functions().inputs;
+  return {Eigen::MatrixXd::Zero(hessians_.rows(), static_cast<Eigen::Index>(inputs.unknowns)),
+          Eigen::MatrixXd::Zero(hessians_.rows(), static_cast<Eigen::Index>(inputs.rows))};
+}
+
+LocalValues IntervalConditions::times(const LocalValues& direction) const {
+  LocalValues result = zero();
+  const LocalMatrix& hessian = program_.functions().hessian;
+  for (std::size_t e = 0; e < hessian.rows.size(); ++e) {
+    const auto i = static_cast<Eigen::Index>(hessian.rows[e]);
+    const auto j = static_cast<Eigen::Index>(hessian.columns[e]);
+    const auto entries = hessians_.col(static_cast<Eigen::Index>(e)).array();
+    result.unknowns.col(i).array() += entries * direction.unknowns.col(j).array();
+    if (i != j) result.unknowns.col(j).array() += entries * direction.unknowns.col(i).array();
+  }
+  const LocalMatrix& jacobian = program_.functions().jacobian;
+  for (std::size_t e = 0; e < jacobian.rows.size(); ++e) {
+    const auto i = static_cast<Eigen::Index>(jacobian.rows[e]);
+    const auto j = static_cast<Eigen::Index>(jacobian.columns[e]);
+    const auto entries = jacobians_.col(static_cast<Eigen::Index>(e)).array();
+    result.rows.col(i).array() += entries * direction.unknowns.col(j).array();
+    result.unknowns.col(j).array() += entries * direction.rows.col(i).array();
+  }
+  return result;
+}
+
+LocalValues IntervalConditions::picked(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& rows) const {
+  const Layout& layout = program_.layout();
+  return {gathered(layout.unknown_places(), hessians_.rows(), unknowns),
+          gathered(layout.row_places(), hessians_.rows(), rows)};
+}
+
+void IntervalConditions::add(const LocalValues& values, Eigen::VectorXd& unknowns, Eigen::VectorXd& rows) const {
+  const Layout& layout = program_.layout();
+  scatter(layout.unknown_places(), values.unknowns, unknowns);
+  scatter(layout.row_places(), values.rows, rows);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,71 @@
+# Steps that the estimate of the error chooses, with the motion; the estimate over the true error.
+#   gnuplot -e "results='results'" plots/adaptive.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("adaptive", "problem,method,stages,grid,accuracy,intervals,true_error,largest_step,smallest_step")
+eval require("adaptive_steps", "problem,method,stages,t,step,motion")
+eval require("adaptive_effectivity", "problem,method,stages,grid,quantity,effectivity,relative_error,verdict")
+
+colour_of_stages(s) = word(blue." ".vermilion." ".green, s + 0)
+field(where, column) = entry(distinct("adaptive", column, where, ""), column)
+of_grid(where, grid) = where.",method=dmoc,grid=".grid
+intervals_of(where, grid) = field(of_grid(where, grid), "intervals")
+label(where) = sprintf("s = %s: %s intervals adapted%s", entry(where, "stages"), intervals_of(where, "adapted"),\
+    intervals_of(where, "uniform") eq "" ? "" : sprintf(", %s uniform", intervals_of(where, "uniform")))
+
+do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
+  problem = entry(problem_word, "problem")
+  stages = distinct("adaptive_steps", "problem,stages", problem_word.",method=dmoc", "step")
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_adaptive", 1000, 640)
+    set multiplot title title_text(problem_label(problem).": steps of adapted grids",\
+        "DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
+        "Above: length of every step; below: the motion at the nodes for s = 3.") offset 0, -0.4
+    set lmargin at screen 0.1; set rmargin at screen 0.97
+    set tmargin at screen 0.8; set bmargin at screen 0.42
+    set logscale y 10; set format y "%g"
+    set format x ""
+    set ylabel "step {/:Italic h}"
+    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2
+    plot for [where in stages] rows("adaptive_steps", where.",method=dmoc", "step") using "t":"step"\
+           with steps linecolor rgb colour_of_stages(entry(where, "stages")) linewidth 2 title label(where)
+    set tmargin at screen 0.39; set bmargin at screen 0.16
+    unset logscale y; set format x "%g"
+    set xlabel "{/:Italic t}"
+    set ylabel "q_1 / max |q_1|"
+    unset key
+    plot "< ".rows_awk("-v where='".problem_word.",method=dmoc,stages=3'", "adaptive_steps") using "t":"motion"\
+           with linespoints linecolor rgb grey pointtype 7 pointsize 0.5
+    unset multiplot
+    eval end_figure(kind, problem."_adaptive")
+    reset
+    load plots."/style.gp"
+  }
+}
+
+eval require("adaptive_effectivity", "problem,method,stages,grid,quantity,effectivity,relative_error,verdict")
+quantities = "state momentum costate objective"
+do for [kind in kinds] {
+  eval begin_figure(kind, "adaptive_effectivity", 1200, 640)
+  set multiplot layout 1, 4 title title_text("Estimated error over true error",\
+      "Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-6.",\
+      "True errors are those against the indirect solution, above rounding; broken lines: 0.3 and 3.")\
+      offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.78 spacing 0.02
+  do for [quantity in quantities] {
+    eval power_axis("xy")
+    set xtics add ("" 1)
+    set format y (quantity eq "state" ? "%g" : "")
+    set yrange [0.1:10]
+    set xlabel "largest relative error"
+    set ylabel quantity eq "state" ? "estimated / true error" : ""
+    set title quantity
+    set key at screen 0.5, screen 0.02 center bottom vertical maxrows 1 width 2
+    plot 0.3 with lines linetype 8, 3 with lines linetype 8,\
+         for [method in "dmoc hamiltonian tangent"]\
+           rows("adaptive_effectivity", "method=".method.",verdict=measured,quantity=".quantity, "effectivity")\
+           using "relative_error":"effectivity" with points linetype method_style(method)\
+           title (quantity eq "state" ? method_label(method) : "")
+  }
+  unset multiplot
+  eval end_figure(kind, "adaptive_effectivity")
+}

@@ -1,0 +1,105 @@
+#include "methods/adaptive/adaptive_solve.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "methods/transcription/start.hpp"
+#include "problems/registry.hpp"
+#include "tests/support/sentence_of_error.hpp"
+
+namespace dmocbench {
+namespace {
+
+AdaptiveTask task_of(const Problem& problem, const std::string& method, int stages, long long intervals) {
+  return {.problem = &problem,
+          .method = method,
+          .tableau = "gauss",
+          .stages = stages,
+          .first = Grid::uniform(intervals),
+          .start = guessed_motion(problem)};
+}
+
+/// The largest error of the forced oscillator's q, which ranges from 0 to 1.
+double error_of_oscillation(const Trajectory& motion) {
+  constexpr double pi = 3.14159265358979323846;
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < motion.node_times.size(); ++k) {
+    const double t = motion.node_times[k];
+    largest = std::max(largest, std::abs(motion.q(k, 0) - (std::sin(t) - t * std::cos(t)) / pi));
+  }
+  return largest;
+}
+
+TEST(AdaptiveSolve, ReachesTheAccuracyAskedForByEveryFamilyAndSolver) {
+  const auto problem = make_problem("forced_oscillator");
+  for (const std::string solver : {"interior_point", "ipopt"}) {
+    for (const std::string& method : element_names()) {
+      AdaptiveOptions options;
+      options.accuracy = 1e-7;
+      options.solver = solver;
+      const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, method, 2, 8), options);
+      ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+      EXPECT_LE(answer.estimate.relative, 1e-7);
+      EXPECT_LE(error_of_oscillation(answer.trajectory), 1.5e-7) << method << ' ' << solver;
+      EXPECT_GT(answer.grids.size(), 1U);
+    }
+  }
+}
+
+TEST(AdaptiveSolve, MakesStepsSmallWhereTheMotionIsFast) {
+  const auto problem = make_problem("hypersensitive");
+  AdaptiveOptions options;
+  options.accuracy = 1e-6;
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 2, 32), options);
+  ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+  const Eigen::VectorXd& widths = answer.program->grid().relative_widths();
+  EXPECT_GT(widths[widths.size() / 2], 5.0 * widths[0]);
+  EXPECT_GT(widths[widths.size() / 2], 5.0 * widths[widths.size() - 1]);
+  for (Eigen::Index k = 1; k < widths.size(); ++k) {
+    EXPECT_LE(std::max(widths[k] / widths[k - 1], widths[k - 1] / widths[k]), 2.0 + 1e-9);
+  }
+}
+
+TEST(AdaptiveSolve, RaisesTheNumberOfStagesUpToThreeWhereStepsAloneWouldTakeMany) {
+  const auto problem = make_problem("forced_oscillator");
+  AdaptiveOptions options;
+  options.accuracy = 1e-9;
+  options.refinement = Refinement::hp;
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 8), options);
+  ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+  EXPECT_EQ(answer.grids.back().stages, 3);
+  EXPECT_LT(error_of_oscillation(answer.trajectory), 2e-9);
+}
+
+TEST(AdaptiveSolve, SaysWhereAnAccuracyIsMoreThanDoublesCanGive) {
+  const auto problem = make_problem("orbital_transfer");
+  AdaptiveOptions options;
+  options.accuracy = 1e-14;
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 16), options);
+  EXPECT_EQ(answer.outcome, AdaptiveOutcome::rounding);
+  EXPECT_NE(answer.message.find("more than doubles can give"), std::string::npos) << answer.message;
+}
+
+TEST(AdaptiveSolve, EndsWhereAGridIsNotSolvedAndSaysWhich) {
+  const auto problem = make_problem("two_link_manipulator");
+  AdaptiveOptions options;
+  options.solver_options.most_iterations = 1;
+  const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 1, 16), options);
+  EXPECT_EQ(answer.outcome, AdaptiveOutcome::not_solved);
+  EXPECT_NE(answer.message.find("Grid 1, 16 intervals"), std::string::npos) << answer.message;
+}
+
+TEST(AdaptiveSolve, RefusesAccuraciesThatAreNone) {
+  const auto problem = make_problem("forced_oscillator");
+  for (const double accuracy : {0.0, -1.0, 1e-30, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    AdaptiveOptions options;
+    options.accuracy = accuracy;
+    tests::expect_error_naming({"1e-14", "0.1"},
+                               [&] { static_cast<void>(solve_adaptively(task_of(*problem, "dmoc", 1, 8), options)); });
+  }
+  tests::expect_error_naming({"\"p\"", "h, hp"}, [] { static_cast<void>(refinement_named("p")); });
+}
+
+}  // namespace
+}  // namespace dmocbench

@@ -1,0 +1,120 @@
+// The claims about adapted grids, on doctored tables.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+namespace {
+
+/// What the tables say that decides.
+struct AdaptiveOutcome {
+  double effectivity = 1.1;
+  const char* verdict = "measured";
+  double uniform = 900.0;
+  double adapted = 150.0;
+  const char* status = "solved";
+  double round = 0.01;
+  int rounds = 12;
+  double tangent_variables = 2.0;
+};
+
+ResultTables tables_of(const AdaptiveOutcome& outcome) {
+  Table effectivity({"problem"});
+  Table grids({"problem"});
+  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+    Row row;
+    row.set("problem", "hypersensitive");
+    row.set("method", method);
+    row.set("tableau", "gauss");
+    row.set("stages", 2LL);
+    row.set("status", "solved");
+    row.set("quantity", "state");
+    row.set("effectivity", method == "dmoc" ? outcome.effectivity : 1.0);
+    row.set("verdict", method == "dmoc" ? outcome.verdict : "measured");
+    effectivity.append(row);
+    for (const std::string grid : {"uniform", "adapted"}) {
+      row.set("grid", grid);
+      row.set("status", outcome.status);
+      row.set("intervals", grid == "uniform" ? outcome.uniform : outcome.adapted);
+      row.set("variables_at_accuracy", method == "dmoc" ? 1.0 : method == "tangent" ? outcome.tangent_variables : 1.6);
+      row.set("grids", 4LL);
+      row.set("seconds", outcome.round);
+      row.set("round_seconds",
+              joined_numbers(std::vector<double>(static_cast<std::size_t>(outcome.rounds), outcome.round)));
+      grids.append(row);
+    }
+  }
+  ResultTables tables;
+  tables.add("adaptive_effectivity", effectivity);
+  tables.add("adaptive", grids);
+  return tables;
+}
+
+JudgedClaim judged_adaptive(const std::string& id, const AdaptiveOutcome& outcome) {
+  for (const JudgedClaim& claim : judge_claims(tables_of(outcome))) {
+    if (claim.id == id) return claim;
+  }
+  ADD_FAILURE() << "no claim " << id;
+  return {};
+}
+
+ClaimVerdict effective(const AdaptiveOutcome& outcome) {
+  return judged_adaptive("examples/error_estimate_is_effective", outcome).verdict;
+}
+ClaimVerdict fewer(const AdaptiveOutcome& outcome) {
+  return judged_adaptive("hypersensitive/adapted_grids_need_fewer_intervals", outcome).verdict;
+}
+ClaimVerdict quick(const AdaptiveOutcome& outcome) {
+  return judged_adaptive("hypersensitive/adapting_takes_less_than_20_ms", outcome).verdict;
+}
+ClaimVerdict ahead(const AdaptiveOutcome& outcome) {
+  return judged_adaptive("hypersensitive/dmoc_keeps_its_advantage_on_adapted_grids", outcome).verdict;
+}
+
+TEST(AdaptiveClaims, HoldByTablesThatSayTheSame) {
+  for (const auto verdict : {effective({}), fewer({}), quick({}), ahead({})}) {
+    EXPECT_EQ(verdict, ClaimVerdict::reproduced);
+  }
+}
+
+TEST(AdaptiveClaims, DifferWhereOneEffectivityIsOutside) {
+  EXPECT_EQ(effective({.effectivity = 0.29}), ClaimVerdict::differs);
+  EXPECT_EQ(effective({.effectivity = 3.1}), ClaimVerdict::differs);
+  EXPECT_EQ(effective({.effectivity = 30.0, .verdict = "floor"}), ClaimVerdict::reproduced);
+  EXPECT_EQ(effective({.effectivity = -1.0}), ClaimVerdict::not_yet);
+}
+
+TEST(AdaptiveClaims, DifferWhereUniformGridsNeedLessThanFourTimesAsMany) {
+  EXPECT_EQ(fewer({.uniform = 599.0}), ClaimVerdict::differs);
+  EXPECT_EQ(fewer({.uniform = 600.0}), ClaimVerdict::reproduced);
+  EXPECT_EQ(fewer({.adapted = 0.0}), ClaimVerdict::not_yet);
+}
+
+TEST(AdaptiveClaims, AreNotYetWhereNothingReachedTheAccuracy) {
+  for (const auto verdict :
+       {fewer({.status = "step failed"}), quick({.status = "step failed"}), ahead({.status = "step failed"})}) {
+    EXPECT_EQ(verdict, ClaimVerdict::not_yet);
+  }
+}
+
+TEST(AdaptiveClaims, JudgeTimesByRounds) {
+  EXPECT_EQ(quick({.round = 0.03}), ClaimVerdict::differs);
+  EXPECT_EQ(quick({.rounds = 3}), ClaimVerdict::undecided);
+  EXPECT_EQ(quick({.round = -1.0}), ClaimVerdict::not_yet);
+}
+
+TEST(AdaptiveClaims, DifferWhereAKindOfCollocationNeedsNoMoreVariables) {
+  EXPECT_EQ(ahead({.tangent_variables = 1.04}), ClaimVerdict::differs);
+  EXPECT_EQ(ahead({.tangent_variables = 1.06}), ClaimVerdict::reproduced);
+}
+
+TEST(AdaptiveClaims, AreOurs) {
+  for (const char* id : {"examples/error_estimate_is_effective", "hypersensitive/adapted_grids_need_fewer_intervals"}) {
+    EXPECT_EQ(judged_adaptive(id, {}).whose, Whose::ours);
+  }
+}
+
+}  // namespace
+}  // namespace dmocbench
