@@ -84,5 +84,16 @@ TEST(SweptValues, BecomeThoseOfTheInstanceAndOfNothingElse) {
   EXPECT_THROW((void)instance_of(base, {}, {SweptQuantity{"mass_1", -1, 2}}, {-1.0}), Error);
 }
 
+TEST(SweptValues, OfParametersAreAllThatTheProblemHas) {
+  const auto problem = make_problem("two_link_manipulator");
+  const std::vector<SweptQuantity> varied{{"mass_2", 1, 2}, {"final_q2", 0, 1}};
+  EXPECT_EQ(varied_parameters(*problem, varied), std::vector<std::string>{"mass_2"});
+  const Eigen::VectorXd values = parameters_of_instance(*problem, varied, {1.5, 0.25});
+  for (std::size_t i = 0; i < problem->parameters().size(); ++i) {
+    const Parameter& parameter = problem->parameters()[i];
+    EXPECT_EQ(values[static_cast<Eigen::Index>(i)], parameter.name == "mass_2" ? 1.5 : parameter.value);
+  }
+}
+
 }  // namespace
 }  // namespace dmocbench

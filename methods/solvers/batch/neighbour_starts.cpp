@@ -1,6 +1,5 @@
 #include "methods/solvers/batch/neighbour_starts.hpp"
 
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -13,23 +12,29 @@ namespace {
 
 constexpr std::size_t first_generation = 64;
 
-struct Neighbour {
-  Eigen::VectorXd place;
-  Solution solution;
-};
-
-/// The first of the nearest ones; null of none.
-const Neighbour* nearest_of(const std::vector<Neighbour>& neighbours, const Eigen::VectorXd& place) {
-  const Neighbour* nearest = nullptr;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Neighbour& neighbour : neighbours) {
-    const double distance = (neighbour.place - place).squaredNorm();
-    if (!(distance < smallest)) continue;
-    smallest = distance;
-    nearest = &neighbour;
+/// The answers that others may start from, and where they lie: a column each.
+class Neighbours {
+ public:
+  void add(const Eigen::VectorXd& place, Solution solution) {
+    if (solutions_.empty()) places_.resize(place.size(), static_cast<Eigen::Index>(most_neighbours));
+    places_.col(static_cast<Eigen::Index>(solutions_.size())) = place;
+    solutions_.push_back(std::move(solution));
   }
-  return nearest;
-}
+  /// Null of none.
+  [[nodiscard]] const Solution* nearest_to(const Eigen::VectorXd& place) {
+    if (solutions_.empty()) return nullptr;
+    const auto known = places_.leftCols(static_cast<Eigen::Index>(solutions_.size()));
+    Eigen::Index nearest = 0;
+    distances_ = (known.colwise() - place).colwise().squaredNorm();
+    distances_.minCoeff(&nearest);
+    return &solutions_[static_cast<std::size_t>(nearest)];
+  }
+
+ private:
+  Eigen::MatrixXd places_;
+  Eigen::RowVectorXd distances_;
+  std::vector<Solution> solutions_;
+};
 
 void add(BatchSummary& sum, const BatchSummary& summary) {
   sum.instances += summary.instances;
@@ -48,29 +53,28 @@ BatchSummary solve_batch_from_neighbours(NonlinearProgram& program, const MakeLa
                                          const NextFromNeighbour& next, const TakeSolution& take,
                                          const BatchOptions& options) {
   BatchSummary sum;
-  std::vector<batch::Neighbour> neighbours;
+  batch::Neighbours neighbours;
   std::size_t begin = 0;
   for (std::size_t generation = batch::first_generation; generation > 0;) {
     const bool is_last = begin >= most_neighbours;
-    std::map<std::size_t, batch::Neighbour> solved;  // of this generation, in the order of their numbers
+    std::map<std::size_t, Solution> solved;  // of this generation, in the order of their numbers
     Eigen::VectorXd here;
     const auto fetch = [&](std::size_t index, BatchInstance& instance) {
       if (!is_last && index == generation) return false;
       if (!place(begin + index, here)) return false;
-      const batch::Neighbour* const neighbour = batch::nearest_of(neighbours, here);
-      next(begin + index, neighbour == nullptr ? nullptr : &neighbour->solution, instance);
+      next(begin + index, neighbours.nearest_to(here), instance);
       return true;
     };
     const auto keep = [&](std::size_t index, const Solution& solution) {
-      if (!is_last && is_solved(solution.status)) solved[index].solution = solution;
+      if (!is_last && is_solved(solution.status)) solved[index] = solution;
       take(begin + index, solution);
     };
     const BatchSummary summary = solve_batch(program, make_lanes, usual, fetch, keep, options);
     batch::add(sum, summary);
     const bool is_over = is_last || summary.instances < generation;
-    for (auto& [index, neighbour] : solved) {
-      if (is_over || !place(begin + index, neighbour.place)) break;
-      neighbours.push_back(std::move(neighbour));
+    for (auto& [index, solution] : solved) {
+      if (is_over || !place(begin + index, here)) break;
+      neighbours.add(here, std::move(solution));
     }
     begin += summary.instances;
     generation = is_over ? 0 : begin;

@@ -59,7 +59,8 @@ using BatchSeconds = std::array<double, batch_phases>;
 struct BatchSummary {
   std::size_t instances = 0;
   std::size_t solved = 0;
-  /// Finished by `interior_point`, because the lanes have no restoration phase and no sparse factorisation.
+  /// Finished by `interior_point`, because lanes restore feasibility in the simplest way only, and have no sparse
+  /// factorisation.
   std::size_t solved_one_by_one = 0;
   /// Iterations of eight lanes together; those of all instances, divided by eight times this, is how full lanes were.
   std::size_t rounds = 0;

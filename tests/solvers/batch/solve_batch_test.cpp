@@ -11,6 +11,7 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/batch/instance_program.hpp"
+#include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/start.hpp"
@@ -133,6 +134,21 @@ TEST(SolveBatch, GivesTheAnswersOfSingleSolvesWhereThereAreBoundsAndInequalities
   Case("container_crane", "dmoc", 1, 16).expect_answers_of_single_solves(4, 0.01);
 }
 
+TEST(SolveBatch, RestoresFeasibilityInLanes) {
+  Case orbit("orbital_transfer", "dmoc", 1, 64);
+  BatchOptions options;
+  options.falls_back = false;
+  const std::vector<BatchInstance> instances = orbit.instances(256, 0.1);  // some of which ask for it
+  std::size_t as_cheap = 0;
+  const std::vector<Solution> solutions = orbit.solve(instances, options);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    EXPECT_EQ(solutions[i].status, Status::solved) << i;
+    const double alone = orbit.solve_alone(instances[i]).objective;
+    as_cheap += std::abs(solutions[i].objective - alone) <= 1e-10 * std::abs(alone) ? 1U : 0U;
+  }
+  EXPECT_GE(as_cheap, instances.size() * 95 / 100);  // from there another path may lead to another minimum
+}
+
 TEST(SolveBatch, StartsWarmFromMultipliers) {
   Case orbit("orbital_transfer", "dmoc", 1, 16);
   const Solution neighbour = InteriorPointSolver().solve(*orbit.program, orbit.start);
@@ -206,6 +222,60 @@ TEST(SolveBatch, ChangesNoDigitOfAnAnswerWhateverItsNeighboursAreAndHoweverManyT
     }
   }
   EXPECT_GT(compared, count * 9 / 10);
+}
+
+TEST(SolveBatch, CountsTheEvaluationsThatASingleSolveNeeds) {
+  Case motion("double_integrator", "dmoc", 1, 16);
+  const std::vector<BatchInstance> instances = motion.instances(3, 0.05);
+  const std::vector<Solution> solutions = motion.solve(instances);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Solution alone = motion.solve_alone(instances[i]);
+    ASSERT_EQ(solutions[i].major_iterations, alone.major_iterations);
+    EXPECT_EQ(solutions[i].total_evaluations(), alone.total_evaluations());
+  }
+}
+
+/// Instances along a line, each a little farther than the one before, so that the nearest one is the last of those that
+/// may be taken.
+TEST(SolveBatch, StartsFromTheNearestInstanceOfThoseBeforeHoweverManyThreadsThereAre) {
+  constexpr std::size_t count = 200;
+  Case orbit("orbital_transfer", "dmoc", 1, 8);
+  ClampedEnds ends(*orbit.program);
+  const auto answers = [&](std::size_t threads) {
+    std::vector<Solution> solutions(count);
+    std::vector<bool> has_neighbour(count);
+    const auto place = [&](std::size_t index, Eigen::VectorXd& here) {
+      if (index == count) return false;
+      here = Eigen::VectorXd::Constant(1, static_cast<double>(index));
+      return true;
+    };
+    const auto next = [&](std::size_t index, const Solution* neighbour, BatchInstance& instance) {
+      has_neighbour[index] = neighbour != nullptr;
+      instance.start = neighbour == nullptr ? orbit.start : neighbour->primal;
+      instance.multipliers = neighbour == nullptr ? Eigen::VectorXd() : neighbour->multipliers;
+      instance.rows = orbit.program->constraint_lower();
+      BoundaryState last = orbit.problem->final_state();
+      last.q[1] += 1e-4 * static_cast<double>(index);
+      ends.write(orbit.problem->initial_state(), last, instance.start, instance.rows);
+    };
+    BatchOptions options;
+    options.threads = threads;
+    orbit.summary = solve_batch_from_neighbours(
+        *orbit.program, lanes_of(*orbit.program), orbit.start, place, next,
+        [&](std::size_t index, const Solution& solution) { solutions[index] = solution; }, options);
+    EXPECT_EQ(orbit.summary.instances, count);
+    EXPECT_FALSE(has_neighbour[63]);
+    EXPECT_TRUE(has_neighbour[64]);
+    return solutions;
+  };
+  const std::vector<Solution> one = answers(1);
+  const std::vector<Solution> three = answers(3);
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_EQ(one[i].status, Status::solved) << i;
+    EXPECT_TRUE(are_same(one[i], three[i])) << i;
+  }
+  EXPECT_LT(*one[64].major_iterations, *one[63].major_iterations);
+  EXPECT_LE(*one[64].major_iterations, *one[127].major_iterations);
 }
 
 TEST(SolveBatch, SaysWhatIsWrongWithAnInstance) {
