@@ -191,7 +191,10 @@ double LaneTranscription::checked_horizon(const Eigen::VectorXd& parameters) con
   };
   const auto [usual, usual_horizon] = bounds_with(usual_parameters_);
   const auto [now, horizon] = bounds_with(parameters);
-  const auto are_same = [](const Bounds& a, const Bounds& b) { return a.lower == b.lower && a.upper == b.upper; };
+  // Where there are none they may be empty.
+  const auto are_same = [](const Bounds& a, const Bounds& b) {
+    return a.lower.size() == b.lower.size() && a.lower == b.lower && a.upper == b.upper;
+  };
   if (!are_same(usual.q, now.q) || !are_same(usual.v, now.v) || !are_same(usual.u, now.u)) {
     throw Error("the parameters of an instance change bounds, which are the same for a whole batch");
   }
