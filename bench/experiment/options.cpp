@@ -18,7 +18,6 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
-#include "methods/transcription/explicit_integrator.hpp"
 #include "methods/transcription/shooting_element.hpp"
 #include "methods/transcription/tableau.hpp"
 
@@ -84,15 +83,16 @@ constexpr std::array shooting_families{std::pair{std::string_view("multiple_shoo
 std::vector<std::string> shooting_names(Shooting shooting, const ExperimentOptions& options) {
   const std::vector<std::string> integrators =
       options.integrators.empty() ? std::vector<std::string>{"rk4"}
-                                  : in_order("integrator", options.integrators, explicit_integrator_names());
+                                  : in_order("integrator", options.integrators, shooting_integrator_names());
   std::set<int> substeps(options.substeps.begin(), options.substeps.end());
   if (substeps.empty()) substeps.insert(1);
   std::vector<std::string> names;
   for (const std::string& integrator : integrators) {
     for (const int count : substeps) {
-      if (count < 1 || count > ShootingElement::most_substeps) {
-        throw Error(
-            fmt::format("--substeps takes whole numbers from 1 to {}, got {}", ShootingElement::most_substeps, count));
+      try {
+        require_substeps(integrator, count);
+      } catch (const Error& error) {
+        throw Error(fmt::format("--substeps: {}", error.what()));
       }
       names.push_back(shooting_name(shooting, integrator, count));
     }
@@ -166,7 +166,8 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--method", options.methods,
             "methods: dmoc, hamiltonian, tangent, multiple_shooting, single_shooting" +
                 std::string(options.methods.empty() ? "; default: the first three" : ""));
-  line.list("--integrator", options.integrators, "of shooting: rk4, midpoint; default: rk4");
+  line.list("--integrator", options.integrators,
+            "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
   line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
   line.list("--tableau", options.tableaus, "families of Butcher tableaus");
   line.option("--controls", options.controls,

@@ -11,4 +11,7 @@ namespace dmocbench {
 /// positive. Throws `Error` if a pivot is a structural zero.
 [[nodiscard]] ExpressionVector solve_symmetric(const ExpressionMatrix& a, const ExpressionVector& b);
 
+/// The same for a matrix that need not be symmetric, by elimination without an exchange of rows.
+[[nodiscard]] ExpressionVector solve_unsymmetric(const ExpressionMatrix& a, const ExpressionVector& b);
+
 }  // namespace dmocbench

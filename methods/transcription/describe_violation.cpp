@@ -110,8 +110,9 @@ class Wording {
     const LayoutShape& shape = layout_->shape();
     const bool is_second = (column / n_) % 2 == 1;
     if (!shape.has_stage_unknowns) {
-      return std::string("the motion from node to node: ") + (is_second ? "the velocity of " : "") +
-             coordinate(column % n_);
+      const bool has_momenta = shape.node_state == NodeState::momentum;
+      const std::string second = has_momenta ? "the momentum of " : "the velocity of ";
+      return "the motion from node to node: " + (is_second ? second : "") + coordinate(column % n_);
     }
     switch (shape.node_state) {
       case NodeState::configuration:
@@ -242,7 +243,8 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
   transcription.constraints(x, rows);
   const Worst row = farthest_outside(rows, transcription.constraint_lower(), transcription.constraint_upper());
   const Worst unknown = farthest_outside(x, transcription.variable_lower(), transcription.variable_upper());
-  const bool is_unknown = std::isnan(unknown.amount) || unknown.amount > row.amount;
+  // Where single shooting stops, the row of the interval says more than the node behind it.
+  const bool is_unknown = !std::isnan(row.amount) && (std::isnan(unknown.amount) || unknown.amount > row.amount);
   const Worst worst = is_unknown ? unknown : row;
   if (worst.amount <= tolerance) return text;
   text += (text.empty() ? "" : " ") + missed(is_unknown ? describe_unknown(problem, transcription, x, worst.entry)

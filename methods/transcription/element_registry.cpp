@@ -31,7 +31,7 @@ std::vector<std::string> element_names() { return names_of(registry, family_name
 
 std::vector<std::string> all_element_names() {
   std::vector<std::string> names = element_names();
-  for (const std::string& integrator : explicit_integrator_names()) {
+  for (const std::string& integrator : shooting_integrator_names()) {
     for (const Shooting shooting : {Shooting::multiple, Shooting::single}) {
       names.push_back(shooting_name(shooting, integrator, 1));
     }

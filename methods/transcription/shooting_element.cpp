@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,10 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/numerics/lagrange_basis.hpp"
 #include "methods/runtime/parsed.hpp"
+#include "methods/transcription/dmoc_shooting_element.hpp"
 
 namespace dmocbench {
 
@@ -92,13 +95,16 @@ State on_cubic(const Flow& left, const Flow& right, const Expression& h, double 
   return state;
 }
 
+void require_at_most(int most, int substeps) {
+  if (substeps >= 1 && substeps <= most) return;
+  throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most, substeps));
+}
+
 }  // namespace
 
 ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
     : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
-  if (substeps < 1 || substeps > most_substeps) {
-    throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most_substeps, substeps));
-  }
+  require_at_most(most_substeps, substeps);
 }
 
 std::string ShootingElement::name() const { return shooting_name(shooting_, integrator_.name, substeps_); }
@@ -138,6 +144,18 @@ IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau
   return trace;
 }
 
+std::vector<std::string> shooting_integrator_names() {
+  std::vector<std::string> names = explicit_integrator_names();
+  names.emplace_back(dmoc_integrator);
+  return names;
+}
+
+void require_substeps(std::string_view integrator, int substeps) {
+  static_cast<void>(position_of(shooting_integrator_names(), std::identity(), integrator, "there is no integrator"));
+  if (integrator != dmoc_integrator) return require_at_most(ShootingElement::most_substeps, substeps);
+  if (substeps != 1) throw Error(fmt::format("shooting by dmoc takes one step per interval, got {}", substeps));
+}
+
 std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps) {
   return fmt::format("{}{}_{}", shooting == Shooting::single ? single_prefix : multiple_prefix, integrator, substeps);
 }
@@ -151,8 +169,11 @@ std::unique_ptr<Element> make_shooting_element(std::string_view name) {
   if (!substeps) {
     throw Error(fmt::format("\"{}\" names no number of substeps; \"{}_1\" does", name, name));
   }
-  return std::make_unique<ShootingElement>(is_single ? Shooting::single : Shooting::multiple,
-                                           explicit_integrator(rest.substr(0, bar)), *substeps);
+  const Shooting shooting = is_single ? Shooting::single : Shooting::multiple;
+  const std::string_view integrator = rest.substr(0, bar);
+  require_substeps(integrator, *substeps);
+  if (integrator == dmoc_integrator) return std::make_unique<DmocShootingElement>(shooting);
+  return std::make_unique<ShootingElement>(shooting, explicit_integrator(integrator), *substeps);
 }
 
 bool is_single_shooting(std::string_view name) { return name.starts_with(single_prefix); }

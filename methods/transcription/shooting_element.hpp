@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/explicit_integrator.hpp"
@@ -47,6 +48,16 @@ class ShootingElement final : public Element {
   ExplicitIntegrator integrator_;
   int substeps_;
 };
+
+/// The integrator that is the map of DMOC itself (`DmocShootingElement`).
+inline constexpr std::string_view dmoc_integrator = "dmoc";
+
+/// Names of all integrators of shooting: the explicit ones, and that of DMOC.
+[[nodiscard]] std::vector<std::string> shooting_integrator_names();
+
+/// Throws `Error` in a sentence unless the integrator exists and is offered with so many steps per interval: 1 to
+/// `ShootingElement::most_substeps` of an explicit one, 1 of DMOC.
+void require_substeps(std::string_view integrator, int substeps);
 
 /// "multiple_shooting_INTEGRATOR_SUBSTEPS", or "single_shooting_…".
 [[nodiscard]] std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps);

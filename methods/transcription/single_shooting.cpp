@@ -140,11 +140,12 @@ void SingleShooting::simulate(const VectorIn& x) {
       primal_[simulated_[static_cast<std::size_t>(2 * n * k + row)]] = -steps[k] * columns[e][interval];
     }
   }
-  if (!primal_.allFinite()) primal_.setConstant(not_a_number);
+  is_defined_ = primal_.allFinite();
 }
 
 void SingleShooting::linearise(const VectorIn& x) {
   simulate(x);
+  if (!is_defined_) return;
   if (linearised_at_.size() == x.size() && linearised_at_ == x) return;
   linearised_at_ = x;
   const BlockPattern& pattern = program_.jacobian_structure();
@@ -181,13 +182,19 @@ Eigen::VectorXd SingleShooting::adjoint(double objective_factor, const VectorIn&
   return all;
 }
 
+bool SingleShooting::is_undefined(VectorOut values) const {
+  if (!is_defined_) values.setConstant(not_a_number);
+  return !is_defined_;
+}
+
 double SingleShooting::objective(const VectorIn& x) {
   simulate(x);
-  return program_.objective(primal_);
+  return is_defined_ ? program_.objective(primal_) : not_a_number;
 }
 
 void SingleShooting::gradient(const VectorIn& x, VectorOut result) {
   linearise(x);
+  if (is_undefined(result)) return;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(constraint_count()));
   const Eigen::VectorXd multipliers = adjoint(1.0, none);
   result = gradient_(kept_) + controls_.transpose() * Eigen::VectorXd(multipliers(equations_));
@@ -195,6 +202,7 @@ void SingleShooting::gradient(const VectorIn& x, VectorOut result) {
 
 void SingleShooting::constraints(const VectorIn& x, VectorOut result) {
   simulate(x);
+  if (is_undefined(result)) return;
   Eigen::VectorXd all(static_cast<Eigen::Index>(program_.constraint_count()));
   program_.constraints(primal_, all);
   result << of_states(primal_)(bounded_), all(rows_);
@@ -202,6 +210,7 @@ void SingleShooting::constraints(const VectorIn& x, VectorOut result) {
 
 void SingleShooting::jacobian(const VectorIn& x, VectorOut values) {
   linearise(x);
+  if (is_undefined(values)) return;
   const Eigen::MatrixXd of_bounds = sensitivities_(bounded_, Eigen::all);
   const Eigen::MatrixXd of_rows = Eigen::MatrixXd(rows_by_controls_) + rows_by_states_ * sensitivities_;
   const auto width = static_cast<Eigen::Index>(variable_count());
@@ -217,6 +226,7 @@ void SingleShooting::jacobian(const VectorIn& x, VectorOut values) {
 void SingleShooting::hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers,
                              VectorOut values) {
   linearise(x);
+  if (is_undefined(values)) return;
   const BlockPattern& pattern = program_.hessian_structure();
   Eigen::VectorXd entries(static_cast<Eigen::Index>(pattern.size()));
   program_.hessian(primal_, objective_factor, adjoint(objective_factor, multipliers), entries);
@@ -245,7 +255,11 @@ Solution SingleShooting::expanded(Solution solution) {
   const Eigen::VectorXd x = solution.primal;
   linearise(x);
   solution.primal = primal_;
-  if (solution.multipliers.size() > 0) solution.multipliers = adjoint(1.0, solution.multipliers);
+  if (!is_defined_) {
+    solution.multipliers.resize(0);
+  } else if (solution.multipliers.size() > 0) {
+    solution.multipliers = adjoint(1.0, solution.multipliers);
+  }
   return solution;
 }
 

@@ -48,7 +48,8 @@ class SingleShooting final : public NonlinearProgram {
   /// The unknowns of a point of multiple shooting that are kept.
   [[nodiscard]] Eigen::VectorXd reduced(const Eigen::VectorXd& primal) const;
   /// A solution in the unknowns and constraints of multiple shooting: the states by simulation, the multipliers of the
-  /// intervals by the adjoint sweep.
+  /// intervals by the adjoint sweep. Where the simulation stops, the states behind it are NaN, and there are no
+  /// multipliers.
   [[nodiscard]] Solution expanded(Solution solution);
 
  private:
@@ -57,10 +58,13 @@ class SingleShooting final : public NonlinearProgram {
   void sort_unknowns();
   void sort_rows();
   void set_structures();
-  /// Simulates from the unknowns, unless the last simulation was theirs.
+  /// Simulates from the unknowns, unless the last simulation was theirs, and tells in `is_defined_` whether it came to
+  /// the end.
   void simulate(const VectorIn& x);
-  /// The derivatives of the equations at the simulated motion, and S.
+  /// The derivatives of the equations at the simulated motion, and S; nothing where there is none.
   void linearise(const VectorIn& x);
+  /// Whether the simulation did not come to its end; the values are then set to NaN.
+  [[nodiscard]] bool is_undefined(VectorOut values) const;
   /// The multipliers of all rows of multiple shooting for which the Lagrangian is stationary in the states.
   [[nodiscard]] Eigen::VectorXd adjoint(double objective_factor, const VectorIn& multipliers);
   /// One row per simulated state, in the order of `simulated_`.
@@ -83,6 +87,7 @@ class SingleShooting final : public NonlinearProgram {
   Tape::Workspace workspace_;
   Eigen::MatrixXd outputs_;         // of every interval, a row each
   Eigen::VectorXd simulated_from_;  // w of the last simulation
+  bool is_defined_ = false;         // whether it came to the end
   Eigen::VectorXd linearised_at_;   // w of the last linearisation
   Eigen::VectorXd primal_;          // of multiple shooting, at the simulated motion
   Eigen::VectorXd gradient_;        // of multiple shooting
