@@ -5,25 +5,29 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/solve_case.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// DMOC with two stages from the common start of the problem.
+/// DMOC with three stages from the guess: any extremal serves.
 Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const SolverOptions& options) {
-  StartProvider starts({}, options);
-  return starts.solve({.problem = problem,
-                       .method = "dmoc",
-                       .tableau = "gauss",
-                       .stages = 2,
-                       .solver = "interior_point",
-                       .grid = Grid::uniform(128)});
+  const Case the_case{.problem = problem,
+                      .method = "dmoc",
+                      .tableau = "gauss",
+                      .stages = 3,
+                      .solver = "auto",
+                      .grid = Grid::uniform(96)};
+  const SolvedCase solved =
+      solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
+  if (is_usable(solved)) return *solved.trajectory;
+  throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
 }
 
 double largest_row_of(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
