@@ -187,12 +187,12 @@ class Solve final : public Experiment {
     int number = 0;
     const auto tell = [&](const GridAttempt& grid) {
       if (number == 0) {
-        fmt::print("solve: grid intervals stages estimated_error largest_step smallest_step{}\n",
+        fmt::print("solve: grid intervals stages estimated_error largest_step smallest_step{} iterations seconds\n",
                    time.name.empty() ? "" : " [" + time.name + "]");
       }
-      fmt::print("solve: {:4} {:9} {:6} {:>15} {:12.4g} {:13.4g}\n", ++number, grid.intervals, grid.stages,
+      fmt::print("solve: {:4} {:9} {:6} {:>15} {:12.4g} {:13.4g} {:10} {:.4f}\n", ++number, grid.intervals, grid.stages,
                  is_solved(grid.status) ? fmt::format("{:.2e}", grid.relative) : std::string(name_of(grid.status)),
-                 time.factor * grid.largest_step, time.factor * grid.smallest_step);
+                 time.factor * grid.largest_step, time.factor * grid.smallest_step, grid.iterations, grid.seconds);
     };
     const StopScope scope(options.stop_requested, options.most_seconds);
     try {

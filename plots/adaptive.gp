@@ -6,7 +6,7 @@ eval require("adaptive", "problem,method,stages,grid,accuracy,intervals,true_err
 eval require("adaptive_steps", "problem,method,stages,t,step,motion")
 eval require("adaptive_effectivity", "problem,method,stages,grid,quantity,effectivity,relative_error,verdict")
 
-colour_of_stages(s) = word(blue." ".vermilion." ".green, s + 0)
+colour_of_stages(s) = word(purple." ".blue." ".vermilion." ".green, s + 0)
 field(where, column) = entry(distinct("adaptive", column, where, ""), column)
 of_grid(where, grid) = where.",method=dmoc,grid=".grid
 intervals_of(where, grid) = field(of_grid(where, grid), "intervals")
@@ -22,13 +22,14 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
         "DMOC, Gauss with s stages, an error of 1e-8 of q, p and cost relative to their ranges.",\
         "Above: length of every step; below: the motion at the nodes for s = 3.") offset 0, -0.4
     set lmargin at screen 0.1; set rmargin at screen 0.97
-    set tmargin at screen 0.8; set bmargin at screen 0.42
+    set tmargin at screen 0.85; set bmargin at screen 0.42
     set logscale y 10; set format y "%g"
     set format x ""
+    unset xlabel
     set ylabel "step {/:Italic h}"
-    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2
+    set key at screen 0.5, screen 0.01 center bottom vertical maxrows 1 width 2 samplen 2
     plot for [where in stages] rows("adaptive_steps", where.",method=dmoc", "step") using "t":"step"\
-           with steps linecolor rgb colour_of_stages(entry(where, "stages")) linewidth 2 title label(where)
+           with steps linecolor rgb colour_of_stages(entry(where, "stages")) linewidth 2 dashtype 1 title label(where)
     set tmargin at screen 0.39; set bmargin at screen 0.16
     unset logscale y; set format x "%g"
     set xlabel "{/:Italic t}"
@@ -38,8 +39,8 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
            with linespoints linecolor rgb grey pointtype 7 pointsize 0.5
     unset multiplot
     eval end_figure(kind, problem."_adaptive")
-    reset
-    load plots."/style.gp"
+    unset lmargin; unset rmargin; unset tmargin; unset bmargin
+    set key
   }
 }
 
@@ -48,7 +49,7 @@ quantities = "state momentum costate objective"
 do for [kind in kinds] {
   eval begin_figure(kind, "adaptive_effectivity", 1200, 640)
   set multiplot layout 1, 4 title title_text("Estimated error over true error",\
-      "Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-6.",\
+      "Every problem, one and two stages, uniform grids with N = 64 and 128 and grids adapted to 1e-4 or 1e-6.",\
       "True errors are those against the indirect solution, above rounding; broken lines: 0.3 and 3.")\
       offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.78 spacing 0.02
   do for [quantity in quantities] {

@@ -5,25 +5,38 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/start_provider.hpp"
+#include "bench/experiment/solve_case.hpp"
 #include "methods/adaptive/error_estimate.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
+#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
 
 namespace {
 
-/// DMOC with two stages from the common start of the problem.
+/// DMOC with three stages from the guess: any extremal serves.
 Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const SolverOptions& options) {
-  StartProvider starts({}, options);
-  return starts.solve({.problem = problem,
-                       .method = "dmoc",
-                       .tableau = "gauss",
-                       .stages = 2,
-                       .solver = "interior_point",
-                       .grid = Grid::uniform(128)});
+  const Case the_case{.problem = problem,
+                      .method = "dmoc",
+                      .tableau = "gauss",
+                      .stages = 3,
+                      .solver = "auto",
+                      .grid = Grid::uniform(96)};
+  const SolvedCase solved =
+      solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
+  if (is_usable(solved)) return *solved.trajectory;
+  throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
+}
+
+/// Bounds that a parameter can switch off are switched off: the indirect method knows none.
+std::shared_ptr<const Problem> without_bounds(const std::string& name) {
+  std::shared_ptr<Problem> problem = make_problem(name);
+  for (const Parameter& parameter : problem->parameters()) {
+    if (parameter.name == "bounded") problem->set_parameter("bounded", 0.0);
+  }
+  return problem;
 }
 
 double largest_row_of(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
@@ -31,17 +44,24 @@ double largest_row_of(const Eigen::MatrixXd& rows) { return rows.rowwise().norm(
 }  // namespace
 
 CertifiedProblem::CertifiedProblem(const std::string& name, const SolverOptions& options)
-    : problem_(make_problem(name)),
+    : problem_(without_bounds(name)),
       optimum_(solve_indirect(*problem_, direct_motion(problem_, options))),
       motion_(optimum_.trajectory()) {}
 
 TrueError true_error(const CertifiedProblem& certified, const Trajectory& answer) {
-  const Trajectory optimum = certified.optimum().sampled_like(answer);
-  const Eigen::MatrixXd q = optimum.q - answer.q;
-  const Eigen::MatrixXd p = optimum.p - answer.p;
-  const Eigen::MatrixXd psi_q = optimum.psi_q - answer.psi_q;
-  const Eigen::MatrixXd psi_p = optimum.psi_p - answer.psi_p;
-  const double objective = optimum.cost - answer.cost;
+  // At the nodes alone: every point takes Newton's method.
+  Eigen::MatrixXd q = -answer.q;
+  Eigen::MatrixXd p = -answer.p;
+  Eigen::MatrixXd psi_q = -answer.psi_q;
+  Eigen::MatrixXd psi_p = -answer.psi_p;
+  for (Eigen::Index k = 0; k < answer.node_times.size(); ++k) {
+    const IndirectPoint optimum = certified.optimum().at(answer.node_times[k]);
+    q.row(k) += optimum.q.transpose();
+    p.row(k) += optimum.p.transpose();
+    psi_q.row(k) += optimum.psi_q.transpose();
+    psi_p.row(k) += optimum.psi_p.transpose();
+  }
+  const double objective = certified.optimum().cost() - answer.cost;
   return {.state = largest_row_of(q),
           .momentum = largest_row_of(p),
           .costate = std::sqrt((psi_q.rowwise().squaredNorm() + psi_p.rowwise().squaredNorm()).maxCoeff()),

@@ -5,6 +5,7 @@
 
 #include "bench/experiment/warm_start.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
+#include "methods/diagnostics/accuracy.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
@@ -72,12 +73,17 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
     }
     polish(program, solution);
     const Trajectory answer = read_trajectory(program, solution.primal, solution.multipliers);
+    if (accuracy(certified.problem(), answer).relative_jump > largest_jump_of_a_motion) {
+      row.status = name_of(Status::too_coarse);
+      rows.push_back(row);
+      continue;
+    }
     ErrorEstimator estimator(program);
     append_rows(certified, row, answer, estimator.estimate(program, solution.primal, solution.multipliers, answer),
                 rows);
   }
   AdaptiveOptions adaptive;
-  adaptive.accuracy = 1e-6;
+  adaptive.accuracy = stages == 1 ? 1e-4 : 1e-6;
   adaptive.solver_options = exact;
   const AdaptiveAnswer answer = solve_adaptively({.problem = &certified.problem(),
                                                   .method = method,
@@ -100,7 +106,7 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
 Columns<MeasuredEffectivity> effectivity_columns() {
   using M = MeasuredEffectivity;
   return scheme_columns<M>() +
-         Columns<M>{{"grid", "", "uniform, or adapted to an accuracy of 1e-6", &M::grid},
+         Columns<M>{{"grid", "", "uniform, or adapted to an accuracy of 1e-4 (s = 1) or 1e-6", &M::grid},
                     {"intervals", "", "number of intervals N", &M::intervals},
                     {"quantity", "", "q, p, psi at the nodes (largest), or the cost", &M::quantity},
                     {"status", "", "of the solve", &M::status},

@@ -27,7 +27,8 @@ struct MeasuredEffectivity {
   }
 };
 
-/// All quantities by a method with some stages, on uniform grids and on one adapted to an accuracy of 1e-6.
+/// All quantities by a method with some stages, on uniform grids and on one adapted to an accuracy of 1e-4 (one
+/// stage) or 1e-6. An answer whose intervals do not join (`accuracy`) has the status "too coarse" and no numbers.
 [[nodiscard]] std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& certified,
                                                                    const std::string& method, int stages,
                                                                    const SolverOptions& options);

@@ -27,7 +27,7 @@ namespace {
 constexpr int most_stages = 3;
 
 /// The share of the accuracy that the next grid is made for.
-constexpr double margin = 0.5;
+constexpr double margin = 0.9;
 
 /// Grid after grid.
 class AdaptiveRun {
@@ -131,17 +131,17 @@ class AdaptiveRun {
     const ErrorEstimate& estimate = answer_.estimate;
     const Tableau& tableau = answer_.program->tableau();
     const double share = std::isfinite(estimate.relative) ? margin * options_.accuracy / estimate.relative : margin;
-    Eigen::VectorXd widths = equidistributed_widths(grid_, estimate.defects, tableau.order, share);
     const auto present = static_cast<double>(grid_.intervals());
-    const double asked = grid_.relative_widths().cwiseQuotient(widths).sum();
     constexpr double most_growth = 4.0;
-    if (options_.refinement == Refinement::hp && stages_ < most_stages && asked > 2.0 * present) {
+    const auto even_widths = [&](double growth) {
+      return equidistributed_widths(grid_, estimate.defects, tableau.order, share, growth * present);
+    };
+    EvenWidths even = even_widths(most_growth);
+    if (options_.refinement == Refinement::hp && stages_ < most_stages && even.asked > 2.0 * present) {
       ++stages_;
-      widths *= asked / present;
-    } else {
-      widths *= std::max(1.0, asked / (most_growth * present));
+      even = even_widths(1.0);
     }
-    const Grid next = graded_grid(grid_, widths, options_.largest_ratio);
+    const Grid next = graded_grid(grid_, even.widths, options_.largest_ratio);
     if (static_cast<Eigen::Index>(next.intervals()) > options_.most_intervals) {
       answer_.outcome = AdaptiveOutcome::too_many;
       answer_.message = fmt::format("An accuracy of {:g} takes more than {} intervals; the estimated error is {:.1e}.",

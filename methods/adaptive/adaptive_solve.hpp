@@ -92,9 +92,9 @@ struct AdaptiveTask {
 
 /// Solves on one grid after the other until the estimated error (`ErrorEstimator`) is at most `options.accuracy`.
 ///
-/// The next grid is `graded_grid` of `equidistributed_widths`, for half the accuracy asked for; it has at most four
-/// times as many intervals. Solves begin at the motion on the grid before, with the multipliers that belong to its
-/// costates
+/// The next grid is `graded_grid` of `equidistributed_widths`, for nine tenths of the accuracy asked for; it has at
+/// most four times as many intervals. Solves begin at the motion on the grid before, with the multipliers that belong
+/// to its costates
 /// (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are fewer than three
 /// stages and the next grid would have more than twice as many intervals, the number of stages grows by one instead, on
 /// as many intervals as before.

@@ -206,6 +206,19 @@ NodeErrors errors_at_nodes(const Transcription& program, const IntervalCondition
   return {{}, {q, second, first_costate, second_costate}};
 }
 
+/// ½ Σ_k [δψ_{k+1}·m^x_k - m^ψ_k·(δx_{k+1} - m^x_k)] of misses m and errors δ at the nodes: half the derivative of the
+/// Lagrangian at the answer along its error, which makes the estimate of the cost exact to second order.
+double second_order_of_cost(const ExtremalCoordinates::Canonical& misses,
+                            const ExtremalCoordinates::Canonical& errors) {
+  const auto product = [&](const Eigen::MatrixXd& of_misses, const Eigen::MatrixXd& of_errors) {
+    return of_misses.cwiseProduct(of_errors.bottomRows(of_misses.rows())).sum();
+  };
+  const double by_costates = product(misses.q, errors.psi_q) + product(misses.p, errors.psi_p);
+  const double by_states = product(misses.psi_q, errors.q) + product(misses.psi_p, errors.p);
+  const double of_misses = misses.q.cwiseProduct(misses.psi_q).sum() + misses.p.cwiseProduct(misses.psi_p).sum();
+  return 0.5 * (by_costates - by_states + of_misses);
+}
+
 /// The program, unless its horizon is free or its ends are tied.
 const Transcription& with_fixed_ends(const Transcription& program) {
   const LayoutShape& shape = program.layout().shape();
@@ -265,7 +278,8 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
   const double worth = (replay.nodes.alpha.bottomRows(intervals).cwiseProduct(replay.misses.in_velocities.q) +
                         replay.nodes.beta.bottomRows(intervals).cwiseProduct(replay.misses.in_velocities.v))
                            .sum();
-  estimate.objective = ((replay.cost - costs).sum() + worth) / cost_scale_;
+  const double second = second_order_of_cost(replay.misses.in_momenta, canonical);
+  estimate.objective = ((replay.cost - costs).sum() + worth + second) / cost_scale_;
   estimate.relative = relative_size(motion, estimate.q, estimate.p, estimate.objective, cost_scale_);
   return estimate;
 }

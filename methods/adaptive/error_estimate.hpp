@@ -42,7 +42,9 @@ struct ErrorEstimate {
 ///    by these misses. To first order the error is therefore one more linear solve with the matrix of a Newton step at
 ///    the answer; the right-hand side is that matrix, interval by interval, times the misses. What the solver has left
 ///    of the conditions shows in the misses.
-/// 3. The cost: J* - J = Σ_k (∫ C dt along the replayed interval - its discrete cost + ψ_{k+1}·δx_k), to first order.
+/// 3. The cost: to first order J* - J = Σ_k (∫ C dt along the replayed interval - its discrete cost + ψ_{k+1}·δx_k).
+///    Where the cost is flat, the second order is larger: with the errors e of state and costate at the nodes,
+///    ½ Σ_k [e^ψ_{k+1}·δx_k - δψ_k·(e^x_{k+1} - δx_k)], half the derivative of the Lagrangian along the error.
 ///
 /// The estimate becomes exact as the steps become small: its relative error is of the order of the error.
 class ErrorEstimator {

@@ -93,19 +93,24 @@ Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest
   return Grid::from_nodes(std::move(nodes));
 }
 
-Eigen::VectorXd equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order, double share) {
+EvenWidths equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order, double share,
+                                  double most_intervals) {
   constexpr double most_wider = 4.0;
   constexpr double most_narrower = 8.0;
-  constexpr double smallest_defect = 1e-6;
+  constexpr double smallest_defect = 1e-12;
   const double exponent = 1.0 / (order + 1);
   const Eigen::VectorXd& widths = grid.relative_widths();
+  const auto intervals = static_cast<double>(widths.size());
   const double largest = defects.maxCoeff();
-  if (!(largest > 0.0)) return most_wider * widths;
-  if (!std::isfinite(largest)) return 0.5 * widths;
+  if (!(largest > 0.0)) return {most_wider * widths, intervals / most_wider};
+  if (!std::isfinite(largest)) return {0.5 * widths, 2.0 * intervals};
   const Eigen::ArrayXd counted = defects.array().max(smallest_defect * largest);
   // With n = Σ (d_k/g)^exponent intervals of defect g each, n g is `share` of Σ d_k.
   const double even = std::pow(share * counted.sum() / counted.pow(exponent).sum(), 1.0 + 1.0 / order);
-  return widths.array() * (even / counted).pow(exponent).min(most_wider).max(1.0 / most_narrower);
+  const Eigen::ArrayXd wider = (even / counted).pow(exponent);
+  const double asked = wider.inverse().sum();
+  const double excess = std::max(1.0, asked / most_intervals);
+  return {widths.array() * (excess * wider).min(most_wider).max(1.0 / most_narrower), asked};
 }
 
 }  // namespace dmocbench

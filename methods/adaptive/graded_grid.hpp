@@ -16,10 +16,17 @@ namespace dmocbench {
 /// Grid::most_intervals are asked for, or a wish is not positive.
 [[nodiscard]] Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest_ratio);
 
-/// The widths that spread defects evenly: with defects d_k of order h^(r + 1), w_k (g/d_k)^(1/(r + 1)), where g is such
-/// that the sum of all defects falls to `share` of what it is. `defects` are >= 0; those far below the others count as
-/// 1e-6 of the largest. No width becomes more than four times as wide or eight times as narrow.
-[[nodiscard]] Eigen::VectorXd equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order,
-                                                     double share);
+/// Widths that spread defects evenly.
+struct EvenWidths {
+  Eigen::VectorXd widths;  ///< relative, one per interval of the grid on which the defects were
+  double asked = 0.0;      ///< how many intervals of equal defect that takes, before any limit
+};
+
+/// With defects d_k of order h^(r + 1): w_k (g/d_k)^(1/(r + 1)), where g is such that the sum of all defects falls to
+/// `share` of what it is, or, if that takes more than `most_intervals`, such that it takes so many. `defects` are >= 0;
+/// those far below the others count as 1e-12 of the largest. No width becomes more than four times as wide or eight
+/// times as narrow. Where a defect is infinite all widths are halved.
+[[nodiscard]] EvenWidths equidistributed_widths(const Grid& grid, const Eigen::VectorXd& defects, int order,
+                                                double share, double most_intervals);
 
 }  // namespace dmocbench

@@ -7,6 +7,7 @@
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/value_of.hpp"
 
 namespace dmocbench {
 namespace {
@@ -58,6 +59,18 @@ TEST(AdaptiveSolve, MakesStepsSmallWhereTheMotionIsFast) {
   EXPECT_GT(widths[widths.size() / 2], 5.0 * widths[widths.size() - 1]);
   for (Eigen::Index k = 1; k < widths.size(); ++k) {
     EXPECT_LE(std::max(widths[k] / widths[k - 1], widths[k - 1] / widths[k]), 2.0 + 1e-9);
+  }
+}
+
+TEST(AdaptiveSolve, FindsTheCertifiedCostFromTheGuess) {
+  for (const char* name : {"eccentric_transfer", "hypersensitive"}) {
+    const auto problem = make_problem(name);
+    AdaptiveOptions options;
+    options.accuracy = 1e-10;
+    const AdaptiveAnswer answer = solve_adaptively(task_of(*problem, "dmoc", 3, 32), options);
+    ASSERT_EQ(answer.outcome, AdaptiveOutcome::reached) << answer.message;
+    const double certified = tests::value_of(problem->card().reference).objective;
+    EXPECT_NEAR(answer.trajectory.cost, certified, 1.1e-10 * certified) << name;
   }
 }
 

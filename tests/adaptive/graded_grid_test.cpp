@@ -71,18 +71,28 @@ TEST(EquidistributedWidths, SpreadTheDefectsOfAPowerLawEvenlyAndReduceTheirSum) 
     return defects;
   };
   const Eigen::VectorXd before = defects_on(grid);
-  const Grid even = graded_grid(grid, equidistributed_widths(grid, before, 4, 0.5), 2.0);
+  const Grid even = graded_grid(grid, equidistributed_widths(grid, before, 4, 0.5, 1e6).widths, 2.0);
   const Eigen::VectorXd after = defects_on(even);
   EXPECT_LT(after.maxCoeff() / after.minCoeff(), 1.05);
   EXPECT_NEAR(after.sum() / before.sum(), 0.5, 0.02);
+}
+
+TEST(EquidistributedWidths, KeepTheirProportionsWhereTheNumberOfIntervalsIsLimited) {
+  const Grid grid = Grid::uniform(3);
+  const Eigen::Vector3d defects(1.0, 8.0, 27.0);
+  const EvenWidths limited = equidistributed_widths(grid, defects, 2, 1e-9, 6.0);
+  EXPECT_GT(limited.asked, 1000.0);
+  EXPECT_NEAR(grid.relative_widths().cwiseQuotient(limited.widths).sum(), 6.0, 1e-9);
+  EXPECT_NEAR(limited.widths[0] / limited.widths[1], 2.0, 1e-9);
+  EXPECT_NEAR(limited.widths[0] / limited.widths[2], 3.0, 1e-9);
 }
 
 TEST(EquidistributedWidths, AreHalvedWhereADefectIsUnknownAndWideWhereThereIsNone) {
   const Grid grid = Grid::uniform(4);
   Eigen::Vector4d defects = Eigen::Vector4d::Ones();
   defects[2] = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(equidistributed_widths(grid, defects, 2, 0.1), Eigen::VectorXd(0.5 * grid.relative_widths()));
-  EXPECT_EQ(equidistributed_widths(grid, Eigen::Vector4d::Zero(), 2, 0.1),
+  EXPECT_EQ(equidistributed_widths(grid, defects, 2, 0.1, 100.0).widths, Eigen::VectorXd(0.5 * grid.relative_widths()));
+  EXPECT_EQ(equidistributed_widths(grid, Eigen::Vector4d::Zero(), 2, 0.1, 100.0).widths,
             Eigen::VectorXd(4.0 * grid.relative_widths()));
 }
 

@@ -12,6 +12,7 @@ namespace {
 struct AdaptiveOutcome {
   double effectivity = 1.1;
   const char* verdict = "measured";
+  double relative_error = 1e-4;
   double uniform = 900.0;
   double adapted = 150.0;
   const char* status = "solved";
@@ -32,6 +33,7 @@ ResultTables tables_of(const AdaptiveOutcome& outcome) {
     row.set("status", "solved");
     row.set("quantity", "state");
     row.set("effectivity", method == "dmoc" ? outcome.effectivity : 1.0);
+    row.set("relative_error", method == "dmoc" ? outcome.relative_error : 1e-4);
     row.set("verdict", method == "dmoc" ? outcome.verdict : "measured");
     effectivity.append(row);
     for (const std::string grid : {"uniform", "adapted"}) {
@@ -83,6 +85,7 @@ TEST(AdaptiveClaims, DifferWhereOneEffectivityIsOutside) {
   EXPECT_EQ(effective({.effectivity = 0.29}), ClaimVerdict::differs);
   EXPECT_EQ(effective({.effectivity = 3.1}), ClaimVerdict::differs);
   EXPECT_EQ(effective({.effectivity = 30.0, .verdict = "floor"}), ClaimVerdict::reproduced);
+  EXPECT_EQ(effective({.effectivity = 30.0, .relative_error = 0.1}), ClaimVerdict::reproduced);
   EXPECT_EQ(effective({.effectivity = -1.0}), ClaimVerdict::not_yet);
 }
 
