@@ -23,8 +23,8 @@ std::vector<Claims> chapters() {
           order_claims(),
           joined({minima_claims(), cold_start_claims(), warm_start_claims()}),
           joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
-                  rotation_claims()}),
-          joined({optimal_momentum_claims(), smoothness_claims()}),
+                  rotation_claims(), step_control_claims()}),
+          joined({optimal_momentum_claims(), smoothness_claims(), low_thrust_claims()}),
           adaptive_claims(),
           library_claims()};
 }

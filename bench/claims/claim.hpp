@@ -141,6 +141,8 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims coercivity_claims();         ///< the assumption of coercivity
 [[nodiscard]] Claims smoothness_claims();         ///< optima that are not smooth, free final states
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
+[[nodiscard]] Claims step_control_claims();       ///< step sizes tied to the motion
+[[nodiscard]] Claims low_thrust_claims();         ///< many revolutions with few steps in each
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
 [[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers

@@ -24,11 +24,13 @@ const ColumnNames solve{"problem", "method", "tableau", "stages", "solver", "der
 const ColumnNames status{"status", "branch"};
 const ColumnNames fit{"problem", "method", "tableau", "stages", "quantity"};
 const ColumnNames scheme{"problem", "method", "tableau", "stages"};
+const ColumnNames step_choice{"problem", "eccentricity", "rule", "sigma", "stages"};
 
 /// Columns of keys that count or measure something.
 bool is_number(const std::string& column) {
-  constexpr std::array numbers{"stages",  "intervals", "order", "steps", "steps_per_period", "periods", "h",
-                               "minimum", "tolerance", "error", "step"};
+  constexpr std::array numbers{
+      "stages",    "intervals", "order", "steps",       "steps_per_period",     "periods",     "h", "minimum",
+      "tolerance", "error",     "step",  "revolutions", "steps_per_revolution", "eccentricity"};
   return std::ranges::find(numbers, column) != numbers.end();
 }
 
@@ -126,6 +128,11 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"structure_rotations", "structure", columns(scheme, {"axis"}), {"action"}},
       {"consistency_order_transforms", "consistency_order", {"problem", "h"}},
       {"smoothness_slopes", "smoothness", {"situation", "method", "tableau", "stages", "quantity"}, {"active", "end"}},
+      {"low_thrust", "low_thrust", columns(scheme, {"revolutions", "steps_per_revolution"}), status},
+      {"step_control_symplecticity", "step_control", step_choice},
+      {"step_control_momentum", "step_control", step_choice},
+      {"step_control_energy_behaviour", "step_control", step_choice},
+      {"step_control_slopes", "step_control", step_choice},
       {"coercivity", "coercivity", columns(scheme, {"intervals"}), {"status"}},
       {"structure_advantage_ratios", "structure_advantage",
        columns(scheme, {"solver", "factorisation", "intervals", "quantity"})},

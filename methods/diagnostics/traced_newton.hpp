@@ -31,6 +31,9 @@ class TracedNewton {
     schedule_ = Schedule(outputs);
   }
 
+  /// The operations of one evaluation of equations and derivatives.
+  [[nodiscard]] std::size_t operations() const noexcept { return schedule_.operation_count(); }
+
   /// Moves the unknowns among `inputs` from where they are to the root. Throws `Error` if the iteration does not
   /// converge.
   void solve(std::vector<Scalar>& inputs) const {

@@ -88,7 +88,6 @@ void require_fit(const Problem& problem, const Trajectory& start) {
 }  // namespace
 
 IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start, const IndirectOptions& options) {
-  constexpr Eigen::Index coarsest = 16;
   constexpr int lower_stages = 8;
   constexpr int higher_stages = 10;
   require_smooth_class(problem);
@@ -101,7 +100,7 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
 
   std::function<ExtremalPoint(double)> begin = StartingPoint(start, function.cost_scale());
   std::optional<IndirectSolution> best;
-  for (Eigen::Index intervals = coarsest; intervals <= options.most_intervals; intervals *= 2) {
+  for (Eigen::Index intervals = options.fewest_intervals; intervals <= options.most_intervals; intervals *= 2) {
     const auto solved = [&](int stages, Eigen::Index on_intervals) {
       return IndirectSolution(problem, collocate_extremal(function, first, last, horizon, stages, on_intervals, begin),
                               {});
@@ -117,7 +116,7 @@ IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
     }
     if (agreement.worst() <= options.tolerance) break;
   }
-  if (!best) throw Error(fmt::format("the indirect method needs at least {} intervals", coarsest));
+  if (!best) throw Error(fmt::format("the indirect method needs at least {} intervals", options.fewest_intervals));
   return *std::move(best);
 }
 

@@ -8,8 +8,9 @@ namespace dmocbench {
 
 /// When `solve_indirect` stops refining.
 struct IndirectOptions {
-  double tolerance = 1e-12;           ///< grids are refined until two runs agree to this, relative
-  Eigen::Index most_intervals = 512;  ///< of the coarser run; beyond it the best agreement so far is returned
+  double tolerance = 1e-12;            ///< grids are refined until two runs agree to this, relative
+  Eigen::Index fewest_intervals = 16;  ///< N to begin with; long horizons need a few intervals per period
+  Eigen::Index most_intervals = 512;   ///< the largest N; beyond it the best agreement so far is returned
 };
 
 /// An optimal motion that depends on direct methods for its start only: Pontryagin's boundary value problem of the same

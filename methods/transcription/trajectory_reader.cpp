@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/costates.hpp"
+#include "methods/transcription/velocities_of_momenta.hpp"
 
 namespace dmocbench {
 
@@ -41,24 +41,6 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
   }
 }
 
-/// P_i = L_v(Q_i, Q̇_i), and v_k with L_v(q_k, v_k) = p_k; each solve starts from the velocity of a nearby stage.
-void transform(const TracedProblem& problem, Trajectory& trajectory) {
-  LegendreTransform legendre(problem);
-  trajectory.stage_p.resizeLike(trajectory.stage_q);
-  for (Eigen::Index i = 0; i < trajectory.stage_p.rows(); ++i) {
-    const MotionPoint stage = trajectory.stage(i);
-    trajectory.stage_p.row(i) = legendre.momentum(stage.q, stage.v, trajectory.stage_times[i]).transpose();
-  }
-  trajectory.v.resizeLike(trajectory.q);
-  for (Eigen::Index k = 0; k < trajectory.v.rows(); ++k) {
-    const Eigen::Index nearby = std::min(k * trajectory.stages(), trajectory.stage_v.rows() - 1);
-    trajectory.v.row(k) = legendre
-                              .velocity(trajectory.q.row(k).transpose(), trajectory.p.row(k).transpose(),
-                                        trajectory.node_times[k], trajectory.stage_v.row(nearby).transpose())
-                              .transpose();
-  }
-}
-
 }  // namespace
 
 Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& primal,
@@ -78,7 +60,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   }
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);
-  transform(transcription.traced_problem(), trajectory);
+  add_velocities(transcription.traced_problem(), trajectory);
   trajectory.cost = transcription.objective(primal) / transcription.cost_scale();
   if (static_cast<std::size_t>(multipliers.size()) == transcription.constraint_count()) {
     Costates psi = costates(transcription, primal, multipliers, trajectory.v);

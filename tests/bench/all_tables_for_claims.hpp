@@ -146,6 +146,40 @@ inline Rows smoothness_rows() {
   return rows;
 }
 
+/// Cost errors 1 (DMOC and tangent), 3 (explicit midpoint) and 1/10 (rk4), at any number of steps.
+inline Rows low_thrust_rows() {
+  const std::map<std::string, const char*> cost_errors{{"dmoc", "1e-4"},
+                                                       {"tangent", "1e-4"},
+                                                       {"multiple_shooting_midpoint_1", "3e-4"},
+                                                       {"multiple_shooting_rk4_1", "1e-5"}};
+  Rows rows;
+  for (const char* revolutions : {"10", "20"}) {
+    for (const auto& [method, cost_error] : cost_errors) {
+      for (const char* steps : {"8", "16", "32"}) {
+        rows.push_back(
+            row_of_texts({"problem", "method", "tableau", "stages", "revolutions", "steps_per_revolution", "status",
+                          "branch", "reference_digits", "cost_error", "replay_error", "momentum_balance"},
+                         {orbit, method, "gauss", "1", revolutions, steps, "solved", "same", "12", cost_error, "1e-3",
+                          method == "tangent" ? "1e-9" : "1e-13"}));
+      }
+    }
+  }
+  return rows;
+}
+
+/// Rows of the three rules of steps along an ellipse, with the texts of some further columns by rule.
+inline Rows step_control_rows(ColumnNames more, const std::map<std::string, std::vector<std::string>>& texts) {
+  ColumnNames columns{"problem", "eccentricity", "rule", "sigma", "stages"};
+  columns.insert(columns.end(), more.begin(), more.end());
+  Rows rows;
+  for (const auto& [rule, of_rule] : texts) {
+    std::vector<std::string> all{"kepler", "0.6", rule, "distance", "1"};
+    all.insert(all.end(), of_rule.begin(), of_rule.end());
+    rows.push_back(row_of_texts(columns, all));
+  }
+  return rows;
+}
+
 inline Rows coercivity_rows() {
   Rows rows;
   const auto append = [&](const char* problem, const char* intervals, const char* curvature) {
@@ -330,6 +364,17 @@ inline std::map<std::string, Rows> all_rows() {
   rows["structure_rotations"] = rotation_rows();
   rows["consistency_order_transforms"] = transform_rows();
   rows["smoothness_slopes"] = smoothness_rows();
+  rows["low_thrust"] = low_thrust_rows();
+  rows["step_control_symplecticity"] = step_control_rows(
+      {"defect", "rounding"},
+      {{"variational", {"2e-15", "1e-15"}}, {"imposed", {"1e-3", "1e-15"}}, {"from_left", {"1e-2", "1e-15"}}});
+  rows["step_control_momentum"] = step_control_rows(
+      {"work", "defect"},
+      {{"variational", {"0.1", "1e-14"}}, {"imposed", {"0.1", "1e-14"}}, {"from_left", {"0.1", "1e-14"}}});
+  rows["step_control_energy_behaviour"] = step_control_rows({"oscillation", "range", "change", "standard_error"},
+                                                            {{"variational", {"1e-4", "1e-4", "1e-9", "1e-9"}},
+                                                             {"imposed", {"1e-4", "1e-4", "1e-9", "1e-9"}},
+                                                             {"from_left", {"1e-3", "1e-1", "1e-1", "1e-5"}}});
   rows["coercivity"] = coercivity_rows();
   rows["structure_advantage_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();

@@ -1,0 +1,99 @@
+// Step sizes tied to the motion: what the variational route keeps that the imposed one loses, and what it costs.
+#include <cmath>
+
+#include "bench/claims/claim.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr const char* in_outlook = "section 5, KMLTMD";
+
+/// The rows of a table with steps chosen in one way; at least one.
+Selection by_rule(const Selection& rows, const char* rule, const char* table) {
+  const Selection found = rows.where("rule", rule);
+  require(!found.empty(), "{}.csv has no row with {} steps", table, rule);
+  return found;
+}
+
+Finding symplectic_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double within_rounding = 100.0;
+  const char* const table = "step_control_symplecticity";
+  const Selection rows = tables.rows(table);
+  const auto defect = [](const Row& row) {
+    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    return row.needed("defect") / row.needed("rounding");
+  };
+  const double variational = std::max(0.0, by_rule(rows, "variational", table).max(defect));
+  const double imposed = by_rule(rows, "imposed", table).max(defect);
+  const double from_left = by_rule(rows, "from_left", table).max(defect);
+  return found(
+      variational < within_rounding && std::min(imposed, from_left) > within_rounding,
+      "D'ΩD - Ω of (q, t, p, -E) in units of rounding: variational at most {:.1f}, imposed up to {:.1e}, known "
+      "before the step up to {:.1e}",
+      variational, imposed, from_left);
+}
+
+Finding momentum_by_every_route(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-11;
+  constexpr double some_work = 1e-6;
+  const char* const table = "step_control_momentum";
+  const Selection rows = tables.rows(table);
+  static_cast<void>(by_rule(rows, "variational", table));
+  static_cast<void>(by_rule(rows, "imposed", table));
+  const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
+  return found(rows.max("defect") < rounding && least_work > some_work,
+               "{} motions of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: change of "
+               "momentum less work at most {:.1e}; work at least {:.1e}",
+               rows.size(), rows.max("defect"), least_work);
+}
+
+Finding energy_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double bounded = 1.05;
+  constexpr double drifts = 10.0;
+  const char* const table = "step_control_energy_behaviour";
+  const Selection rows = tables.rows(table);
+  const Selection variational = by_rule(rows, "variational", table);
+  const Selection from_left = by_rule(rows, "from_left", table);
+  const auto stays = [](const Row& row) { return row.needed("range") < bounded * row.needed("oscillation"); };
+  const auto leaves = [](const Row& row) {
+    return std::abs(row.needed("change")) > drifts * std::abs(row.needed("standard_error"));
+  };
+  const auto words = [](const Row& row) {
+    return fmt::format("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
+                       row.needed("oscillation"), std::abs(row.needed("change")));
+  };
+  return found(std::ranges::all_of(variational, stays) && std::ranges::all_of(from_left, leaves), "{}",
+               rows.in_words("; ", words));
+}
+
+}  // namespace
+
+Claims step_control_claims() {
+  return {
+      {.id = "variational_steps_symplectic",
+       .problems = simulated,
+       .where = in_outlook,
+       .whose = Whose::ours,
+       .states = "steps tied to the motion leave the extended flow symplectic only if their constraint is part of "
+                 "the principle",
+       .judge = symplectic_by_principle,
+       .evidence = {"step_control_symplecticity.csv"}},
+      {.id = "steps_by_the_motion_keep_momentum",
+       .problems = simulated,
+       .where = in_outlook,
+       .whose = Whose::ours,
+       .states = "steps that are invariant under the group keep momentum in balance with forces, inside and outside "
+                 "of the principle",
+       .judge = momentum_by_every_route,
+       .evidence = {"step_control_momentum.csv"}},
+      {.id = "variational_steps_energy",
+       .problems = simulated,
+       .where = in_outlook,
+       .whose = Whose::ours,
+       .states = "with variational steps the energy oscillates, with steps known beforehand it drifts",
+       .judge = energy_by_principle,
+       .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}}};
+}
+
+}  // namespace dmocbench

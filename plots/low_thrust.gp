@@ -1,0 +1,49 @@
+# Errors of the optimal cost over the steps per revolution, one panel per number of revolutions: low thrust over long
+# horizons.
+#   gnuplot -e "results='results'" plots/low_thrust.gp
+plots = system("dirname '".ARG0."'")
+load plots."/style.gp"
+eval require("low_thrust", "problem,method,revolutions,steps_per_revolution,cost_error,momentum_defect,replay_error,reference")
+
+families = distinct("low_thrust", "method", "", "cost_error")
+family_label(method) = strstrt(method, "multiple_shooting_rk4") == 1 ? "Multiple shooting, rk4"\
+    : strstrt(method, "multiple_shooting_midpoint") == 1 ? "Multiple shooting, explicit midpoint" : method_label(method)
+family_style(method) = strstrt(method, "multiple_shooting_rk4") == 1 ? 5 : method_style(method)
+set linetype 5 linecolor rgb "#E69F00" linewidth 1.5 dashtype 1 pointtype 13 pointsize 0.8
+# "indirect solution, 12.1 digits".
+reference_label(panel) = (entry(panel, "reference") eq "indirect" ? "indirect solution" : "two methods").", "\
+    .sprintf("%.1f digits", number(entry(panel, "reference_digits")))
+
+do for [problem_word in problems_of("low_thrust", "cost_error")] {
+  problem = entry(problem_word, "problem")
+  panels = distinct("low_thrust", "revolutions,reference,reference_digits", problem_word, "cost_error")
+  columns_of_figure = words(panels) < 3 ? words(panels) : 3
+  lines_of_figure = (words(panels) + columns_of_figure - 1) / columns_of_figure
+  do for [kind in kinds] {
+    eval begin_figure(kind, problem."_low_thrust", 440 * columns_of_figure + 100, 400 * lines_of_figure + 210)
+    set multiplot layout lines_of_figure, columns_of_figure title title_text(\
+        problem_label(problem)." with many revolutions, one Gauss stage or one step of shooting per interval",\
+        "Error of the optimal cost over the steps per revolution.",\
+        "J* as the panel’s title tells; all solves start from one motion.")\
+        offset 0, -0.4 margins 0.1, 0.985, 0.28 / lines_of_figure, 0.99 - 0.2 / lines_of_figure spacing 0.08, 0.14
+    do for [panel in panels] {
+      where = problem_word.",revolutions=".entry(panel, "revolutions")
+      unset logscale
+      set autoscale
+      eval power_axis("y")
+      set logscale x 2
+      set xtics (4, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+      set format x '%g'
+      set xrange [7:36]
+      set xlabel "steps per revolution"
+      set ylabel "|J − J*| / J*"
+      set key at screen 0.5, screen 0.01 center bottom vertical maxrows 2 width 2
+      set title entry(panel, "revolutions")." revolutions; ".reference_label(panel)
+      plot for [family in families] rows("low_thrust", where.",".family, "cost_error")\
+             using "steps_per_revolution":"cost_error"\
+             with linespoints linetype family_style(entry(family, "method")) title family_label(entry(family, "method"))
+    }
+    unset multiplot
+    eval end_figure(kind, problem."_low_thrust")
+  }
+}
