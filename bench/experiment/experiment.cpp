@@ -141,7 +141,11 @@ class Run {
       solve_in_turn();
     } else {
       first_solved_ = cases_.empty() ? 0 : experiment_.solved_first(curves_of(cases_).front());
-      options_.jobs > 1 ? solve_in_processes() : solve_span(0, cases_.size());
+      if (options_.jobs > 1) {
+        solve_in_processes();
+      } else {
+        solve_span(0, cases_.size());
+      }
     }
   }
 
@@ -287,13 +291,6 @@ class Run {
       set_times(first[i], rounds[i]);
       keep(completed(first[i]), numbers[i]);
     }
-  }
-
-  /// Short solves are repeated within a round, so that an interruption by something else is an outlier.
-  static int solves_per_round(const Solution& first) {
-    constexpr double seconds_of_a_round = 0.02;
-    constexpr double most = 400.0;
-    return static_cast<int>(std::clamp(seconds_of_a_round / first.seconds, 1.0, most));
   }
 
   /// The table on disk has every finished row, in the order of solving until the end.

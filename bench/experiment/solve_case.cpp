@@ -203,6 +203,12 @@ bool Case::same_curve(const Case& other) const {
          tolerance == other.tolerance;
 }
 
+int solves_per_round(const Solution& first) {
+  constexpr double seconds_of_a_round = 0.02;
+  constexpr double most = 400.0;
+  return static_cast<int>(std::clamp(seconds_of_a_round / first.seconds, 1.0, most));
+}
+
 void set_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
   solved.rounds.clear();
   for (const Solution& solution : repeats) {
