@@ -224,7 +224,7 @@ class Run {
     Case the_case = cases_[number];
     SolvedCase unsolved{.the_case = the_case};
     try {
-      const Start start = start_of(the_case);
+      Start start = start_of(the_case);
       show(the_case.label());
       SolverOptions options = solver_options_;
       options.tolerance = the_case.tolerance.value_or(options.tolerance);
