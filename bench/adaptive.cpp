@@ -44,8 +44,8 @@ void compare_grids(const TableRun& run, const CertifiedProblem& certified, int r
     for (const int stages : {2, 3, 4}) {
       const Scheme scheme{name, method, "gauss", stages};
       run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
-      tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start, is_uneven ? rounds : 0,
-                                             options, tables.steps));
+      tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start,
+                                             is_uneven && method == "dmoc" ? rounds : 0, options, tables.steps));
       if (!is_uneven) continue;
       run.show(fmt::format("{} {} s = {}, uniform", name, method, stages));
       tables.needed.push_back(needed_uniform(certified, scheme, accuracy, options));

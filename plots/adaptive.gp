@@ -10,12 +10,14 @@ colour_of_stages(s) = word(purple." ".blue." ".vermilion." ".green, s + 0)
 field(where, column) = entry(distinct("adaptive", column, where, ""), column)
 of_grid(where, grid) = where.",method=dmoc,grid=".grid
 intervals_of(where, grid) = field(of_grid(where, grid), "intervals")
-label(where) = sprintf("s = %s: %s intervals adapted%s", entry(where, "stages"), intervals_of(where, "adapted"),\
-    intervals_of(where, "uniform") eq "" ? "" : sprintf(", %s uniform", intervals_of(where, "uniform")))
+label(where) = sprintf("s = %s: N = %s%s", entry(where, "stages"), intervals_of(where, "adapted"),\
+    intervals_of(where, "uniform") eq "" ? "" : sprintf(" (uniform: %s)", intervals_of(where, "uniform")))
 
 do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
   problem = entry(problem_word, "problem")
   stages = distinct("adaptive_steps", "problem,stages", problem_word.",method=dmoc", "step")
+  unset logscale; set autoscale
+  stats rows("adaptive_steps", problem_word.",method=dmoc", "step") using (column("t") + column("step")) name "T" nooutput
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_adaptive", 1000, 640)
     set multiplot title title_text(problem_label(problem).": steps of adapted grids",\
@@ -23,6 +25,7 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
         "Above: length of every step; below: the motion at the nodes for s = 3.") offset 0, -0.4
     set lmargin at screen 0.1; set rmargin at screen 0.97
     set tmargin at screen 0.85; set bmargin at screen 0.42
+    set xrange [0:T_max]
     set logscale y 10; set format y "%g"
     set format x ""
     unset xlabel
@@ -40,6 +43,7 @@ do for [problem_word in distinct("adaptive_steps", "problem", "", "step")] {
     unset multiplot
     eval end_figure(kind, problem."_adaptive")
     unset lmargin; unset rmargin; unset tmargin; unset bmargin
+    set autoscale x
     set key
   }
 }
@@ -54,7 +58,7 @@ do for [kind in kinds] {
       offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.78 spacing 0.02
   do for [quantity in quantities] {
     eval power_axis("xy")
-    set xtics add ("" 1)
+    set xtics 1e-12, 1e3
     set format y (quantity eq "state" ? "%g" : "")
     set yrange [0.1:10]
     set xlabel "largest relative error"

@@ -6,7 +6,6 @@
 #include "bench/experiment/warm_start.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
-#include "methods/solvers/polish.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
@@ -62,7 +61,7 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
   for (const long long intervals : {64LL, 128LL}) {
     Transcription program(certified.problem(), *make_element(method), make_tableau("gauss", stages),
                           Grid::uniform(intervals));
-    Solution solution =
+    const Solution solution =
         solve_from(program, sample(program, smooth_motion(certified.motion())), certified.motion(), *solver);
     row.grid = "uniform";
     row.intervals = intervals;
@@ -71,7 +70,6 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
       rows.push_back(row);
       continue;
     }
-    polish(program, solution);
     const Trajectory answer = read_trajectory(program, solution.primal, solution.multipliers);
     if (accuracy(certified.problem(), answer).relative_jump > largest_jump_of_a_motion) {
       row.status = name_of(Status::too_coarse);

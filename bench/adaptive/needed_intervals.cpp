@@ -9,7 +9,6 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/solvers/polish.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -32,11 +31,10 @@ UniformSolve solve_uniform(const CertifiedProblem& certified, const Scheme& sche
                            const Solver& solver) {
   Transcription program(certified.problem(), *make_element(scheme.method),
                         make_tableau(scheme.tableau, static_cast<int>(scheme.stages)), Grid::uniform(intervals));
-  Solution solution =
+  const Solution solution =
       solve_from(program, sample(program, smooth_motion(certified.motion())), certified.motion(), solver);
   UniformSolve result{.status = solution.status, .intervals = intervals, .variables = program.variable_count()};
   if (!is_solved(solution.status)) return result;
-  polish(program, solution);
   result.error = true_error(certified, read_trajectory(program, solution.primal, solution.multipliers)).relative;
   return result;
 }
