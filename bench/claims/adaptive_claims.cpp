@@ -89,12 +89,12 @@ Finding fewer_intervals(const ResultTables& tables, const std::string& problem) 
     const double ratio = quotient(other, best, "intervals");
     holds = holds && ratio >= many_times;
     words +=
-        fmt::format("{}{} {} (s = {}) against {} (s = {}), {:.1f} times", words.empty() ? "" : "; ", method,
+        fmt::format("{}{} {} (s = {}) against {} (s = {}), {:.2f} times", words.empty() ? "" : "; ", method,
                     best.text("intervals"), best.text("stages"), other.text("intervals"), other.text("stages"), ratio);
     for (const Row& row : adapted) {
       const Selection same = uniform.matching(row, {"tableau", "stages"});
       if (same.size() != 1) continue;
-      words += fmt::format(", s = {}: {:.1f}", row.text("stages"), quotient(same.front(), row, "intervals"));
+      words += fmt::format(", s = {}: {:.2f}", row.text("stages"), quotient(same.front(), row, "intervals"));
     }
   }
   return found(holds, "adapted grids need {}", words);
