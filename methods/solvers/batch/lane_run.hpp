@@ -67,7 +67,7 @@ class LaneRun {
   };
 
   void refill();
-  void begin(std::size_t lane);
+  void begin(std::size_t number);
   // The parts of a round.
   void solve_systems();
   void search_lines();
@@ -76,21 +76,20 @@ class LaneRun {
 
   [[nodiscard]] kkt::LaneKkt::Systems systems();
   void assemble_systems(const OfLanes& shift);
-  void begin_search(std::size_t lane);
+  void begin_search(std::size_t number);
   void search(const LaneMask& fresh);
-  [[nodiscard]] bool try_step(std::size_t lane);
+  [[nodiscard]] bool try_step(std::size_t number);
   // Restoration of feasibility.
-  [[nodiscard]] bool begin_restoration(std::size_t lane);
-  [[nodiscard]] bool try_feasibility_step(std::size_t lane);
-  [[nodiscard]] bool is_restored(std::size_t lane);
-  void evaluate_start(std::size_t lane);
-  void judge(std::size_t lane);
-  [[nodiscard]] bool is_solved(std::size_t lane) const;
-  void update_barrier_parameter(std::size_t lane);
-  void begin_iteration(std::size_t lane);
-  void refuse(std::size_t lane, const char* reason);
-  void give_up(std::size_t lane);
-  void finish(std::size_t lane, Status status);
+  [[nodiscard]] bool begin_restoration(std::size_t number);
+  [[nodiscard]] bool try_feasibility_step(std::size_t number);
+  [[nodiscard]] bool is_restored(std::size_t number);
+  void evaluate_start(std::size_t number);
+  void judge(std::size_t number);
+  [[nodiscard]] bool is_solved(std::size_t number) const;
+  void update_barrier_parameter(std::size_t number);
+  void refuse(std::size_t number, const char* reason);
+  void give_up(std::size_t number);
+  void finish(std::size_t number, Status status);
   [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
   /// How far a start is pushed away from its bounds.
