@@ -143,6 +143,7 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
+[[nodiscard]] Claims shooting_claims();           ///< direct shooting beside DMOC
 [[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers
 [[nodiscard]] Claims library_claims();            ///< the whole library
 

@@ -35,7 +35,8 @@ const ColumnNames& known_columns() {
         "order steps_per_period periods oscillation range change factorisation ratio_at_equal_intervals "
         "minimum dmoc hamiltonian tangent start_kind starts confirmed best share_lower share_upper "
         "success evaluations situation active end axis action largest_gap momentum_deviation "
-        "smallest_curvature left_defect right_defect largest_momentum sequence iterations microseconds");
+        "smallest_curvature left_defect right_defect largest_momentum sequence iterations microseconds "
+        "unknowns condition objective_error");
     for (std::string name; own >> name;) names.push_back(name);
     names.insert(names.end(), tests::differences.begin(), tests::differences.end());
     return names;
