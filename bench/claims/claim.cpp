@@ -22,6 +22,7 @@ std::vector<Claims> chapters() {
           joined({consistency_order_claims(), order_theorem_claims()}),
           order_claims(),
           joined({minima_claims(), cold_start_claims(), warm_start_claims()}),
+          shooting_claims(),
           joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
                   rotation_claims(), step_control_claims()}),
           joined({optimal_momentum_claims(), smoothness_claims(), low_thrust_claims()}),

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
+#include "bench/claims/cold_start_counts.hpp"
 #include "bench/summary/share_interval.hpp"
 
 namespace dmocbench {
@@ -10,19 +11,6 @@ namespace {
 
 /// Shares that differ by less are "as often".
 constexpr double same_share = 0.05;
-
-/// How many of the cold starts of a row are counted in a column. Throws `Error` if the row is not about cold starts,
-/// has none, or counts more than there were or parts of one.
-ShareCount count_of(const Row& row, const char* column) {
-  require(row.text("start_kind") == "cold", "{}, column start_kind: the claim is about cold starts", row.place());
-  const double starts = row.needed("starts");
-  const double hits = row.needed(column);
-  constexpr double most_starts = 1e9;
-  const bool are_counts = starts == std::floor(starts) && hits == std::floor(hits);
-  require(are_counts && starts >= 1.0 && starts <= most_starts && hits >= 0.0 && hits <= starts,
-          "{}: {} of {} starts in column {}", row.place(), hits, starts, column);
-  return {.hits = static_cast<std::size_t>(hits), .trials = static_cast<std::size_t>(starts)};
-}
 
 /// The verdict on "the first share is the second", by the interval of their difference.
 ClaimVerdict verdict_on_difference(const ShareInterval& difference) {
@@ -39,14 +27,14 @@ Finding as_often(const ResultTables& tables, const std::string& problem, const c
   const Selection dmoc = midpoint(rows, "dmoc");
   require(dmoc.size() == 1, "cold_start_shares.csv has {} rows of {} by dmoc and interior_point, not one", dmoc.size(),
           problem);
-  const ShareCount own = count_of(dmoc.front(), column);
+  const ShareCount own = count_of_cold_starts(dmoc.front(), column);
   std::string words = fmt::format("dmoc {} of {} cold starts", own.hits, own.trials);
   std::vector<ClaimVerdict> verdicts;
   for (const std::string method : {"hamiltonian", "tangent"}) {
     const Selection others = midpoint(rows, method).matching(dmoc.front(), {"intervals", "derivatives"});
     require(others.size() == 1, "cold_start_shares.csv has {} rows of {} by {} beside that of dmoc, not one",
             others.size(), problem, method);
-    const ShareCount count = count_of(others.front(), column);
+    const ShareCount count = count_of_cold_starts(others.front(), column);
     const ShareInterval difference = difference_interval(own, count);
     verdicts.push_back(verdict_on_difference(difference));
     words += fmt::format("; {} {} of {}, difference {:+.1f} to {:+.1f} %", method, count.hits, count.trials,
@@ -64,6 +52,17 @@ Predicate as_often_in(const char* column) {
 }
 
 }  // namespace
+
+ShareCount count_of_cold_starts(const Row& row, const char* column) {
+  require(row.text("start_kind") == "cold", "{}, column start_kind: the claim is about cold starts", row.place());
+  const double starts = row.needed("starts");
+  const double hits = row.needed(column);
+  constexpr double most_starts = 1e9;
+  const bool are_counts = starts == std::floor(starts) && hits == std::floor(hits);
+  require(are_counts && starts >= 1.0 && starts <= most_starts && hits >= 0.0 && hits <= starts,
+          "{}: {} of {} starts in column {}", row.place(), hits, starts, column);
+  return {.hits = static_cast<std::size_t>(hits), .trials = static_cast<std::size_t>(starts)};
+}
 
 Claims cold_start_claims() {
   return {{.id = "cold_starts_confirmed_as_often",

@@ -150,6 +150,11 @@ const std::vector<DeclaredTable>& declared_tables() {
        {"status", "verdict"}},
       {"profile", "profile", solve, {"status", "success"}},
       {"slips", "slips", {"problem", "slip"}},
+      {"shooting", "shooting", columns(scheme, {"intervals"}), {"status"}},
+      {"convergence_shooting_slopes", "convergence_shooting", fit, {"verdict"}},
+      {"convergence_shooting_two_stages_slopes", "convergence_shooting_two_stages", fit, {"verdict"}},
+      {"cold_start_shooting_shares", "cold_start_shooting", solve},
+      {"structure_advantage_shooting", "structure_advantage_shooting", columns(solve, {"factorisation"}), status},
   };
   return tables;
 }

@@ -258,6 +258,49 @@ inline Rows sequence_rows() {
   return rows;
 }
 
+inline Rows shooting_rows() {
+  return rows_of_texts({"problem", "method", "tableau", "stages", "status", "intervals", "unknowns", "condition"},
+                       {{orbit, "dmoc", "gauss", "1", "solved", "64", "190", "1e3"},
+                        {orbit, "multiple_shooting_rk4_1", "gauss", "1", "solved", "64", "316", "1e4"},
+                        {orbit, "single_shooting_rk4_1", "gauss", "1", "solved", "64", "64", "1e5"}});
+}
+
+inline Rows shooting_slope_rows(const char* stages) {
+  const ColumnNames columns{"problem", "method", "tableau", "stages", "quantity", "verdict", "slope"};
+  if (stages == std::string("2")) {
+    return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "2", "state", "slope", "4.01"}});
+  }
+  return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "1", "state", "slope", "2.01"},
+                                 {orbit, "multiple_shooting_midpoint_1", "gauss", "1", "state", "slope", "1.99"}});
+}
+
+inline Rows shooting_cold_rows() {
+  const ColumnNames columns{"problem",     "method",    "tableau",    "stages", "solver",
+                            "derivatives", "intervals", "start_kind", "starts", "confirmed"};
+  return rows_of_texts(columns,
+                       {{orbit, "dmoc", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "48"},
+                        {orbit, "multiple_shooting_rk4_1", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "35"},
+                        {orbit, "single_shooting_rk4_1", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "10"}});
+}
+
+/// Errors of the cost fall as 1/N²; those of shooting are twice DMOC's, and its solves take longer.
+inline Rows shooting_cost_rows() {
+  Rows rows;
+  for (const char* method : {"dmoc", "multiple_shooting_rk4_1", "single_shooting_rk4_1"}) {
+    const bool is_dmoc = method == std::string("dmoc");
+    for (const long long intervals : {16LL, 32LL, 64LL}) {
+      Row row = solved_row(method, intervals);
+      const auto count = static_cast<double>(intervals);
+      row.set("tolerance", Cell());
+      row.set("solver", "ipopt");
+      row.set("objective_error", (is_dmoc ? 1.0 : 2.0) / (count * count));
+      row.set("round_seconds", rounds_around((is_dmoc ? 1e-4 : 2e-4) * count));
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
 inline Rows profile_rows() {
   Rows rows;
   for (const std::string method : {"dmoc", "hamiltonian"}) {
@@ -381,6 +424,11 @@ inline std::map<std::string, Rows> all_rows() {
   rows["local_minima_shares"] = share_rows();
   rows["cold_start_shares"] = cold_start_rows();
   rows["sequence"] = sequence_rows();
+  rows["shooting"] = shooting_rows();
+  rows["convergence_shooting_slopes"] = shooting_slope_rows("1");
+  rows["convergence_shooting_two_stages_slopes"] = shooting_slope_rows("2");
+  rows["cold_start_shooting_shares"] = shooting_cold_rows();
+  rows["structure_advantage_shooting"] = shooting_cost_rows();
   rows["profile"] = profile_rows();
   return rows;
 }

@@ -1,0 +1,225 @@
+// Section 3.3 names the rivals of DMOC among the direct methods: shooting and multiple shooting. What they reach, at
+// what cost, and how sure they are to reach it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/claims/cold_start_counts.hpp"
+#include "bench/claims/timed_ratios.hpp"
+#include "bench/summary/ratios.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr const char* multiple = "multiple_shooting_rk4_1";
+constexpr const char* single = "single_shooting_rk4_1";
+/// The paper's problems, and a swing-up.
+const Problems with_swing_up{orbit, two_link, "cart_pole"};
+
+/// A method of shooting with a tableau of Gauss for its control, and the order that theory gives them.
+struct ExpectedOrder {
+  const char* table;
+  const char* method;
+  const char* stages;
+  double order;
+};
+constexpr std::array expected_orders{
+    ExpectedOrder{"convergence_shooting_two_stages_slopes", multiple, "2", 4.0},
+    ExpectedOrder{"convergence_shooting_slopes", multiple, "1", 2.0},
+    ExpectedOrder{"convergence_shooting_slopes", "multiple_shooting_midpoint_1", "1", 2.0}};
+
+Finding order_of_shooting(const ResultTables& tables, const std::string& problem) {
+  std::vector<std::string> words;
+  bool is_as_expected = true;
+  bool is_floor = false;
+  for (const auto& [table, method, stages, order] : expected_orders) {
+    const Selection slopes = tables.rows(table, problem).where("quantity", "state").where("tableau", "gauss");
+    const Selection rows = slopes.where("method", method).where("stages", stages);
+    require(rows.size() == 1, "{}.csv has {} orders of the state of {} by {}, s = {}, not one", table, rows.size(),
+            problem, method, stages);
+    const Row& row = rows.front();
+    const bool is_fitted = row.text("verdict") == "slope";
+    is_floor = is_floor || !is_fitted;
+    is_as_expected = is_as_expected && (!is_fitted || has_order(row, order));
+    words.push_back(fmt::format("{} s = {} {}", method, stages,
+                                is_fitted ? fmt::format("{:.2f}", row.needed("slope")) : row.text("verdict")));
+  }
+  const ClaimVerdict verdict = is_as_expected && is_floor ? ClaimVerdict::floor : verdict_on(is_as_expected);
+  return found(verdict, "slopes of the state against the indirect solution: {}", fmt::join(words, ", "));
+}
+
+/// The solved row of a method on the finest grid of shooting.csv.
+Row program_of(const ResultTables& tables, const std::string& problem, const char* method) {
+  const Selection rows = tables.rows("shooting", problem).sorted_by("intervals");
+  const Selection finest = midpoint(rows, method).where("intervals", rows.back().text("intervals"));
+  require(finest.size() == 1 && finest.front().text("status") == "solved",
+          "shooting.csv: {} by {} is not solved once at N = {}", problem, method, rows.back().text("intervals"));
+  return finest.front();
+}
+
+Finding sizes_of_programs(const ResultTables& tables, const std::string& problem) {
+  const Row dmoc = program_of(tables, problem, "dmoc");
+  const auto unknowns = [&](const char* method) { return program_of(tables, problem, method).needed("unknowns"); };
+  const double of_dmoc = dmoc.needed("unknowns");
+  return found(unknowns(single) < of_dmoc && of_dmoc < unknowns(multiple),
+               "unknowns at N = {}: single shooting {}, DMOC {}, multiple shooting {}", dmoc.text("intervals"),
+               unknowns(single), of_dmoc, unknowns(multiple));
+}
+
+Finding condition_of_programs(const ResultTables& tables, const std::string& problem) {
+  const Row dmoc = program_of(tables, problem, "dmoc");
+  const auto condition = [&](const char* method) { return program_of(tables, problem, method).needed("condition"); };
+  return found(condition("dmoc") < condition(multiple) && condition(multiple) < condition(single),
+               "condition at N = {}: DMOC {:.1e}, multiple shooting {:.1e}, single shooting {:.1e}",
+               dmoc.text("intervals"), condition("dmoc"), condition(multiple), condition(single));
+}
+
+/// The row of cold starts of a method by Ipopt.
+Row cold_starts_of(const ResultTables& tables, const std::string& problem, const char* method) {
+  const Selection rows = midpoint(tables.rows("cold_start_shooting_shares", problem), method).where("solver", "ipopt");
+  require(rows.size() == 1, "cold_start_shooting_shares.csv has {} rows of {} by {} and ipopt, not one", rows.size(),
+          problem, method);
+  return rows.front();
+}
+
+/// The verdict on "the first is confirmed more often than the second", by the interval of the difference.
+Finding confirmed_more_often(const ResultTables& tables, const std::string& problem, const char* first,
+                             const char* second) {
+  const Row row = cold_starts_of(tables, problem, first);
+  const Row other = cold_starts_of(tables, problem, second);
+  require(row.text("intervals") == other.text("intervals"), "{} and {} are about other grids", row.place(),
+          other.place());
+  const ShareCount own = count_of_cold_starts(row, "confirmed");
+  const ShareCount others = count_of_cold_starts(other, "confirmed");
+  const ShareInterval difference = difference_interval(own, others);
+  const ClaimVerdict verdict = difference.lower > 0.0    ? ClaimVerdict::reproduced
+                               : difference.upper <= 0.0 ? ClaimVerdict::differs
+                                                         : ClaimVerdict::undecided;
+  return found(verdict, "{} {} of {} cold starts, {} {} of {}, difference {:+.1f} to {:+.1f} %; 95 % interval", first,
+               own.hits, own.trials, second, others.hits, others.trials, 100.0 * difference.lower,
+               100.0 * difference.upper)
+      .as_sure_as(fmt::format("95 % of {} starts", own.trials));
+}
+
+/// Errors of the cost with the times of solves, one curve for each round.
+using Curves = std::vector<std::vector<ErrorCostPoint>>;
+
+Curves timed_curves(const ResultTables& tables, const std::string& problem, const char* method) {
+  const Selection rows = midpoint(tables.rows("structure_advantage_shooting", problem), method)
+                             .where("solver", "ipopt")
+                             .sorted_by("intervals");
+  require(rows.size() > 1 && rows.are_usable(),
+          "structure_advantage_shooting.csv: {} by {} is not solved on the wanted branch on several grids", problem,
+          method);
+  Curves curves;
+  for (const Row& row : rows) {
+    const std::vector<double> seconds = row.numbers("round_seconds");
+    const double error = row.needed("objective_error");
+    require(error > 0.0, "{}, column objective_error: {} is no error", row.place(), error);
+    if (&row == &rows.front()) curves.resize(seconds.size());
+    curves.resize(std::min(curves.size(), seconds.size()));
+    for (std::size_t round = 0; round < curves.size(); ++round) {
+      curves[round].push_back({std::log10(error), seconds[round]});
+    }
+  }
+  require(!curves.empty(), "{}, column round_seconds: there is no number", rows.front().place());
+  return curves;
+}
+
+/// The error of a curve's finest grid.
+double smallest_error(const Curves& curves) { return curves.front().back().log_error; }
+
+/// The time of a method to DMOC's where both have the same error of the cost, the smallest one that both reach.
+Predicate costs_more(const char* method) {
+  return [method](const ResultTables& tables, const std::string& problem) -> Finding {
+    constexpr double slower = 1.05;
+    constexpr double same_error = 1e-9;
+    const Curves dmoc = timed_curves(tables, problem, "dmoc");
+    const Curves other = timed_curves(tables, problem, method);
+    const double error = std::pow(10.0, std::max(smallest_error(dmoc), smallest_error(other)));
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < std::min(dmoc.size(), other.size()); ++round) {
+      const auto quotient_of_times =
+          ratio(cost_at_error(other[round], error, same_error), cost_at_error(dmoc[round], error, same_error));
+      require(quotient_of_times.has_value(),
+              "structure_advantage_shooting.csv: {} by {} and DMOC reach no error of the cost both", problem, method);
+      ratios.push_back(*quotient_of_times);
+    }
+    TimedRatios timed(slower);
+    timed.add(method, ratios);
+    return judged(timed,
+                  fmt::format("time of a solve by Ipopt to DMOC's at the relative error {:.1e} of the cost: ", error));
+  };
+}
+
+}  // namespace
+
+Claims shooting_claims() {
+  const std::vector<std::string> programs{"shooting.csv", "figures/{}_shooting.svg"};
+  const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};
+  const char* const where = "section 3.3, direct methods";
+  const auto more_often = [](const char* first, const char* second) -> Predicate {
+    return [=](const ResultTables& tables, const std::string& problem) {
+      return confirmed_more_often(tables, problem, first, second);
+    };
+  };
+  const auto dearer = [&](const char* id, const char* method, const char* states) {
+    return Claim{.id = id,
+                 .problems = of_paper,
+                 .where = where,
+                 .whose = Whose::ours,
+                 .states = states,
+                 .judge = costs_more(method),
+                 .condition = "warm, from the common start; all by Ipopt, rk4 with one step per interval, s = 1",
+                 .evidence = {"structure_advantage_shooting.csv"}};
+  };
+  return {{.id = "order_of_shooting",
+           .problems = of_paper,
+           .where = where,
+           .whose = Whose::ours,
+           .states = "shooting has the smaller one of the orders of its integrator (rk4 4, midpoint rule 2) and its "
+                     "control (2s)",
+           .judge = order_of_shooting,
+           .condition = "the midpoint rule with s = 1: of two controls it would weigh one alone",
+           .evidence = {"convergence_shooting_slopes.csv", "convergence_shooting_two_stages_slopes.csv",
+                        "figures/{}_shooting.svg"}},
+          {.id = "single_shooting_smallest",
+           .problems = with_swing_up,
+           .where = where,
+           .whose = Whose::ours,
+           .states = "single shooting has the fewest unknowns and multiple shooting the most; DMOC is between them",
+           .judge = sizes_of_programs,
+           .condition = "it follows from counting the unknowns",
+           .evidence = programs},
+          {.id = "condition_of_shooting",
+           .problems = with_swing_up,
+           .where = where,
+           .whose = Whose::ours,
+           .states = "the program of DMOC is the best conditioned, that of single shooting the worst",
+           .judge = condition_of_programs,
+           .condition = "eigenvalues of the KKT matrix at the optimum, rows and columns brought to one size",
+           .evidence = programs},
+          {.id = "multiple_shooting_more_robust_than_single",
+           .problems = with_swing_up,
+           .where = where,
+           .whose = Whose::ours,
+           .states = "from cold starts, the guess and near it, multiple shooting is solved and confirmed more often "
+                     "than single shooting",
+           .judge = more_often(multiple, single),
+           .evidence = cold},
+          {.id = "dmoc_more_robust_than_multiple_shooting",
+           .problems = with_swing_up,
+           .where = where,
+           .whose = Whose::ours,
+           .states = "from cold starts, the guess and near it, DMOC is solved and confirmed more often than multiple "
+                     "shooting",
+           .judge = more_often("dmoc", multiple),
+           .evidence = cold},
+          dearer("multiple_shooting_slower_at_equal_error", multiple,
+                 "for the same error of the cost a solve by multiple shooting takes longer than by DMOC"),
+          dearer("single_shooting_slower_at_equal_error", single,
+                 "for the same error of the cost a solve by single shooting takes longer than by DMOC")};
+}
+
+}  // namespace dmocbench
