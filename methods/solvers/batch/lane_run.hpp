@@ -9,7 +9,8 @@
 #include "methods/solvers/batch/desk.hpp"
 #include "methods/solvers/batch/lane_problem.hpp"
 #include "methods/solvers/batch/lane_vector.hpp"
-#include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
+#include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/kkt/intervals/lane_kkt.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -18,9 +19,7 @@ namespace dmocbench::batch {
 
 [[nodiscard]] constexpr Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
-/// How far a start is pushed away from its bounds: κ_1 of a cold one, and that of a warm one.
-inline constexpr double kappa_1 = 1e-2;
-inline constexpr double of_warm_start = 1e-6;  // μ, too
+namespace constants = interior_point::constants;
 
 /// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
 /// with one, without restoration and second-order corrections. Numbers in brackets are the equations, A-1 to A-9 the
@@ -46,10 +45,8 @@ class LaneRun {
   struct Lane {
     Phase phase = Phase::idle;
     Ticket ticket;
-    interior_point::Filter filter;
+    interior_point::FilterLineSearch line_search;
     interior_point::InertiaShift shift;
-    double theta_min = 0.0;
-    double theta_max = 0.0;
     double mu = 0.0;
     // Of the present step.
     bool is_searching = false;  ///< its length is not accepted yet
@@ -84,7 +81,9 @@ class LaneRun {
   void refuse(std::size_t lane, const char* reason);
   void give_up(std::size_t lane);
   void finish(std::size_t lane, Status status);
-  [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
+  [[nodiscard]] interior_point::PointValues values_in(std::size_t lane, const LaneValues& values) const;
+  /// How far the start of a lane is pushed away from its bounds.
+  [[nodiscard]] double push(std::size_t lane) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
   [[nodiscard]] bool is_anyone(Phase phase) const;
   /// A number of every lane, `value(lane)`.

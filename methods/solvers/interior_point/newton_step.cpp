@@ -4,6 +4,7 @@
 
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/long_vectors.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -93,7 +94,6 @@ bool NewtonStep::feasibility_step(const Iterate& at, double mu, const Eigen::Vec
 }
 
 void NewtonStep::estimate_multipliers(Iterate& at) {
-  constexpr double largest = 1e3;
   at.multipliers.setZero();
   if (program_.has_bounds()) {
     copy_to(gradient_.x, program_.gradient());
@@ -108,7 +108,7 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
   if (no_constraints_.size() == 0) no_constraints_.setZero(at.multipliers.size());
   Iterate& step = of_least_squares_;
   if (!solve_least_squares(gradient, no_constraints_, step)) return;
-  if (step.multipliers.lpNorm<Eigen::Infinity>() <= largest) at.multipliers = step.multipliers;
+  if (step.multipliers.lpNorm<Eigen::Infinity>() <= constants::lambda_max) at.multipliers = step.multipliers;
 }
 
 double NewtonStep::directional_derivative(const Iterate& at, double mu, const Iterate& step) const {
