@@ -22,12 +22,6 @@ struct StepRatios {
   std::size_t left_out = 0;
 };
 
-double positive(const Row& row, const char* column) {
-  const double value = row.needed(column);
-  require(value > 0.0, "{}: {} is {}, not a positive number", row.place(), column, value);
-  return value;
-}
-
 double count(const Row& row, const char* column) {
   const double value = row.needed(column);
   require(value >= 0.0 && value == std::floor(value), "{}: {} is {}, not a count", row.place(), column, value);
@@ -47,7 +41,7 @@ StepRatios ratios_of(const Selection& dmoc, const Selection& others, const std::
     const Row& other = same.front();
     own_iterations += count(own, "iterations");
     other_iterations += count(other, "iterations");
-    ratios.microseconds.push_back(positive(other, "microseconds") / positive(own, "microseconds"));
+    ratios.microseconds.push_back(quotient(other, own, "microseconds"));
   }
   const auto steps = static_cast<double>(dmoc.size());
   require(static_cast<double>(ratios.microseconds.size()) >= enough_steps * steps,

@@ -18,7 +18,6 @@
 #include "bench/experiment/solve_case.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/summary/ratio_interval.hpp"
-#include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -210,17 +209,7 @@ void run(benchmark::State& state, const Way& way) {
 /// PROBLEM/START/WAY/threads_COUNT
 void add(const Way& way) {
   const std::string name = fmt::format("{}/{}/{}/threads_{}", way.problem, name_of(way.start), way.name, way.threads);
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [way](benchmark::State& state) {
-                                 try {
-                                   run(state, way);
-                                 } catch (const Error& error) {
-                                   state.SkipWithError(error.what());  // the others go on
-                                 }
-                               })
-      ->UseManualTime()
-      ->Iterations(1)
-      ->Unit(benchmark::kMicrosecond);
+  add_benchmark(name, benchmark::kMicrosecond, [way](benchmark::State& state) { run(state, way); })->Iterations(1);
 }
 
 void register_batches() {

@@ -122,4 +122,16 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
   return 2;
 }
 
+benchmark::internal::Benchmark* add_benchmark(const std::string& name, benchmark::TimeUnit unit,
+                                              const std::function<void(benchmark::State&)>& run) {
+  const auto run_or_tell = [run](benchmark::State& state) {
+    try {
+      run(state);
+    } catch (const Error& error) {
+      state.SkipWithError(error.what());
+    }
+  };
+  return benchmark::RegisterBenchmark(name.c_str(), run_or_tell)->UseManualTime()->Unit(unit);
+}
+
 }  // namespace dmocbench::speed

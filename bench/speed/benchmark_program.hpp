@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <benchmark/benchmark.h>
+
 #include "bench/compare/benchmark_file.hpp"
 #include "bench/experiment/table.hpp"
 
@@ -30,5 +32,10 @@ struct BenchmarkProgram {
   /// spread over all benchmarks), then the user's, which win.
   [[nodiscard]] int run(std::span<char* const> arguments) const;
 };
+
+/// Adds a benchmark that measures its turns itself. Where it ends with an `Error`, that is its result, and the others
+/// go on.
+benchmark::internal::Benchmark* add_benchmark(const std::string& name, benchmark::TimeUnit unit,
+                                              const std::function<void(benchmark::State&)>& run);
 
 }  // namespace dmocbench::speed

@@ -125,16 +125,7 @@ void register_solves() {
         for (const bool is_warm : {false, true}) {
           const RepeatedSolve solve{problem, method, intervals, is_warm};
           const std::string name = fmt::format("{}/{}/{}/{}", problem, method, intervals, is_warm ? "warm" : "cold");
-          benchmark::RegisterBenchmark(name.c_str(),
-                                       [solve](benchmark::State& state) {
-                                         try {
-                                           run(state, solve);
-                                         } catch (const Error& error) {
-                                           state.SkipWithError(error.what());
-                                         }
-                                       })
-              ->UseManualTime()
-              ->Unit(benchmark::kMicrosecond);
+          add_benchmark(name, benchmark::kMicrosecond, [solve](benchmark::State& state) { run(state, solve); });
         }
       }
     }

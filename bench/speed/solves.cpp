@@ -18,7 +18,6 @@
 #include "bench/experiment/solve_case.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/speed_tables.hpp"
-#include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/solver.hpp"
@@ -145,18 +144,11 @@ void add(const std::string& part, const SolveCase& solve) {
       fmt::format("{}{}/{}/{}/{}{}", part, solve.problem, solve.method, solve.intervals, solve.solver,
                   solve.threads == 1 ? "" : fmt::format("/threads_{}", solve.threads));
   const auto bytes = std::make_shared<std::optional<std::optional<double>>>();  // not known before the first repetition
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [solve, bytes](benchmark::State& state) {
-                                 try {
-                                   set_thread_count(static_cast<std::size_t>(solve.threads));
-                                   if (!*bytes) *bytes = peak_bytes(solve);
-                                   run(state, solve, **bytes);
-                                 } catch (const Error& error) {
-                                   state.SkipWithError(error.what());  // the others go on
-                                 }
-                               })
-      ->UseManualTime()
-      ->Unit(benchmark::kMillisecond);
+  add_benchmark(name, benchmark::kMillisecond, [solve, bytes](benchmark::State& state) {
+    set_thread_count(static_cast<std::size_t>(solve.threads));
+    if (!*bytes) *bytes = peak_bytes(solve);
+    run(state, solve, **bytes);
+  });
 }
 
 /// Adds the solves of one grid: by interior_point on one thread and, where the grid is long, on two; by Ipopt.

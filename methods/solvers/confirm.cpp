@@ -77,8 +77,10 @@ void Confirmation::require_settled(Solution& solution) {
   }
   solution.status = Status::not_confirmed;
   solution.message = fmt::format(
-      "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size; a "
-      "cost scaled to about 1, or a smaller tolerance, settles it.",
+      "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
+      "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on what "
+      "moves, "
+      "as on a control that is singular.",
       *length);
 }
 

@@ -1,18 +1,18 @@
 #pragma once
 
-#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/forwarding_program.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/runtime/clock.hpp"
 
 namespace dmocbench {
 
-/// A program as a solver sees it: forwards everything, counts and times every evaluation, and holds the clock.
+/// A program as a solver sees it: counts and times every evaluation, and holds the clock.
 ///
 /// `Solver::solve` hands it to every solver alike, so that their counts and their limits of time mean the same.
-class CountedProgram final : public NonlinearProgram {
+class CountedProgram final : public ForwardingProgram {
  public:
   /// `program` must outlive it. The solve may take so many seconds of wall clock, 0 for no limit.
-  explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0) : program_(program) {
+  explicit CountedProgram(NonlinearProgram& program, double most_seconds = 0.0) : ForwardingProgram(program) {
     if (most_seconds > 0.0) most_seconds_ = most_seconds;
   }
 
@@ -26,7 +26,7 @@ class CountedProgram final : public NonlinearProgram {
   }
 
   /// The program itself, for judging a point: what is asked of it is not counted.
-  [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return program_; }
+  [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return original(); }
   [[nodiscard]] const EvaluationCounts& counts() const noexcept { return counts_; }
   /// Time spent in the evaluations that are counted.
   [[nodiscard]] double evaluation_seconds() const noexcept { return seconds_; }
@@ -40,33 +40,22 @@ class CountedProgram final : public NonlinearProgram {
   [[nodiscard]] double seconds_left() const { return most_seconds_ - seconds_since(begin_); }
   [[nodiscard]] bool is_out_of_time() const { return seconds_left() < 0.0; }
 
-  [[nodiscard]] std::size_t variable_count() const override { return program_.variable_count(); }
-  [[nodiscard]] std::size_t constraint_count() const override { return program_.constraint_count(); }
-  [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return program_.variable_lower(); }
-  [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return program_.variable_upper(); }
-  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return program_.constraint_lower(); }
-  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return program_.constraint_upper(); }
-  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
-  [[nodiscard]] const BlockPattern& hessian_structure() const override { return program_.hessian_structure(); }
-  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return program_.rounding_floors(); }
-  [[nodiscard]] const IntervalStructure* interval_structure() const override { return program_.interval_structure(); }
-
   [[nodiscard]] double objective(const VectorIn& x) override {
     double value = 0.0;
-    count(counts_.objective, [&] { value = program_.objective(x); });
+    count(counts_.objective, [&] { value = original().objective(x); });
     return value;
   }
   void gradient(const VectorIn& x, VectorOut result) override {
-    count(counts_.gradient, [&] { program_.gradient(x, result); });
+    count(counts_.gradient, [&] { original().gradient(x, result); });
   }
   void constraints(const VectorIn& x, VectorOut result) override {
-    count(counts_.constraints, [&] { program_.constraints(x, result); });
+    count(counts_.constraints, [&] { original().constraints(x, result); });
   }
   void jacobian(const VectorIn& x, VectorOut values) override {
-    count(counts_.jacobian, [&] { program_.jacobian(x, values); });
+    count(counts_.jacobian, [&] { original().jacobian(x, values); });
   }
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
-    count(counts_.hessian, [&] { program_.hessian(x, objective_factor, multipliers, values); });
+    count(counts_.hessian, [&] { original().hessian(x, objective_factor, multipliers, values); });
   }
 
  private:
@@ -78,7 +67,6 @@ class CountedProgram final : public NonlinearProgram {
     seconds_ += seconds_since(begin);
   }
 
-  NonlinearProgram& program_;
   EvaluationCounts counts_;
   double seconds_ = 0.0;
   double most_seconds_ = unbounded;

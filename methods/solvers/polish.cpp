@@ -33,6 +33,14 @@ bool is_unsettled(const Solution& solution) {
   return solution.status == Status::not_confirmed && solution.correction.value_or(0.0) > settled;
 }
 
+/// Whether an answer that must not be settled any more would have been, is not known.
+void tell_of_stop(Solution& solution) {
+  solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
+  solution.message = fmt::format(
+      "{} The residuals are below the tolerance; whether Newton steps would settle the answer is not known.",
+      sentence_of(solution.status));
+}
+
 bool has_own_multipliers(const NonlinearProgram& program, const Solution& solution) {
   return !solution.multipliers_are_estimated &&
          static_cast<std::size_t>(solution.multipliers.size()) == program.constraint_count();
@@ -71,7 +79,14 @@ int settle(NonlinearProgram& program, double tolerance, Solution& solution, int 
   if (!is_unsettled(solution) || !has_own_multipliers(program, solution)) return 0;
   NewtonCorrections corrections(program, NewtonCorrections::Factorisation::sparse);
   Solution next = solution;
-  for (int steps = 0; steps <= most_steps && !must_stop(); ++steps) {
+  for (int steps = 1; steps <= most_steps; ++steps) {
+    if (must_stop()) {
+      tell_of_stop(solution);
+      return 0;
+    }
+    const auto correction = corrections.at(next.primal, next.multipliers);
+    if (!correction) break;
+    next = stepped(program, *correction, next);
     next.status = Status::solved;
     confirm(program, tolerance, next);
     if (is_solved(next.status)) {
@@ -79,9 +94,6 @@ int settle(NonlinearProgram& program, double tolerance, Solution& solution, int 
       solution = std::move(next);
       return steps;
     }
-    const auto correction = corrections.at(next.primal, next.multipliers);
-    if (!correction) break;
-    next = stepped(program, *correction, next);
   }
   return 0;
 }

@@ -16,8 +16,8 @@ int polish(NonlinearProgram& program, Solution& solution, int most_steps = 5);
 
 /// Gives an answer that was not confirmed because a Newton step would still move it (`confirm`) the steps that it
 /// lacks. It becomes solved if a further step would not move it and its residuals are confirmed at this tolerance, and
-/// its message says how many steps it took; otherwise `solution` stays as it is. Returns the number of steps kept. It
-/// ends with its `StopScope`.
+/// its message says how many steps it took; otherwise `solution` stays as it is. Where its `StopScope` ends it the
+/// status becomes "time limit" or "interrupted", because nothing is known then. Returns the number of steps kept.
 int settle(NonlinearProgram& program, double tolerance, Solution& solution, int most_steps = 10);
 
 }  // namespace dmocbench

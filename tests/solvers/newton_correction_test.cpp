@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
 #include "problems/registry.hpp"
@@ -29,6 +30,17 @@ SmallProgram valley(double weight, double upper = unbounded) {
   statement.row_lower = vector({3.0});
   statement.row_upper = vector({3.0});
   return SmallProgram(statement);
+}
+
+/// Residuals that are small enough, and a Newton step that is not.
+Solution unsettled(SmallProgram& program) {
+  Solution solution;
+  solution.status = Status::solved;
+  solution.primal = vector({1.1, 1.9});
+  solution.multipliers = vector({0.0});
+  confirm(program, 1e-10, solution);
+  EXPECT_EQ(solution.status, Status::not_confirmed);
+  return solution;
 }
 
 TEST(NewtonCorrection, IsTheWholeErrorWhereTheProgramIsQuadratic) {
@@ -67,18 +79,31 @@ TEST(NewtonCorrection, IsInfiniteWhereASecondDerivativeIsNotANumber) {
 
 TEST(NewtonCorrection, TakesSolvedBackFromAFlatProgramWhoseResidualsAreSmall) {
   SmallProgram program = valley(1e-10);
-  Solution solution;
-  solution.status = Status::solved;
-  solution.primal = vector({1.1, 1.9});
-  solution.multipliers = vector({0.0});
-  confirm(program, 1e-10, solution);
+  Solution solution = unsettled(program);
   EXPECT_LT(tests::value_of(solution.kkt_residual), 1e-10);
-  EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_NE(solution.message.find("a Newton step would still move the answer"), std::string::npos);
 
   EXPECT_EQ(settle(program, 1e-10, solution), 1);
   EXPECT_EQ(solution.status, Status::solved);
   EXPECT_NEAR(solution.primal[0], 1.0, 1e-12);
+}
+
+TEST(NewtonCorrection, SaysThatTheTimeWasUpWhereItEndedTheStepsThatSettle) {
+  SmallProgram program = valley(1e-10);
+  Solution solution = unsettled(program);
+  const Eigen::VectorXd before = solution.primal;
+  const StopScope scope({}, 1e-9);
+  EXPECT_EQ(settle(program, 1e-10, solution), 0);
+  EXPECT_EQ(solution.status, Status::time_limit) << solution.message;
+  EXPECT_EQ(solution.primal, before);
+}
+
+TEST(NewtonCorrection, SaysThatItWasInterruptedWhereThatEndedTheStepsThatSettle) {
+  SmallProgram program = valley(1e-10);
+  Solution solution = unsettled(program);
+  const StopScope scope([] { return true; }, 0.0);
+  EXPECT_EQ(settle(program, 1e-10, solution), 0);
+  EXPECT_EQ(solution.status, Status::interrupted) << solution.message;
 }
 
 /// Solved to residuals of 1e-10, the crane is wrong in the second digit of a control.

@@ -1,7 +1,5 @@
-// A prepared solve allocates nothing after the first one. Counted at malloc, because Eigen does not go through operator
-// new.
+// A prepared solve allocates nothing after the first one.
 
-#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -10,40 +8,8 @@
 
 #include "methods/solvers/prepared_solve.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/counted_allocations.hpp"
 #include "tests/support/solving.hpp"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define DMOCBENCH_COUNTS_ALLOCATIONS 1
-#else
-#define DMOCBENCH_COUNTS_ALLOCATIONS 0
-#endif
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-#if DMOCBENCH_COUNTS_ALLOCATIONS
-extern "C" void* __libc_malloc(std::size_t size);                           // NOLINT
-extern "C" void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT
-extern "C" void* __libc_realloc(void* memory, std::size_t size);            // NOLINT
-extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT
-extern "C" void* malloc(std::size_t size) noexcept {
-  ++allocations;
-  return __libc_malloc(size);
-}
-extern "C" void* calloc(std::size_t count, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-extern "C" void* realloc(void* memory, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_realloc(memory, size);
-}
-extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-#endif
 
 namespace dmocbench {
 namespace {
@@ -51,7 +17,7 @@ namespace {
 class PreparedSolves : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (!DMOCBENCH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "malloc is not ours in this build";
+    if (!tests::counts_allocations()) GTEST_SKIP() << "malloc is not ours in this build";
   }
 };
 
@@ -66,13 +32,13 @@ TEST_P(PreparedSolves, AllocateNothingAfterTheFirstSolve) {
       const Eigen::VectorXd start = sample(program, guessed_motion(*problem));
       const Solution first = prepared.solve(start);
       const std::string label = name + ", N = " + std::to_string(grid.intervals());
-      const std::size_t before = allocations;
+      const std::size_t before = tests::allocations();
       const Solution& again = prepared.solve(start);
-      EXPECT_EQ(allocations - before, 0U) << label << ": " << again.message;
+      EXPECT_EQ(tests::allocations() - before, 0U) << label << ": " << again.message;
       EXPECT_EQ(again.primal, first.primal) << label;
-      const std::size_t before_warm = allocations;
+      const std::size_t before_warm = tests::allocations();
       static_cast<void>(prepared.solve(first.primal, first.multipliers));
-      EXPECT_EQ(allocations - before_warm, 0U) << label << ", warm";
+      EXPECT_EQ(tests::allocations() - before_warm, 0U) << label << ", warm";
     }
   }
 }

@@ -1,30 +1,12 @@
-// Evaluations inside a solve allocate nothing. Counted at malloc, because Eigen does not go through operator new.
+// Evaluations inside a solve allocate nothing.
 
-#include <atomic>
 #include <cstddef>
 
 #include <gtest/gtest.h>
 
 #include "problems/registry.hpp"
+#include "tests/support/counted_allocations.hpp"
 #include "tests/support/solving.hpp"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define DMOCBENCH_COUNTS_ALLOCATIONS 1
-#else
-#define DMOCBENCH_COUNTS_ALLOCATIONS 0
-#endif
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-#if DMOCBENCH_COUNTS_ALLOCATIONS
-extern "C" void* __libc_malloc(std::size_t size);  // NOLINT
-extern "C" void* malloc(std::size_t size) noexcept {
-  ++allocations;
-  return __libc_malloc(size);
-}
-#endif
 
 namespace dmocbench {
 namespace {
@@ -32,15 +14,15 @@ namespace {
 class Evaluations : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
   void SetUp() override {
-    if (!DMOCBENCH_COUNTS_ALLOCATIONS) GTEST_SKIP() << "malloc is not ours in this build";
+    if (!tests::counts_allocations()) GTEST_SKIP() << "malloc is not ours in this build";
   }
 };
 
 TEST_P(Evaluations, TheCounterSeesAllocationsOfEigenAndOfTheLibrary) {
-  const std::size_t before = allocations;
+  const std::size_t before = tests::allocations();
   const Eigen::VectorXd vector = Eigen::VectorXd::Ones(100);
   const auto number = std::make_unique<double>(vector.sum());
-  EXPECT_EQ(allocations - before, 2U);
+  EXPECT_EQ(tests::allocations() - before, 2U);
   EXPECT_EQ(*number, 100.0);
 }
 
@@ -58,13 +40,13 @@ TEST_P(Evaluations, AllocateNothing) {
       Eigen::VectorXd values(rows);
       Eigen::VectorXd jacobian(static_cast<Eigen::Index>(program->jacobian_structure().size()));
       Eigen::VectorXd hessian(static_cast<Eigen::Index>(program->hessian_structure().size()));
-      const std::size_t before = allocations;
+      const std::size_t before = tests::allocations();
       double sum = program->objective(x);
       program->gradient(x, gradient);
       program->constraints(x, values);
       program->jacobian(x, jacobian);
       program->hessian(x, 1.0, multipliers, hessian);
-      EXPECT_EQ(allocations - before, 0U) << name << ", s = " << stages;
+      EXPECT_EQ(tests::allocations() - before, 0U) << name << ", s = " << stages;
       sum += gradient.sum() + values.sum() + jacobian.sum() + hessian.sum();
       EXPECT_TRUE(std::isfinite(sum));
     }

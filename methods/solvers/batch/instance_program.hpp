@@ -1,40 +1,25 @@
 #pragma once
 
-#include <utility>
-
-#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/forwarding_program.hpp"
 
 namespace dmocbench::batch {
 
 /// One instance of a program as a program of its own: fixed unknowns have the values of its start, equalities those of
 /// its rows. For what is done one by one; the program that evaluates must outlive it.
-class InstanceProgram final : public NonlinearProgram {
+class InstanceProgram final : public ForwardingProgram {
  public:
   /// `start`: variable_count() entries; `rows`: constraint_count() entries, or none for those of the program.
   InstanceProgram(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& rows)
-      : program_(program),
+      : ForwardingProgram(program),
         variable_lower_(with_values(program.variable_lower(), program.variable_upper(), start)),
         variable_upper_(with_values(program.variable_upper(), program.variable_lower(), start)),
         constraint_lower_(with_values(program.constraint_lower(), program.constraint_upper(), rows)),
         constraint_upper_(with_values(program.constraint_upper(), program.constraint_lower(), rows)) {}
 
-  [[nodiscard]] std::size_t variable_count() const override { return program_.variable_count(); }
-  [[nodiscard]] std::size_t constraint_count() const override { return program_.constraint_count(); }
   [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
   [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
   [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
-  [[nodiscard]] const BlockPattern& jacobian_structure() const override { return program_.jacobian_structure(); }
-  [[nodiscard]] const BlockPattern& hessian_structure() const override { return program_.hessian_structure(); }
-  [[nodiscard]] const RoundingFloors& rounding_floors() const override { return program_.rounding_floors(); }
-  [[nodiscard]] const IntervalStructure* interval_structure() const override { return program_.interval_structure(); }
-  [[nodiscard]] double objective(const VectorIn& x) override { return program_.objective(x); }
-  void gradient(const VectorIn& x, VectorOut result) override { program_.gradient(x, result); }
-  void constraints(const VectorIn& x, VectorOut result) override { program_.constraints(x, result); }
-  void jacobian(const VectorIn& x, VectorOut values) override { program_.jacobian(x, values); }
-  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override {
-    program_.hessian(x, objective_factor, multipliers, values);
-  }
 
  private:
   /// A bound, with other values where both sides are equal.
@@ -44,7 +29,6 @@ class InstanceProgram final : public NonlinearProgram {
     return (side.array() == other.array()).select(values, side);
   }
 
-  NonlinearProgram& program_;
   Eigen::VectorXd variable_lower_;
   Eigen::VectorXd variable_upper_;
   Eigen::VectorXd constraint_lower_;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "methods/solvers/batch/lane_run.hpp"
-#include "methods/solvers/interior_point/constants.hpp"
 
 namespace dmocbench::batch {
 
@@ -15,8 +14,8 @@ bool LaneRun::begin_restoration(std::size_t number) {
     give_up(number);
     return false;
   }
-  lane.filter.add(theta, barrier_function(number, values_));
-  lane.theta_restored = interior_point::constants::kappa_resto * theta;
+  lane.line_search.leave(values_in(number, values_));
+  lane.theta_restored = constants::kappa_resto * theta;
   lane.jammed = 0;
   lane.phase = Phase::restoring;
   lane.is_searching = false;
@@ -31,7 +30,7 @@ bool LaneRun::try_feasibility_step(std::size_t number) {
   const Eigen::Index at = index_of(number);
   const double theta = trial_values_.theta[at];
   return std::isfinite(theta) && std::isfinite(trial_values_.objective[at]) &&
-         theta <= (1.0 - interior_point::constants::sufficient_decrease * length_[at]) * values_.theta[at];
+         theta <= (1.0 - constants::sufficient_decrease * length_[at]) * values_.theta[at];
 }
 
 /// Whether the filter accepts the point that a step has led to.
@@ -39,9 +38,9 @@ bool LaneRun::is_restored(std::size_t number) {
   Lane& lane = lanes_[number];
   const Eigen::Index at = index_of(number);
   const double theta = values_.theta[at];
-  if (theta <= lane.theta_restored && lane.filter.accepts(theta, barrier_function(number, values_))) return true;
-  lane.jammed = length_[at] < interior_point::constants::very_short_step ? lane.jammed + 1 : 0;
-  if (lane.jammed >= interior_point::constants::most_jammed) give_up(number);
+  if (theta <= lane.theta_restored && lane.line_search.may_return_to(values_in(number, values_))) return true;
+  lane.jammed = length_[at] < constants::very_short_step ? lane.jammed + 1 : 0;
+  if (lane.jammed >= constants::most_jammed) give_up(number);
   return false;
 }
 

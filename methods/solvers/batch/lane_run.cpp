@@ -6,13 +6,11 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/confirm.hpp"
-#include "methods/solvers/interior_point/constants.hpp"
+#include "methods/solvers/interior_point/barrier_parameter.hpp"
 
 namespace dmocbench::batch {
 
 namespace {
-
-using namespace interior_point::constants;  // NOLINT(google-build-using-namespace): named as in the papers
 
 constexpr double nearly_full = 0.9;  // a step that bounds shorten by less counts as one of Newton's
 
@@ -59,7 +57,9 @@ void LaneRun::run() {
 
 bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].ticket.instance.multipliers.size() > 0; }
 
-double LaneRun::push_of(std::size_t lane) const { return is_warm(lane) ? of_warm_start : kappa_1; }
+double LaneRun::push_of(std::size_t lane) const {
+  return is_warm(lane) ? constants::of_warm_start : constants::kappa_1;
+}
 
 bool LaneRun::is_anyone(Phase phase) const {
   return std::ranges::any_of(lanes_, [&](const Lane& lane) { return lane.phase == phase; });
@@ -90,7 +90,7 @@ void LaneRun::begin(std::size_t number) {
   lane.evaluations = {};
   lane.moves = false;
   lane.is_newton = false;
-  lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? of_warm_start : mu_0;
+  lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? constants::of_warm_start : constants::mu_0;
   kkt_->forget(number);
   problem_.set_rows(number, instance.rows);
   const Eigen::VectorXd& parameters = instance.parameters;
@@ -190,7 +190,7 @@ void LaneRun::solve_systems() {
     ++lane.systems;
     if (lane.phase == Phase::estimating) {
       auto estimate = multiplier_step_.of(number);
-      const bool is_usable = outcomes[number] == solved && estimate.lpNorm<Eigen::Infinity>() <= largest_estimate;
+      const bool is_usable = outcomes[number] == solved && estimate.lpNorm<Eigen::Infinity>() <= constants::lambda_max;
       if (is_usable) multipliers_.of(number) = estimate;
       if (!is_usable) multipliers_.of(number).setZero();
     } else if (outcomes[number] == solved) {
@@ -264,8 +264,8 @@ void LaneRun::judge(std::size_t number) {
   }
   const bool is_cold_start = lane.phase == Phase::fresh && !is_warm(number);
   // Where bounds allow short steps only, every one of them may multiply the multipliers.
-  const bool has_runaway_multipliers =
-      lane.moves && length_[index_of(number)] <= short_step && largest_multiplier_[index_of(number)] > runaway;
+  const bool has_runaway_multipliers = lane.moves && length_[index_of(number)] <= constants::short_step &&
+                                       largest_multiplier_[index_of(number)] > constants::runaway;
   if (lane.moves) lane.share_moved = share_of_step_[index_of(number)];
   lane.is_newton = lane.is_newton && lane.moves && length_[index_of(number)] >= nearly_full;
   if (is_cold_start || has_runaway_multipliers) {
@@ -302,22 +302,21 @@ bool LaneRun::is_solved(std::size_t number) const {
   return is_stationary && largest_product_[lane] <= allowed_.complementarity(mean_bound_multiplier_[lane]);
 }
 
-/// Lower μ while E_μ <= κ_ε μ, (7).
+///
 void LaneRun::update_barrier_parameter(std::size_t number) {
   if (!problem_.has_bounds()) return;
   const Eigen::Index at = index_of(number);
   Lane& lane = lanes_[number];
-  const double smallest = options_.tolerance / (kappa_epsilon + 1.0);
   const double without_mu = std::max(stationarity_[at] / StopRule::scale(mean_multiplier_[at]), values_.violation[at]);
-  const auto error = [&] {
-    const double complementarity =
-        std::max(std::abs(largest_product_[at] - lane.mu), std::abs(smallest_product_[at] - lane.mu));
-    return std::max(without_mu, complementarity / StopRule::scale(mean_bound_multiplier_[at]));
-  };
-  while (lane.mu > smallest && without_mu <= kappa_epsilon * lane.mu && error() <= kappa_epsilon * lane.mu) {
-    lane.mu = std::max(smallest, std::min(kappa_mu * lane.mu, std::pow(lane.mu, theta_mu)));
-    lane.filter.reset(lane.theta_max);
-  }
+  const double lowered =
+      interior_point::lowered_barrier_parameter(lane.mu, options_.tolerance, without_mu, [&](double mu) {
+        const double complementarity =
+            std::max(std::abs(largest_product_[at] - mu), std::abs(smallest_product_[at] - mu));
+        return complementarity / StopRule::scale(mean_bound_multiplier_[at]);
+      });
+  if (lowered == lane.mu) return;
+  lane.mu = lowered;
+  lane.line_search.forget();
 }
 
 /// An instance whose parameters are not allowed.

@@ -11,7 +11,8 @@
 #include "methods/solvers/batch/lane_problem.hpp"
 #include "methods/solvers/batch/lane_vector.hpp"
 #include "methods/solvers/batch/phase_clock.hpp"
-#include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/constants.hpp"
+#include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/kkt/intervals/lane_kkt.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -19,6 +20,8 @@
 namespace dmocbench::batch {
 
 [[nodiscard]] constexpr Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
+
+namespace constants = interior_point::constants;
 
 /// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
 /// with one, without second-order corrections, and with the first half of its restoration (lane_restoration.cpp).
@@ -45,11 +48,8 @@ class LaneRun {
   struct Lane {
     Phase phase = Phase::idle;
     Ticket ticket;
-    interior_point::Filter filter;
+    interior_point::FilterLineSearch line_search;
     interior_point::InertiaShift shift;
-    double theta_min = 0.0;
-    double theta_max = 0.0;
-    double theta_at_begin = 0.0;  ///< θ of the start, at least 1
     double theta_restored = 0.0;  ///< θ at which the restoration of feasibility may end
     int jammed = 0;               ///< its very short steps in a row
     double mu = 0.0;
@@ -90,7 +90,7 @@ class LaneRun {
   void refuse(std::size_t number, const char* reason);
   void give_up(std::size_t number);
   void finish(std::size_t number, Status status);
-  [[nodiscard]] double barrier_function(std::size_t lane, const LaneValues& values) const;
+  [[nodiscard]] interior_point::PointValues values_in(std::size_t number, const LaneValues& values) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
   /// How far a start is pushed away from its bounds.
   [[nodiscard]] double push_of(std::size_t lane) const;

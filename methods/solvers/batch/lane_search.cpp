@@ -1,26 +1,18 @@
 // The line search of `LaneRun`.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "methods/solvers/batch/lane_run.hpp"
-#include "methods/solvers/interior_point/constants.hpp"
+#include "methods/solvers/interior_point/barrier_parameter.hpp"
 
 namespace dmocbench::batch {
-
-namespace {
-
-using interior_point::Filter;
-using namespace interior_point::constants;  // NOLINT(google-build-using-namespace): named as in the papers
-
-}  // namespace
 
 /// From the fraction to the boundary (15a), halve α until filter and decrease accept the point.
 void LaneRun::search_lines() {
   const PhaseClock::Within within(clock_, BatchPhase::line_search);
   const OfLanes mu = of_lanes([](const Lane& lane) { return lane.mu; });
-  const OfLanes tau = (1.0 - mu).max(tau_min);  // (8)
+  const OfLanes tau = of_lanes([](const Lane& lane) { return interior_point::tau_of(lane.mu); });
   length_.setZero();
   if (std::ranges::any_of(lanes_, &Lane::moves)) {
     OfLanes derivative;
@@ -86,59 +78,27 @@ void LaneRun::begin_search(std::size_t number) {
   lane.is_searching = true;
   if (lane.phase == Phase::restoring) {
     lane.is_newton = false;
-    lane.smallest_length = shortest_feasibility_step;
+    lane.smallest_length = constants::shortest_feasibility_step;
     return;
   }
   lane.is_newton = lane.shift.value() == 0.0;
   lane.shift.keep();
-  const double theta = values_.theta[index_of(number)];
-  double length = Filter::margin;  // (23)
-  if (lane.derivative < 0.0) {
-    length = std::min(length, -Filter::margin * theta / lane.derivative);
-    if (theta <= lane.theta_min) {
-      length = std::min(length, delta * std::pow(theta, s_theta) / std::pow(-lane.derivative, s_phi));
-    }
-  }
-  lane.smallest_length = std::max(gamma_alpha * length, shortest_step);
+  lane.smallest_length = lane.line_search.smallest_length(values_.theta[index_of(number)], lane.derivative);
 }
 
-double LaneRun::barrier_function(std::size_t lane, const LaneValues& values) const {
-  return values.objective[index_of(lane)] + lanes_[lane].mu * values.barrier[index_of(lane)];
+interior_point::PointValues LaneRun::values_in(std::size_t number, const LaneValues& values) const {
+  const Eigen::Index at = index_of(number);
+  const double objective = values.objective[at];
+  return {objective, values.theta[at], objective + lanes_[number].mu * values.barrier[at]};
 }
 
-/// Whether filter and decrease allow the trial point, A-5.2 to. Differences within rounding count as
-/// none.
+/// Whether filter and decrease allow the trial point.
 bool LaneRun::try_step(std::size_t number) {
   Lane& lane = lanes_[number];
   ++lane.evaluations.objective;
   ++lane.evaluations.constraints;
-  const double length = length_[index_of(number)];
-  const double theta_before = values_.theta[index_of(number)];
-  const double theta = trial_values_.theta[index_of(number)];
-  const double objective = values_.objective[index_of(number)];
-  const double phi_before = barrier_function(number, values_);
-  const double phi = barrier_function(number, trial_values_);
-  if (!std::isfinite(theta) || !std::isfinite(phi)) return false;
-  // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
-  if (theta > std::max(most_growth * theta_before, lane.theta_at_begin)) return false;
-  constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
-  const double rounding = safety * std::sqrt(static_cast<double>(problem_.variable_count())) *
-                          std::numeric_limits<double>::epsilon() *
-                          (std::abs(objective) + std::abs(phi_before - objective));
-  if (!lane.filter.accepts(theta - rounding_of_theta_, phi - rounding)) return false;
-  const bool is_nearer = theta <= (1.0 - Filter::margin) * theta_before;  // (18a)
-  const bool is_rounding = theta <= rounding_of_theta_ && theta_before <= rounding_of_theta_;
-  const bool is_descent = lane.derivative < 0.0 &&
-                          length * std::pow(-lane.derivative, s_phi) > delta * std::pow(theta_before, s_theta);  // (19)
-  if (theta_before <= lane.theta_min && (is_descent || is_rounding)) {
-    // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
-    const bool is_decrease = phi - phi_before <= eta_phi * length * lane.derivative + rounding;  // (20)
-    return is_decrease || (is_rounding && is_nearer);
-  }
-  const bool is_lower = phi - phi_before <= -Filter::margin * theta_before + rounding;  // (18b)
-  if (!is_nearer && !is_lower) return false;
-  lane.filter.add(theta_before, phi_before);  // (22)
-  return true;
+  return lane.line_search.accept(values_in(number, values_), values_in(number, trial_values_), lane.derivative,
+                                 length_[index_of(number)]);
 }
 
 /// A-1, with the values at the start.
@@ -148,10 +108,7 @@ void LaneRun::evaluate_start(std::size_t number) {
   ++lane.evaluations.objective;
   ++lane.evaluations.constraints;
   if (!std::isfinite(theta) || !std::isfinite(trial_values_.objective[index_of(number)])) return give_up(number);
-  lane.theta_at_begin = std::max(1.0, theta);
-  lane.theta_min = theta_min_ratio * lane.theta_at_begin;
-  lane.theta_max = theta_max_ratio * lane.theta_at_begin;
-  lane.filter.reset(lane.theta_max);
+  lane.line_search.begin(theta, rounding_of_theta_, problem_.variable_count());
 }
 
 }  // namespace dmocbench::batch

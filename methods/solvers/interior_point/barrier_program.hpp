@@ -6,17 +6,15 @@
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/barrier_bounds.hpp"
+#include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/kkt/matrix_product.hpp"
 #include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench::interior_point {
 
 /// The program's values at a point.
-struct Evaluation {
+struct Evaluation : PointValues {
   Eigen::VectorXd constraints;  ///< residuals c: a(x) - value of an equality, a(x) - s of an inequality
-  double objective = 0.0;       ///< f
-  double theta = 0.0;           ///< θ = Σ |c_i|
-  double phi = 0.0;             ///< φ_μ = f - μ Σ ln d
 };
 
 /// The residuals of the optimality conditions at an iterate, the parts of (5) that do not depend on μ, and the mean

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -12,9 +11,10 @@
 #include "methods/error.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
+#include "methods/solvers/interior_point/barrier_parameter.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/constants.hpp"
-#include "methods/solvers/interior_point/filter.hpp"
+#include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
 #include "methods/solvers/least_violation.hpp"
@@ -27,9 +27,6 @@ namespace interior_point {
 
 namespace {
 
-using namespace constants;  // NOLINT(google-build-using-namespace): named as in the papers
-
-constexpr double largest_z = 1e3;
 constexpr double push_of_descent = 1e-8;
 constexpr double correctable = 2.0;  // see try_second_order_correction
 
@@ -63,20 +60,18 @@ class InteriorPointRun final : public PreparedRun {
     descents_ = 0;
     message_.clear();
     const bool is_warm = multipliers.size() > 0;
-    if (program_.has_bounds()) mu_ = barrier_parameter.value_or(is_warm ? of_warm_start : mu_0);
-    program_.set_interior(start, is_warm ? of_warm_start : kappa_1, at_);
+    if (program_.has_bounds()) {
+      mu_ = barrier_parameter.value_or(is_warm ? constants::of_warm_start : constants::mu_0);
+    }
+    program_.set_interior(start, is_warm ? constants::of_warm_start : constants::kappa_1, at_);
     if (!program_.evaluate(at_, mu_, values_)) return Status::evaluation_failed;
     program_.differentiate(at_.x);
     if (is_warm) at_.multipliers = multipliers;
     if (!is_warm) newton_.estimate_multipliers(at_);
     if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
     if (is_warm) program_.bounds().balance(mu_, gradient_, at_);
-    const double theta = std::max(1.0, values_.theta);
-    theta_min_ = theta_min_ratio * theta;
-    theta_max_ = theta_max_ratio * theta;
-    theta_at_begin_ = theta;
-    filter_.reset(theta_max_);
-    rounding_of_theta_ = counted_.rounding_floors().norm_of_rows(values_.constraints.size());
+    line_search_.begin(values_.theta, counted_.rounding_floors().norm_of_rows(values_.constraints.size()),
+                       at_.x.size());
     return std::nullopt;
   }
 
@@ -95,8 +90,8 @@ class InteriorPointRun final : public PreparedRun {
     if (newton_.compute(at_, mu_, gradient_, values_.constraints, step_)) {
       // From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
       const double derivative = newton_.directional_derivative(at_, mu_, step_);
-      const double alpha_min = smallest_length(derivative);
-      double alpha = program_.bounds().fraction_to_boundary(at_, step_, tau());
+      const double alpha_min = line_search_.smallest_length(values_.theta, derivative);
+      double alpha = program_.bounds().fraction_to_boundary(at_, step_, tau_of(mu_));
       is_accepted = try_step(step_, alpha, derivative, alpha) || try_second_order_correction(alpha, derivative);
       while (!is_accepted && 0.5 * alpha >= alpha_min) {
         alpha *= 0.5;
@@ -106,7 +101,7 @@ class InteriorPointRun final : public PreparedRun {
       // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
-        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau());
+        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau_of(mu_));
         program_.bounds().update_multipliers(step_, alpha_z, mu_, at_);
       }
     }
@@ -144,32 +139,14 @@ class InteriorPointRun final : public PreparedRun {
 
   void update_barrier_parameter(const OptimalityErrors& errors) {
     if (!program_.has_bounds()) return;
-    const double smallest = options_.tolerance / (kappa_epsilon + 1.0);
     const double without_mu = std::max(errors.stationarity / StopRule::scale(errors.mean_multiplier), errors.violation);
-    const auto error = [&] {
-      const double complementarity = program_.bounds().complementarity(at_, mu_);
-      return std::max(without_mu, complementarity / StopRule::scale(errors.mean_bound_multiplier));
-    };
-    while (mu_ > smallest && without_mu <= kappa_epsilon * mu_ && error() <= kappa_epsilon * mu_) {
-      mu_ = std::max(smallest, std::min(kappa_mu * mu_, std::pow(mu_, theta_mu)));
-      values_.phi = program_.barrier_function(at_, mu_, values_.objective);
-      filter_.reset(theta_max_);
-    }
-  }
-
-  /// (8).
-  [[nodiscard]] double tau() const { return std::max(tau_min, 1.0 - mu_); }
-
-  /// (23).
-  [[nodiscard]] double smallest_length(double derivative) const {
-    double length = Filter::margin;
-    if (derivative < 0.0) {
-      length = std::min(length, -Filter::margin * values_.theta / derivative);
-      if (values_.theta <= theta_min_) {
-        length = std::min(length, delta * std::pow(values_.theta, s_theta) / std::pow(-derivative, s_phi));
-      }
-    }
-    return std::max(gamma_alpha * length, shortest_step);
+    const double lowered = lowered_barrier_parameter(mu_, options_.tolerance, without_mu, [&](double mu) {
+      return program_.bounds().complementarity(at_, mu) / StopRule::scale(errors.mean_bound_multiplier);
+    });
+    if (lowered == mu_) return;
+    mu_ = lowered;
+    values_.phi = program_.barrier_function(at_, mu_, values_.objective);
+    line_search_.forget();
   }
 
   /// false if a value is not finite.
@@ -185,33 +162,11 @@ class InteriorPointRun final : public PreparedRun {
     std::swap(values_, trial_values_);
   }
 
-  /// Accepts the point at `length` along a step if filter and decrease allow it, A-5.2 to. Differences
-  /// within rounding count as none. `derivative` and `newton_length` are those of the Newton step, also where its
-  /// correction is tried.
+  /// Accepts the point at `length` along a step if filter and decrease allow it. `derivative` and `newton_length` are
+  /// those of the Newton step, also where its correction is tried.
   [[nodiscard]] bool try_step(const Primal& step, double length, double derivative, double newton_length) {
     if (!evaluate_trial(step, length)) return false;
-    const double theta = trial_values_.theta;
-    constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
-    const double rounding = safety * std::sqrt(static_cast<double>(at_.x.size())) *
-                            std::numeric_limits<double>::epsilon() *
-                            (std::abs(values_.objective) + std::abs(values_.phi - values_.objective));
-    // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
-    if (theta > std::max(most_growth * values_.theta, theta_at_begin_)) return false;
-    if (!filter_.accepts(theta - rounding_of_theta_, trial_values_.phi - rounding)) return false;
-    const bool is_nearer = theta <= (1.0 - Filter::margin) * values_.theta;  // (18a)
-    const bool is_rounding = theta <= rounding_of_theta_ && values_.theta <= rounding_of_theta_;
-    const bool is_descent = derivative < 0.0 && newton_length * std::pow(-derivative, s_phi) >
-                                                    delta * std::pow(values_.theta, s_theta);  // (19)
-    if (values_.theta <= theta_min_ && (is_descent || is_rounding)) {
-      // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
-      const bool is_decrease =
-          trial_values_.phi - values_.phi <= eta_phi * newton_length * derivative + rounding;  // (20)
-      if (!is_decrease && !(is_rounding && is_nearer)) return false;
-    } else {
-      const bool is_lower = trial_values_.phi - values_.phi <= -Filter::margin * values_.theta + rounding;  // (18b)
-      if (!is_nearer && !is_lower) return false;
-      filter_.add(values_.theta, values_.phi);  // (22)
-    }
+    if (!line_search_.accept(values_, trial_values_, derivative, newton_length)) return false;
     accept_trial();
     return true;
   }
@@ -224,11 +179,11 @@ class InteriorPointRun final : public PreparedRun {
     if (!grows_a_little) return false;  // nor is NaN corrected
     Eigen::VectorXd& residuals = corrected_residuals_;
     residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
-    for (int p = 0; p < p_max; ++p) {
+    for (int p = 0; p < constants::p_max; ++p) {
       if (!residuals.allFinite() || !newton_.correct(at_, mu_, gradient_, residuals, corrected_)) return false;
-      const double alpha = program_.bounds().fraction_to_boundary(at_, corrected_, tau());
+      const double alpha = program_.bounds().fraction_to_boundary(at_, corrected_, tau_of(mu_));
       if (try_step(corrected_, alpha, derivative, newton_length)) return true;
-      if (!(trial_values_.theta <= kappa_soc * before)) return false;
+      if (!(trial_values_.theta <= constants::kappa_soc * before)) return false;
       before = trial_values_.theta;
       residuals = alpha * residuals + trial_values_.constraints;
     }
@@ -242,13 +197,13 @@ class InteriorPointRun final : public PreparedRun {
       message_ = "No step along the Newton direction is an improvement, though all rows hold.";
       return Status::step_failed;
     }
-    const double enough = kappa_resto * values_.theta;
-    filter_.add(values_.theta, values_.phi);
-    for (int jammed = 0; jammed < most_jammed && take_feasibility_step();
-         jammed = length_ < very_short_step ? jammed + 1 : 0) {
+    const double enough = constants::kappa_resto * values_.theta;
+    line_search_.leave(values_);
+    for (int jammed = 0; jammed < constants::most_jammed && take_feasibility_step();
+         jammed = length_ < constants::very_short_step ? jammed + 1 : 0) {
       ++iterations_;
       report("rows");
-      if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
+      if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
     return values_.theta <= enough ? std::nullopt : descend_on_violation(enough);
@@ -263,7 +218,7 @@ class InteriorPointRun final : public PreparedRun {
       program_.set_interior(descent.point(), push_of_descent, at_);
       if (!program_.evaluate(at_, mu_, values_)) break;
       report("least");
-      if (values_.theta <= enough && filter_.accepts(values_.theta, values_.phi)) return std::nullopt;
+      if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
     message_ = "Neither the Newton step nor descent on the violation is an improvement.";
@@ -275,10 +230,10 @@ class InteriorPointRun final : public PreparedRun {
     const double mu = std::max(mu_, values_.constraints.lpNorm<Eigen::Infinity>());
     program_.differentiate(at_.x);
     if (!newton_.feasibility_step(at_, mu, values_.constraints, step_)) return false;
-    for (length_ = program_.bounds().fraction_to_boundary(at_, step_, tau_min); length_ > shortest_feasibility_step;
-         length_ *= 0.5) {
+    for (length_ = program_.bounds().fraction_to_boundary(at_, step_, constants::tau_min);
+         length_ > constants::shortest_feasibility_step; length_ *= 0.5) {
       if (evaluate_trial(step_, length_) &&
-          trial_values_.theta <= (1.0 - sufficient_decrease * length_) * values_.theta) {
+          trial_values_.theta <= (1.0 - constants::sufficient_decrease * length_) * values_.theta) {
         accept_trial();
         return true;
       }
@@ -289,12 +244,12 @@ class InteriorPointRun final : public PreparedRun {
   /// Where bounds allow short steps only, every one of them may multiply the multipliers, until their Hessian drowns
   /// all else. Large ones that a long step leads to may be true.
   [[nodiscard]] bool has_runaway_multipliers() const {
-    return length_ <= short_step && largest_of(at_.multipliers) > runaway;
+    return length_ <= constants::short_step && largest_of(at_.multipliers) > constants::runaway;
   }
 
   /// Where they are large, at a point that was reached without them.
   void reset_bound_multipliers() {
-    for (Eigen::VectorXd& z : at_.z) z = largest_of(z) > largest_z ? Eigen::VectorXd::Ones(z.size()) : z;
+    for (Eigen::VectorXd& z : at_.z) z = largest_of(z) > constants::largest_z ? Eigen::VectorXd::Ones(z.size()) : z;
   }
 
   void report(const char* kind) {
@@ -312,7 +267,7 @@ class InteriorPointRun final : public PreparedRun {
   BarrierProgram program_;
   std::unique_ptr<kkt::KktSystem> kkt_;
   NewtonStep newton_;
-  Filter filter_;
+  FilterLineSearch line_search_;
   StopRule allowed_;
   Iterate at_;
   Evaluation values_;  // at the iterate
@@ -323,10 +278,6 @@ class InteriorPointRun final : public PreparedRun {
   Iterate corrected_;  // by the constraints' curvature
   Eigen::VectorXd corrected_residuals_;
   double mu_ = 0.0;
-  double theta_min_ = 0.0;
-  double theta_max_ = 0.0;
-  double theta_at_begin_ = 0.0;  // θ where the solve began, at least 1
-  double rounding_of_theta_ = 0.0;
   double length_ = 0.0;  // of the last step
   int iterations_ = 0;
   int descents_ = 0;

@@ -108,7 +108,7 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
   if (no_constraints_.size() == 0) no_constraints_.setZero(at.multipliers.size());
   Iterate& step = of_least_squares_;
   if (!solve_least_squares(gradient, no_constraints_, step)) return;
-  if (step.multipliers.lpNorm<Eigen::Infinity>() <= constants::largest_estimate) at.multipliers = step.multipliers;
+  if (step.multipliers.lpNorm<Eigen::Infinity>() <= constants::lambda_max) at.multipliers = step.multipliers;
 }
 
 double NewtonStep::directional_derivative(const Iterate& at, double mu, const Iterate& step) const {

@@ -52,7 +52,7 @@ class NewtonStep {
   /// The shortest step of x and s to where the linearised constraints hold, in a norm in which a unit of length costs
   /// 1 + μ/d² at the distance d from a bound. False if it fails.
   [[nodiscard]] bool feasibility_step(const Iterate& at, double mu, const Eigen::VectorXd& constraints, Iterate& step);
-  /// Sets λ to the least-squares multipliers, (36); to zero where they are larger than 1e3.
+  /// Sets λ to the least-squares multipliers, (36); to zero where they are larger than λ_max.
   void estimate_multipliers(Iterate& at);
 
   /// The derivative of φ_μ along a step.

@@ -17,8 +17,6 @@ constexpr double tolerable = 1e5;
 constexpr double very_accurate = 1e-2;
 constexpr int unchecked_after_accurate = 2;
 constexpr int unchecked_after_very_accurate = 7;
-/// A Hessian that needs a shift usually has the right inertia after two or three attempts.
-constexpr int refusals_to_check = 4;
 
 }  // namespace
 
@@ -27,28 +25,37 @@ RefinedKkt::RefinedKkt(const NonlinearProgram& program, std::unique_ptr<KktSyste
 
 void RefinedKkt::begin_solve() {
   fast_->begin_solve();
-  refusals_ = 0;
+  checks_.forget();
   unchecked_ = 0;
 }
 
 FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                       const KktStep& step) {
   const FactorisationStatus status = fast_->solve(matrix, right_hand_side, step);
-  refusals_ = status == FactorisationStatus::wrong_inertia ? refusals_ + 1 : 0;
-  if (refusals_ % refusals_to_check != 0) return status;
-  if (status == FactorisationStatus::solved) {
-    if (unchecked_ > 0) {
-      --unchecked_;
-      return status;
-    }
-    if (refine(*fast_, matrix, right_hand_side, step)) return status;
+  const bool is_refusal = status == FactorisationStatus::wrong_inertia;
+  if (is_refusal && !checks_.ask()) return status;
+  if (status == FactorisationStatus::solved && is_accurate(matrix, right_hand_side, step)) {
+    checks_.end_matrix();
+    return status;
   }
   if (!robust_) robust_ = std::make_unique<SparseKkt>(program_, SparseKkt::Order::along_the_horizon);
   ++fallbacks_;
   const FactorisationStatus robust = robust_->solve(matrix, right_hand_side, step);
   if (robust != FactorisationStatus::solved) return robust;
   // Rounding may hide dependent constraints from its pivots, but not from the residual of its step.
-  return refine(*robust_, matrix, right_hand_side, step) ? robust : FactorisationStatus::singular;
+  if (!refine(*robust_, matrix, right_hand_side, step)) return FactorisationStatus::singular;
+  if (is_refusal) checks_.contradict();
+  checks_.end_matrix();
+  return robust;
+}
+
+/// Refines a step of the fast system, or believes that it is accurate as those before it were.
+bool RefinedKkt::is_accurate(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step) {
+  if (unchecked_ > 0) {
+    --unchecked_;
+    return true;
+  }
+  return refine(*fast_, matrix, right_hand_side, step);
 }
 
 /// Refines a step of `kkt`; false if its residual stays above `tolerable`.

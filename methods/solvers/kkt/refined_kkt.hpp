@@ -7,6 +7,7 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/kkt/kkt_system.hpp"
 #include "methods/solvers/kkt/newton_residual.hpp"
+#include "methods/solvers/kkt/refusal_checks.hpp"
 
 namespace dmocbench::kkt {
 
@@ -16,8 +17,7 @@ namespace dmocbench::kkt {
 /// - A step is refined until its residual is small enough. If refinement does not reach that, the sparse factorisation
 ///   solves the system.
 /// - A step that is `untrusted` or `singular` goes to the sparse factorisation at once.
-/// - `wrong_inertia` is believed, except that every fourth one in a row is checked by the sparse factorisation: the
-///   test of the fast system may be stricter than the truth.
+/// - `wrong_inertia` is believed, but for those that `RefusalChecks` chooses, which the sparse factorisation checks.
 ///
 /// A residual costs a good part of an elimination (`bench/speed/speed`), so the two steps after an accurate one are not
 /// checked, nor the seven after a very accurate one: their matrices differ little, and Newton's method corrects itself.
@@ -37,6 +37,7 @@ class RefinedKkt : public KktSystem {
   [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }
 
  private:
+  [[nodiscard]] bool is_accurate(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const KktStep& step);
   [[nodiscard]] bool refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                             const KktStep& step);
 
@@ -45,7 +46,7 @@ class RefinedKkt : public KktSystem {
   std::unique_ptr<KktSystem> robust_;  // made when it is first needed
   NewtonResidual residual_;
   double accuracy_;
-  int refusals_ = 0;   // wrong inertias in a row
+  RefusalChecks checks_;
   int unchecked_ = 0;  // coming steps whose residual is not computed
   Eigen::VectorXd primal_correction_;
   Eigen::VectorXd multiplier_correction_;

@@ -16,6 +16,7 @@
 #include "problems/orbital_transfer.hpp"
 #include "problems/particle_steering.hpp"
 #include "problems/two_link_manipulator.hpp"
+#include "tests/robustness/rigid_body_slew.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -226,6 +227,21 @@ TEST(InteriorPoint, NeedsWithSeveralStagesAsManyIterationsAsWithAnExactInertia) 
       EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.3 * exact.major_iterations.value_or(0));
       EXPECT_LE(1.0 * found.linear_systems.value_or(1000), 1.3 * exact.linear_systems.value_or(0));
     }
+  }
+}
+
+/// The length of the quaternion is redundant. Where the inertia by intervals is believed, 300 iterations do not
+/// suffice.
+TEST(InteriorPoint, ChecksTheInertiaWhereADirectionIsRedundant) {
+  const tests::RigidBodySlew problem = tests::RigidBodySlew::slanted();
+  for (const char* method : {"dmoc", "hamiltonian"}) {
+    SCOPED_TRACE(method);
+    Transcription program(problem, *make_element(method), make_tableau("gauss", 3), Grid::uniform(64));
+    const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+    const Solution exact = solve_by_interior_point(program, start, options_with("sparse"));
+    const Solution found = solve_by_interior_point(program, start);
+    expect_same_answer(found, exact);
+    EXPECT_LE(found.major_iterations.value_or(1000), 150);
   }
 }
 

@@ -200,6 +200,33 @@ TEST(RefinedKkt, BelievesAWrongInertia) {
   EXPECT_EQ(found.solves, 1);
 }
 
+/// As Newton's method asks: each matrix is refused at first, and solved with a shift.
+TEST(RefinedKkt, ChecksTheRefusalsOfMatrixAfterMatrixAndBelievesNoneOnceOneWasWrong) {
+  System system(1);
+  const KktNumbers& numbers = system.numbers;
+  bool refuses = true;
+  int solves = 0;
+  const auto spoil = [&](FactorisationStatus verdict, Eigen::VectorXd&, Eigen::VectorXd&) {
+    return refuses ? FactorisationStatus::wrong_inertia : verdict;
+  };
+  RefinedKkt kkt(system.program, std::make_unique<SpoiltKkt>(system.program, spoil, solves));
+  Eigen::VectorXd primal(numbers.gradient.size());
+  Eigen::VectorXd multipliers(numbers.rows.size());
+  const auto solve = [&](bool is_refused) {
+    refuses = is_refused;
+    return kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
+  };
+  for (int matrix = 0; matrix < 32; ++matrix) {
+    EXPECT_EQ(solve(true), FactorisationStatus::wrong_inertia) << matrix;
+    EXPECT_EQ(solve(false), FactorisationStatus::solved) << matrix;
+  }
+  EXPECT_EQ(kkt.fallbacks(), 0);
+  for (int matrix = 0; matrix < 20; ++matrix) EXPECT_EQ(solve(true), FactorisationStatus::solved) << matrix;
+  EXPECT_EQ(kkt.fallbacks(), 20);
+  kkt.begin_solve();
+  EXPECT_EQ(solve(true), FactorisationStatus::wrong_inertia) << "it remembers another solve";
+}
+
 /// Rounding may hide it from the pivots of the sparse factorisation, which then solves these systems with multipliers
 /// of 1e15 and more, that leave of the right-hand side as much as no step.
 TEST(RefinedKkt, RefusesRowsThatDependOnEachOtherWhereTheSparseFactorisationDoesNot) {

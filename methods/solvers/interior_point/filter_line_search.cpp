@@ -1,0 +1,93 @@
+#include "methods/solvers/interior_point/filter_line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "methods/solvers/interior_point/constants.hpp"
+
+namespace dmocbench::interior_point {
+
+namespace {
+
+/// The two sides of (19): what a step of this length promises of φ, and what it has to be worth at the violation θ.
+double promise(double length, double derivative) { return length * std::pow(-derivative, constants::s_phi); }
+double worth(double theta) { return constants::delta * std::pow(theta, constants::s_theta); }
+
+}  // namespace
+
+void FilterLineSearch::begin(double theta, double rounding_of_theta, Eigen::Index unknowns) {
+  constexpr double safety = 10.0;  // φ is a sum of as many terms as there are unknowns
+  theta_at_start_ = std::max(1.0, theta);
+  theta_min_ = constants::theta_min_ratio * theta_at_start_;
+  theta_max_ = constants::theta_max_ratio * theta_at_start_;
+  rounding_of_theta_ = rounding_of_theta;
+  rounding_of_phi_ = safety * std::sqrt(static_cast<double>(unknowns)) * std::numeric_limits<double>::epsilon();
+  emptied_ = 0;
+  forget();
+}
+
+void FilterLineSearch::forget() {
+  filter_.reset(theta_max_);
+  is_blocked_ = false;
+  blocked_searches_ = 0;
+}
+
+void FilterLineSearch::leave(const PointValues& at) {
+  filter_.add(at.theta, at.phi);
+  is_blocked_ = false;
+  blocked_searches_ = 0;
+}
+
+double FilterLineSearch::smallest_length(double theta, double derivative) const {
+  constexpr double shortest = 1e-14;
+  double length = Filter::margin;
+  if (derivative < 0.0) {
+    length = std::min(length, -Filter::margin * theta / derivative);
+    if (theta <= theta_min_) length = std::min(length, worth(theta) / promise(1.0, derivative));
+  }
+  return std::max(constants::gamma_alpha * length, shortest);
+}
+
+bool FilterLineSearch::accept(const PointValues& from, const PointValues& to, double derivative, double length) {
+  const double rounding = rounding_of_phi_ * (std::abs(from.objective) + std::abs(from.phi - from.objective));
+  // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
+  const bool leaps = to.theta > std::max(constants::most_growth * from.theta, theta_at_start_);
+  const bool is_usable = std::isfinite(to.theta) && std::isfinite(to.phi) && !leaps;
+  const bool passes = is_usable && filter_.accepts(to.theta - rounding_of_theta_, to.phi - rounding);
+  if (!passes || !decreases(from, to, derivative, length, rounding)) {
+    is_blocked_ = is_usable && !passes;
+    return false;
+  }
+  end_search();
+  return true;
+}
+
+/// where `rounding` of φ counts as no difference.
+bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to, double derivative, double length,
+                                 double rounding) {
+  const bool is_nearer = to.theta <= (1.0 - Filter::margin) * from.theta;  // (18a)
+  const bool is_rounding = to.theta <= rounding_of_theta_ && from.theta <= rounding_of_theta_;
+  const bool is_descent = derivative < 0.0 && promise(length, derivative) > worth(from.theta);  // (19)
+  const double rise = to.phi - from.phi;
+  if (from.theta <= theta_min_ && (is_descent || is_rounding)) {
+    // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.
+    const bool is_decrease = rise <= constants::eta_phi * length * derivative + rounding;  // (20)
+    return is_decrease || (is_rounding && is_nearer);
+  }
+  const bool is_lower = rise <= -Filter::margin * from.theta + rounding;  // (18b)
+  if (!is_nearer && !is_lower) return false;
+  filter_.add(from.theta, from.phi);  // (22)
+  return true;
+}
+
+/// Empties the filter where search after search was shortened by it to the end.
+void FilterLineSearch::end_search() {
+  blocked_searches_ = is_blocked_ ? blocked_searches_ + 1 : 0;
+  is_blocked_ = false;
+  if (blocked_searches_ < constants::filter_reset_trigger || emptied_ == constants::max_filter_resets) return;
+  ++emptied_;
+  forget();
+}
+
+}  // namespace dmocbench::interior_point

@@ -1,0 +1,64 @@
+#pragma once
+
+namespace dmocbench::kkt {
+
+/// Which refusals of a fast system, its `wrong_inertia`s, are checked by an exact one. The fast test of the inertia may
+/// be stricter than the truth. Where it is so at one matrix it often is at the next ones too; each of them is then
+/// shifted for nothing, and Newton's method takes many short steps in the place of a few.
+///
+/// - Every fourth refusal of one matrix is checked: a Hessian usually has the right inertia after two or three shifts.
+/// - After 32 matrices that were refused, all refusals of the next one are. If these were right, twice as many
+/// matrices
+///   are believed before the next check. Two matrices in a row that are not refused begin the count anew.
+/// - Once a refusal was wrong, all refusals are checked, until those of a matrix were right.
+class RefusalChecks {
+ public:
+  /// Before the matrices of another solve.
+  void forget() noexcept { *this = {}; }
+  /// After a refusal: whether it is to be checked.
+  [[nodiscard]] bool ask() noexcept {
+    ++refusals_;
+    return checks_all_ || refusals_ % most_believed == 0;
+  }
+  /// The refusal that was checked last was wrong.
+  void contradict() noexcept { was_wrong_ = true; }
+  /// After a step; what follows is another matrix.
+  void end_matrix() noexcept {
+    if (refusals_ > 0) {
+      count_refused_matrix();
+    } else if (++calm_ >= enough_calm) {
+      refused_matrices_ = 0;
+    }
+    refusals_ = 0;
+    was_wrong_ = false;
+  }
+
+ private:
+  static constexpr int most_believed = 4;
+  static constexpr int first_patience = 32;
+  static constexpr int enough_calm = 2;
+
+  void count_refused_matrix() noexcept {
+    calm_ = 0;
+    ++refused_matrices_;
+    if (was_wrong_) {
+      patience_ = first_patience;
+      checks_all_ = true;
+    } else if (checks_all_) {
+      patience_ *= 2;
+      refused_matrices_ = 0;
+      checks_all_ = false;
+    } else {
+      checks_all_ = refused_matrices_ >= patience_;
+    }
+  }
+
+  int refusals_ = 0;          // of the present matrix
+  bool was_wrong_ = false;    // one of them
+  int refused_matrices_ = 0;  // since it was calm, or since all refusals of one were right
+  int calm_ = 0;              // matrices in a row that were not refused
+  int patience_ = first_patience;
+  bool checks_all_ = false;
+};
+
+}  // namespace dmocbench::kkt
