@@ -61,7 +61,7 @@ class LaneRun {
   };
 
   void refill();
-  void begin(std::size_t lane);
+  void begin(std::size_t number);
   // The parts of a round.
   void solve_systems();
   void search_lines();
@@ -70,18 +70,18 @@ class LaneRun {
 
   [[nodiscard]] kkt::LaneKkt::Systems systems();
   void assemble_systems(const OfLanes& shift);
-  void begin_search(std::size_t lane);
+  void begin_search(std::size_t number);
   void search(const LaneMask& fresh);
-  [[nodiscard]] bool try_step(std::size_t lane);
-  void evaluate_start(std::size_t lane);
-  void judge(std::size_t lane);
-  [[nodiscard]] bool is_solved(std::size_t lane) const;
-  void update_barrier_parameter(std::size_t lane);
+  [[nodiscard]] bool try_step(std::size_t number);
+  void evaluate_start(std::size_t number);
+  void judge(std::size_t number);
+  [[nodiscard]] bool is_solved(std::size_t number) const;
+  void update_barrier_parameter(std::size_t number);
   void begin_iteration(std::size_t lane);
-  void refuse(std::size_t lane, const char* reason);
-  void give_up(std::size_t lane);
-  void finish(std::size_t lane, Status status);
-  [[nodiscard]] interior_point::PointValues values_in(std::size_t lane, const LaneValues& values) const;
+  void refuse(std::size_t number, const char* reason);
+  void give_up(std::size_t number);
+  void finish(std::size_t number, Status status);
+  [[nodiscard]] interior_point::PointValues values_in(std::size_t number, const LaneValues& values) const;
   /// How far the start of a lane is pushed away from its bounds.
   [[nodiscard]] double push(std::size_t lane) const;
   [[nodiscard]] bool is_warm(std::size_t lane) const;
