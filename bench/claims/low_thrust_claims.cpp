@@ -15,12 +15,12 @@ std::vector<Selection> by_revolutions(const ResultTables& tables, const std::str
   return tables.rows("low_thrust", problem).group_by({"revolutions"});
 }
 
-/// The solved rows of a method with one number of revolutions, coarsest first. Cost errors below what the reference is
+/// The solved rows of a method with one number of revolutions, coarsest first. Errors below what the reference is
 /// certified to say nothing and are left out.
-Selection over_steps(const Selection& of_revolutions, const char* method) {
-  const auto says_something = [](const Row& row) {
+Selection over_steps(const Selection& of_revolutions, const char* method, const char* error) {
+  const auto says_something = [&](const Row& row) {
     constexpr double above = 10.0;
-    return row.needed("cost_error") > above * std::pow(10.0, -row.needed("reference_digits"));
+    return row.needed(error) > above * std::pow(10.0, -row.needed("reference_digits"));
   };
   const Selection rows =
       of_revolutions.where("method", method).usable().where(says_something).sorted_by("steps_per_revolution");
@@ -29,14 +29,15 @@ Selection over_steps(const Selection& of_revolutions, const char* method) {
   return rows;
 }
 
-/// The fewest steps per revolution from which on the cost error of one method is `factor` times that of a better one;
+/// The fewest steps per revolution from which on an error of one method is `factor` times that of a better one;
 /// none if it is not on the finest grid.
-std::optional<double> pays_from(const Selection& of_revolutions, const char* better, const char* other, double factor) {
-  const Selection others = over_steps(of_revolutions, other);
+std::optional<double> pays_from(const Selection& of_revolutions, const char* better, const char* other,
+                                const char* error, double factor) {
+  const Selection others = over_steps(of_revolutions, other, error);
   std::optional<double> from;
-  for (const Row& row : over_steps(of_revolutions, better)) {
+  for (const Row& row : over_steps(of_revolutions, better, error)) {
     const Selection beside = others.matching(row, {"steps_per_revolution"});
-    const bool pays = !beside.empty() && quotient(beside.front(), row, "cost_error") >= factor;
+    const bool pays = !beside.empty() && quotient(beside.front(), row, error) >= factor;
     if (!pays) from.reset();
     if (pays && !from) from = row.needed("steps_per_revolution");
   }
@@ -45,16 +46,16 @@ std::optional<double> pays_from(const Selection& of_revolutions, const char* bet
 
 /// Whether a method pays beside another one from so many steps per revolution on, whatever the number of revolutions.
 Finding pays(const ResultTables& tables, const std::string& problem, const char* better, const char* other,
-             double factor, double wanted) {
+             const char* error, double factor, double wanted) {
   std::vector<std::string> words;
   bool always = true;
   for (const Selection& rows : by_revolutions(tables, problem)) {
-    const auto from = pays_from(rows, better, other, factor);
+    const auto from = pays_from(rows, better, other, error, factor);
     always = always && from && *from <= wanted;
     words.push_back(fmt::format("with {} revolutions {}", rows.front().text("revolutions"),
                                 from ? fmt::format("from {:g} steps on", *from) : "never"));
   }
-  return found(always, "cost error of {} at least {:g} times that of {}: {}", other, factor, better,
+  return found(always, "{} of {} at least {:g} times that of {}: {}", error, other, factor, better,
                fmt::join(words, ", "));
 }
 
@@ -87,15 +88,15 @@ Finding pays_in_momentum_alone(const ResultTables& tables, const std::string& pr
 }
 
 Finding pays_beside_explicit(const ResultTables& tables, const std::string& problem) {
-  constexpr double factor = 1.2;
+  constexpr double factor = 1.05;
   constexpr double coarsest = 8.0;
-  return pays(tables, problem, "dmoc", explicit_midpoint, factor, coarsest);
+  return pays(tables, problem, "dmoc", explicit_midpoint, "state_error", factor, coarsest);
 }
 
 Finding order_pays_more(const ResultTables& tables, const std::string& problem) {
   constexpr double factor = 5.0;
   constexpr double from = 12.0;
-  return pays(tables, problem, runge_kutta_4, "dmoc", factor, from);
+  return pays(tables, problem, runge_kutta_4, "dmoc", "cost_error", factor, from);
 }
 
 }  // namespace
@@ -115,7 +116,8 @@ Claims low_thrust_claims() {
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
        .whose = Whose::ours,
-       .states = "beside shooting by an explicit method of the same order DMOC pays from 8 steps per revolution on",
+       .states = "beside shooting by the explicit midpoint rule, of the same order, DMOC has the smaller state error "
+                 "from 8 steps per revolution on",
        .judge = pays_beside_explicit,
        .evidence = evidence},
       {.id = "low_thrust_order_pays_more",

@@ -132,6 +132,8 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"step_control_symplecticity", "step_control", step_choice},
       {"step_control_momentum", "step_control", step_choice},
       {"step_control_energy_behaviour", "step_control", step_choice},
+      {"step_control", "step_control", columns(step_choice, {"steps_per_period"}), {"status"}},
+      {"step_control_transfer", "step_control", columns(step_choice, {"intervals"}), {"status"}},
       {"step_control_slopes", "step_control", step_choice},
       {"coercivity", "coercivity", columns(scheme, {"intervals"}), {"status"}},
       {"structure_advantage_ratios", "structure_advantage",

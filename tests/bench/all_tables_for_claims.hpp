@@ -156,26 +156,28 @@ inline Rows low_thrust_rows() {
   for (const char* revolutions : {"10", "20"}) {
     for (const auto& [method, cost_error] : cost_errors) {
       for (const char* steps : {"8", "16", "32"}) {
-        rows.push_back(
-            row_of_texts({"problem", "method", "tableau", "stages", "revolutions", "steps_per_revolution", "status",
-                          "branch", "reference_digits", "cost_error", "replay_error", "momentum_balance"},
-                         {orbit, method, "gauss", "1", revolutions, steps, "solved", "same", "12", cost_error, "1e-3",
-                          method == "tangent" ? "1e-9" : "1e-13"}));
+        rows.push_back(row_of_texts(
+            {"problem", "method", "tableau", "stages", "revolutions", "steps_per_revolution", "status", "branch",
+             "reference_digits", "cost_error", "state_error", "replay_error", "momentum_balance"},
+            {orbit, method, "gauss", "1", revolutions, steps, "solved", "same", "12", cost_error, cost_error, "1e-3",
+             method == "tangent" ? "1e-9" : "1e-13"}));
       }
     }
   }
   return rows;
 }
 
-/// Rows of the three rules of steps along an ellipse, with the texts of some further columns by rule.
-inline Rows step_control_rows(ColumnNames more, const std::map<std::string, std::vector<std::string>>& texts) {
+/// Rows of rules of steps along three ellipses, with the texts of some further columns by rule.
+inline Rows step_control_rows(const ColumnNames& more, const std::map<std::string, std::vector<std::string>>& texts) {
   ColumnNames columns{"problem", "eccentricity", "rule", "sigma", "stages"};
   columns.insert(columns.end(), more.begin(), more.end());
   Rows rows;
-  for (const auto& [rule, of_rule] : texts) {
-    std::vector<std::string> all{"kepler", "0.6", rule, "distance", "1"};
-    all.insert(all.end(), of_rule.begin(), of_rule.end());
-    rows.push_back(row_of_texts(columns, all));
+  for (const char* eccentricity : {"0.3", "0.6", "0.8"}) {
+    for (const auto& [rule, of_rule] : texts) {
+      std::vector<std::string> all{"kepler", eccentricity, rule, "distance", "1"};
+      all.insert(all.end(), of_rule.begin(), of_rule.end());
+      rows.push_back(row_of_texts(columns, all));
+    }
   }
   return rows;
 }
@@ -418,6 +420,13 @@ inline std::map<std::string, Rows> all_rows() {
                                                             {{"variational", {"1e-4", "1e-4", "1e-9", "1e-9"}},
                                                              {"imposed", {"1e-4", "1e-4", "1e-9", "1e-9"}},
                                                              {"from_left", {"1e-3", "1e-1", "1e-1", "1e-5"}}});
+  rows["step_control"] =
+      step_control_rows({"steps_per_period", "status", "state_error"},
+                        {{"variational", {"128", "solved", "1e-3"}}, {"imposed", {"128", "solved", "1e-2"}}});
+  rows["step_control_transfer"] = step_control_rows(
+      {"intervals", "status", "cost_error", "variables"},
+      {{"variational", {"64", "solved", "1e-3", "388"}}, {"imposed", {"64", "solved", "1e-2", "258"}}});
+  rows["step_control_slopes"] = step_control_rows({"operations"}, {{"variational", {"240"}}, {"imposed", {"104"}}});
   rows["coercivity"] = coercivity_rows();
   rows["structure_advantage_ratios"] = advantage_rows();
   rows["local_minima_minima"] = minima_rows();

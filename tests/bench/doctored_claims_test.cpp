@@ -36,8 +36,8 @@ const ColumnNames& known_columns() {
         "minimum dmoc hamiltonian tangent start_kind starts confirmed best share_lower share_upper "
         "success evaluations situation active end axis action largest_gap momentum_deviation "
         "smallest_curvature left_defect right_defect largest_momentum sequence iterations microseconds "
-        "eccentricity rule sigma revolutions steps_per_revolution reference_digits cost_error momentum_balance "
-        "unknowns condition objective_error");
+        "eccentricity rule sigma revolutions steps_per_revolution reference_digits cost_error state_error "
+        "momentum_balance operations unknowns condition objective_error");
     for (std::string name; own >> name;) names.push_back(name);
     names.insert(names.end(), tests::differences.begin(), tests::differences.end());
     return names;
