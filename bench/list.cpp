@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/problem_libraries.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
+#include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::list_program {
@@ -88,6 +90,8 @@ void print_problem(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto q_names = problem.configuration_names();
   fmt::print("{}\n    {}\n", problem.name(), problem.card().description);
+  const std::string& library = known_problems().origin(problem.name());
+  print_field("library", library.empty() ? "dmocbench" : library);
   print_field("source", problem.card().source);
   print_field("q", fmt::format("({})   u  ({})", fmt::join(q_names, ", "), fmt::join(problem.control_names(), ", ")));
   print_field("start", end_in_words(problem, problem.initial_state(), problem.bounds().first));
@@ -112,7 +116,7 @@ int print_all(CommandLine& line) {
   std::vector<std::string> settings;
   line.list("--problem", names, "only these problems");
   line.option("--set", settings, "parameter=value of a problem; may be repeated");
-  line.parse();
+  parse_with_libraries(line);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed
   fmt::print("Problems (--problem)\n\n");

@@ -7,6 +7,7 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/problem_libraries.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
@@ -20,6 +21,7 @@ namespace dmocbench::sequence_program {
 /// The choices of a user.
 struct SequenceOptions {
   std::vector<std::string> problems = paper_problem_names();
+  std::vector<std::string> libraries = {};
   std::vector<std::string> methods = element_names();
   std::vector<std::string> settings = {};
   int intervals = 64;
@@ -116,6 +118,7 @@ void print_summary(const Table& summary) {
 
 void add_options(CommandLine& line, SequenceOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them");
+  add_library_option(line, options.libraries);
   line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent");
   line.option("--set", options.settings, "parameter=value of a problem; may be repeated");
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
@@ -135,6 +138,7 @@ int run_sequences(CommandLine& line) {
   SequenceOptions options;
   add_options(line, options);
   TableRun run("sequence", line);
+  load_problem_libraries(options.libraries);
   options.methods = chosen_of("--method", element_names(), options.methods);
   const auto problems = selected_problems(options.problems, options.settings);
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));

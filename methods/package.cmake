@@ -19,6 +19,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVers
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/dmocbenchConfigVersion.cmake DESTINATION ${DMOCBENCH_CMAKE_DIR})
+install(FILES problems/add_problems.cmake problems/problem_library.cpp.in DESTINATION ${DMOCBENCH_CMAKE_DIR})
 if(DMOCBENCH_WITH_ADOLC)
   install(FILES methods/FindADOLC.cmake DESTINATION ${DMOCBENCH_CMAKE_DIR})
 endif()

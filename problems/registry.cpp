@@ -1,8 +1,9 @@
 #include "problems/registry.hpp"
 
-#include <array>
+#include <algorithm>
 
 #include "methods/choose.hpp"
+#include "methods/error.hpp"
 #include "problems/acrobot.hpp"
 #include "problems/beam.hpp"
 #include "problems/brachistochrone.hpp"
@@ -21,6 +22,7 @@
 #include "problems/particle_steering.hpp"
 #include "problems/planar_quadrotor.hpp"
 #include "problems/planar_quadrotor_flip.hpp"
+#include "problems/problem_registry.hpp"
 #include "problems/robot_arm.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/two_link_manipulator.hpp"
@@ -29,48 +31,85 @@ namespace dmocbench {
 
 namespace {
 
-template <class Type>
-std::unique_ptr<Problem> make() {
-  return std::make_unique<Type>();
+bool is_name(const std::string& text) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
+  constexpr std::string_view all = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  return !text.empty() && letters.find(text.front()) != std::string_view::npos &&
+         text.find_first_not_of(all) == std::string::npos && text != "all";
 }
 
-using Maker = std::unique_ptr<Problem> (*)();
+std::string in_brackets(const std::string& origin) { return origin.empty() ? "" : " (" + origin + ")"; }
 
 // One line per problem.
-constexpr std::array registry{
-    Maker{make<OrbitalTransfer>},
-    Maker{make<TwoLinkManipulator>},
-    Maker{make<KeplerCartesian>},
-    Maker{make<LinkChain>},
-    Maker{make<DoubleIntegrator>},
-    Maker{make<ForcedOscillator>},
-    Maker{make<Brachistochrone>},
-    Maker{make<ParticleSteering>},
-    Maker{make<CartPole>},
-    Maker{make<Acrobot>},
-    Maker{make<PlanarQuadrotor>},
-    Maker{make<PlanarQuadrotorFlip>},
-    Maker{make<SphericalPendulum>},
-    Maker{make<Hovercraft>},
-    Maker{make<RobotArm>},
-    Maker{make<HangGlider>},
-    Maker{make<ContainerCrane>},
-    Maker{make<DoubleOscillator>},
-    Maker{make<Beam>},
-    Maker{make<EccentricTransfer>},
-    Maker{make<Hypersensitive>},
-};
-
-constexpr auto problem_name = [](const Maker create) { return create()->name(); };
+Registry problems_of_the_suite() {
+  Registry registry;
+  registry.add<OrbitalTransfer>();
+  registry.add<TwoLinkManipulator>();
+  registry.add<KeplerCartesian>();
+  registry.add<LinkChain>();
+  registry.add<DoubleIntegrator>();
+  registry.add<ForcedOscillator>();
+  registry.add<Brachistochrone>();
+  registry.add<ParticleSteering>();
+  registry.add<CartPole>();
+  registry.add<Acrobot>();
+  registry.add<PlanarQuadrotor>();
+  registry.add<PlanarQuadrotorFlip>();
+  registry.add<SphericalPendulum>();
+  registry.add<Hovercraft>();
+  registry.add<RobotArm>();
+  registry.add<HangGlider>();
+  registry.add<ContainerCrane>();
+  registry.add<DoubleOscillator>();
+  registry.add<Beam>();
+  registry.add<EccentricTransfer>();
+  registry.add<Hypersensitive>();
+  return registry;
+}
 
 }  // namespace
 
-std::vector<std::string> problem_names() { return names_of(registry, problem_name); }
+void Registry::add(Maker make) {
+  const std::string name = make()->name();
+  if (!is_name(name)) {
+    throw Error("a problem cannot be named \"" + name +
+                "\": names are small letters, digits and underscores, a letter first, and not \"all\"");
+  }
+  require_new(name, "");
+  entries_.push_back({name, make, ""});
+}
+
+void Registry::add_all(const Registry& others, const std::string& origin) {
+  for (const Entry& other : others.entries_) require_new(other.name, origin);
+  for (const Entry& other : others.entries_) entries_.push_back({other.name, other.make, origin});
+}
+
+std::vector<std::string> Registry::names() const { return names_of(entries_, &Entry::name); }
+
+std::unique_ptr<Problem> Registry::make(std::string_view name) const { return entry(name).make(); }
+
+const std::string& Registry::origin(std::string_view name) const { return entry(name).origin; }
+
+const Registry::Entry& Registry::entry(std::string_view name) const {
+  return one_of(entries_, &Entry::name, name, "there is no problem");
+}
+
+void Registry::require_new(const std::string& name, const std::string& origin) const {
+  const auto known = std::ranges::find(entries_, name, &Entry::name);
+  if (known == entries_.end()) return;
+  throw Error("there is a problem " + name + " already" + in_brackets(known->origin) + "; give the new one" +
+              in_brackets(origin) + " another name");
+}
+
+Registry& known_problems() {
+  static Registry registry = problems_of_the_suite();
+  return registry;
+}
+
+std::vector<std::string> problem_names() { return known_problems().names(); }
 
 std::vector<std::string> paper_problem_names() { return {"orbital_transfer", "two_link_manipulator"}; }
 
-std::unique_ptr<Problem> make_problem(std::string_view name) {
-  return one_of(registry, problem_name, name, "there is no problem")();
-}
+std::unique_ptr<Problem> make_problem(std::string_view name) { return known_problems().make(name); }
 
 }  // namespace dmocbench

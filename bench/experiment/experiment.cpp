@@ -12,10 +12,12 @@
 #include "bench/experiment/case_batch.hpp"
 #include "bench/experiment/case_list.hpp"
 #include "bench/experiment/cases_of_run.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/outcome.hpp"
 #include "bench/experiment/parts_of_run.hpp"
+#include "bench/experiment/problem_libraries.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
@@ -95,6 +97,7 @@ class Run {
     metadata_["too_coarse"] = outcome.too_coarse;
     metadata_["on_another_branch"] = outcome.other_branch;
     metadata_["tables"] = describe_tables(files_of_run());
+    add_meanings(metadata_["tables"], table_file(), columns_);
     write_metadata(prefix_.string() + ".json", metadata_);
     fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
                complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),
@@ -390,7 +393,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     }
     if (card.takes_parts) add_part_options(line, experiment.options());
     experiment.add_options(line);
-    const std::vector<std::string> command_line = line.parse();
+    const std::vector<std::string> command_line = parse_with_libraries(line);
     return Run(experiment, command_line, line.values()).run();
   });
 }

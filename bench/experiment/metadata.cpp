@@ -5,6 +5,7 @@
 #include <ctime>
 #include <fstream>
 #include <memory>
+#include <utility>
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -15,6 +16,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "bench/experiment/problem_libraries.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/solvers/solver.hpp"
@@ -78,6 +80,9 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
       {"fmt", FMT_VERSION},
       {"CLI11", CLI11_VERSION},
   };
+  if (nlohmann::ordered_json libraries = describe_problem_libraries(); !libraries.is_null()) {
+    description["problem_libraries"] = std::move(libraries);
+  }
   for (const std::string& name : solver_names()) {
     description["solvers"][name] = make_solver(name)->description();
   }

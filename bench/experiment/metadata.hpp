@@ -9,7 +9,7 @@
 namespace dmocbench {
 
 /// What a reader needs to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries,
-/// commit, command line, UTC time.
+/// libraries of problems, commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);
 
 /// Writes a description as a file; what is no text (UTF-8) in it is replaced.

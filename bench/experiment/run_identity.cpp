@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <set>
 
@@ -18,9 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Options that change no row but by its times.
+/// Options that change no row but by its times, and where libraries of problems are: what they hold is compared.
 bool is_about_the_machine(const std::string& option) {
-  constexpr std::array names{"--help", "--out", "--name", "--jobs", "--verbose", "--part", "--missing-parts", "--join"};
+  constexpr std::array names{"--help", "--out",           "--name", "--jobs",   "--verbose",
+                             "--part", "--missing-parts", "--join", "--library"};
   return std::ranges::find(names, option) != names.end();
 }
 
@@ -35,6 +37,16 @@ std::string checksum_of(const std::vector<Case>& cases) {
     crc.process_bytes(times.data(), static_cast<std::size_t>(times.size()) * sizeof(double));
   }
   return fmt::format("{:08x}", crc.checksum());
+}
+
+/// Those of the libraries of problems by their names without folder, which may be another one on another machine.
+Json checksums_of(const Json& metadata) {
+  Json checksums = Json::object();
+  for (const Json& library : metadata.at("problem_libraries")) {
+    const std::filesystem::path path = library.at("path").get<std::string>();
+    checksums[path.filename().string()] = library.at("crc32");
+  }
+  return checksums;
 }
 
 Json parameters_of(const std::vector<Case>& cases) {
@@ -59,6 +71,7 @@ Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, con
   }
   // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
   identity["program"] = fmt::format("{:08x}", crc_32(read_file("/proc/self/exe")));
+  if (metadata.contains("problem_libraries")) identity["problem_libraries"] = checksums_of(metadata);
   identity["parameters"] = parameters_of(cases);
   identity["options"] = Json::object();
   for (const auto& [name, value] : options) {

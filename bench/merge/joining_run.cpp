@@ -34,6 +34,17 @@ std::vector<std::string> without_places(const std::vector<std::string>& command_
   return kept;
 }
 
+/// What starts an experiment: the program of its name beside `merge`, or that one which is all of them.
+std::vector<std::string> program_of(const std::string& experiment) {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  if (self.filename() != "merge") return {self.string(), experiment};
+  const std::filesystem::path program = self.parent_path() / experiment;
+  if (::access(program.c_str(), X_OK) != 0) {
+    throw Error(fmt::format("there is no program {}, which wrote the parts; build it", program.string()));
+  }
+  return {program.string()};
+}
+
 }  // namespace
 
 void require_name(const std::string& name, const std::filesystem::path& out) {
@@ -51,12 +62,7 @@ void require_name(const std::string& name, const std::filesystem::path& out) {
 
 std::vector<std::string> joining_run(const PartFile& part, const std::vector<std::filesystem::path>& folders,
                                      const std::filesystem::path& out, const std::string& name) {
-  const std::string experiment = part.description.at("identity").at("experiment");
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / experiment;
-  if (::access(program.c_str(), X_OK) != 0) {
-    throw Error(fmt::format("there is no program {}, which wrote the parts; build it", program.string()));
-  }
-  std::vector<std::string> command_line{program.string()};
+  std::vector<std::string> command_line = program_of(part.description.at("identity").at("experiment"));
   for (const std::string& word : without_places(part.description.at("command_line"))) command_line.push_back(word);
   command_line.insert(command_line.end(), {"--out", out.string(), "--name", name});
   for (const std::filesystem::path& folder : folders)

@@ -12,7 +12,8 @@ namespace dmocbench {
 void require_name(const std::string& name, const std::filesystem::path& out);
 
 /// The command line of the experiment that wrote a part, with its options, but to join the parts in `folders` and write
-/// to `out`. The program is the one beside this. Throws `Error` if there is none.
+/// to `out`. The program is the one beside this, or this one where it is all experiments. Throws `Error` if there is
+/// none.
 [[nodiscard]] std::vector<std::string> joining_run(const PartFile& part,
                                                    const std::vector<std::filesystem::path>& folders,
                                                    const std::filesystem::path& out, const std::string& name);

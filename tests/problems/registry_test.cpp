@@ -6,6 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "problems/acrobot.hpp"
+#include "problems/beam.hpp"
+#include "problems/cart_pole.hpp"
+#include "problems/problem_library.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
@@ -21,6 +26,67 @@ TEST(Problems, HaveUniqueNamesInSnakeCase) {
   }
   EXPECT_TRUE(names.contains("orbital_transfer"));
   EXPECT_TRUE(names.contains("two_link_manipulator"));
+}
+
+TEST(Registry, KeepsTheOrderInWhichProblemsWereAddedAndWhereTheyComeFrom) {
+  Registry others;
+  others.add<Beam>();
+  others.add<Acrobot>();
+  Registry registry;
+  registry.add<CartPole>();
+  registry.add_all(others, "/a/library.so");
+  EXPECT_EQ(registry.names(), (std::vector<std::string>{"cart_pole", "beam", "acrobot"}));
+  EXPECT_EQ(registry.origin("cart_pole"), "");
+  EXPECT_EQ(registry.origin("acrobot"), "/a/library.so");
+  EXPECT_EQ(registry.make("beam")->name(), "beam");
+  tests::expect_error_naming({"\"moon\"", "cart_pole", "acrobot"}, [&] { static_cast<void>(registry.make("moon")); });
+}
+
+TEST(Registry, AddsNothingWhereOneNameIsThereAlready) {
+  Registry others;
+  others.add<Acrobot>();
+  others.add<Beam>();
+  Registry registry;
+  registry.add<Beam>();
+  tests::expect_error_naming({"beam", "/a/library.so"}, [&] { registry.add_all(others, "/a/library.so"); });
+  EXPECT_EQ(registry.names(), std::vector<std::string>{"beam"});
+  tests::expect_error_naming({"beam"}, [&] { registry.add<Beam>(); });
+}
+
+/// A mass that is pushed, whose name has these letters.
+template <char... letters>
+struct Named final : tests::SmallProblem {
+  Named() : SmallProblem({letters...}, at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+};
+
+TEST(Registry, TakesOnlyNamesThatCommandLinesAndFilesTake) {
+  Registry registry;
+  registry.add<Named<'a', '_', '1'>>();
+  tests::expect_error_naming({"\"\""}, [&] { registry.add<Named<>>(); });
+  tests::expect_error_naming({"\"all\""}, [&] { registry.add<Named<'a', 'l', 'l'>>(); });
+  tests::expect_error_naming({"\"a/b\""}, [&] { registry.add<Named<'a', '/', 'b'>>(); });
+  tests::expect_error_naming({"\"a,b\""}, [&] { registry.add<Named<'a', ',', 'b'>>(); });
+  tests::expect_error_naming({"\"Beam\""}, [&] { registry.add<Named<'B', 'e', 'a', 'm'>>(); });
+  tests::expect_error_naming({"\"1a\""}, [&] { registry.add<Named<'1', 'a'>>(); });
+  EXPECT_EQ(registry.names(), std::vector<std::string>{"a_1"});
+}
+
+TEST(ProblemLibrary, OfAnotherBuildIsRefusedByItsFirstDifference) {
+  const std::string tag(tag_of_this_build());
+  EXPECT_NO_THROW(require_same_build("a.so", tag));
+  const auto changed = [&tag](const std::string& from, const std::string& to) {
+    std::string other = tag;
+    return other.replace(other.find(from), from.size(), to);
+  };
+  tests::expect_error_naming({"a.so", "version=9.", "here version=0."},
+                             [&] { require_same_build("a.so", changed("version=0.", "version=9.")); });
+  tests::expect_error_naming({"sanitizer=none of ours"},
+                             [&] { require_same_build("a.so", changed("sanitizer=", "sanitizer=none of ours")); });
+  tests::expect_error_naming({"nothing"}, [&] { require_same_build("a.so", tag.substr(0, tag.find(";Eigen"))); });
+  EXPECT_THROW(require_same_build("a.so", tag + "more=1;"), Error);
 }
 
 TEST(Problems, UnknownNamesListTheKnownOnes) {

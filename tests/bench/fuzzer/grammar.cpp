@@ -30,8 +30,10 @@ const Values& known_values() {
       {"--form", {"bolza", "mayer"}},
       {"--grid", {"grid.txt", "bad_grid.txt", "narrow.txt", "file", "folder", "dangling"}},
       {"--intervals", {"2", "4", "8", "4,8", "2:32", "16,4,16", "3", "8:4", "16,", "1,2"}},
+      {"--from", {"results", "folder", "none", "file", "."}},
       {"--name", {"table", "a b", ".", "..", ".hidden", "x.csv", "other/place"}},
       {"--join", {"results", "folder", "none", "file"}},
+      {"--library", {"folder", "none", "file", "dangling"}},
       {"--missing-parts", {"1", "3", "0"}},
       {"--option",
        {"max_iter=3", "factorisation=sparse", "factorisation=magic", "nosuch=1", "tol=nan", "=", "x=", "tol"}},
@@ -41,6 +43,7 @@ const Values& known_values() {
       {"--routes", {"gauss1", "gauss2,lobatto3", "gauss3,gauss3", "gauss03", "lobatto1", "gauss"}},
       {"--start", {"guess", "common", "start_nodes.csv", "torn_nodes.csv", "folder", "file", "none_nodes.csv"}},
       {"--tolerance", {"1e-6", "1e-12", "0.5", "1e-17"}},
+      {"--to", {"report.html", "folder", "file/inner", "dangling"}},
       {"--trace", {"trace.csv", "out/trace.csv", "folder", "file/inner"}},
   };
   return values;

@@ -1,0 +1,26 @@
+# Installation of what runs: the program dmocbench, which is every experiment, the figures, and the frame of experiments as a
+# target of the package.
+install(TARGETS bench_dmocbench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+set(plots ${CMAKE_INSTALL_DATADIR}/dmocbench/plots)
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/plots/
+  DESTINATION ${plots}
+  PATTERN README.md EXCLUDE
+  PATTERN images EXCLUDE
+  PATTERN report EXCLUDE # is in the program
+  PATTERN figures EXCLUDE)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/plots/figures DESTINATION ${plots})
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_DATADIR BASE_DIRECTORY ${CMAKE_INSTALL_FULL_BINDIR} OUTPUT_VARIABLE data)
+install(CODE "file(CREATE_LINK ${data}/dmocbench/plots/figures
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/dmocbench-figures\" SYMBOLIC)")
+
+install(
+  TARGETS dmocbench_experiment
+  EXPORT dmocbenchExperimentTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
+install(
+  EXPORT dmocbenchExperimentTargets
+  NAMESPACE dmocbench::
+  DESTINATION ${DMOCBENCH_CMAKE_DIR})

@@ -1,0 +1,37 @@
+// A results folder as one page of HTML that opens anywhere: claims, figures, tables, motions.
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/command_line.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/report/page.hpp"
+
+namespace dmocbench::report_program {
+
+int write_report(CommandLine& line) {
+  std::filesystem::path from = "results";
+  std::string to;
+  line.option("--from", from, "the results folder");
+  line.option("--to", to, "the page; default: report.html in the results folder");
+  line.parse();
+  const ResultsFolder results = read_results_folder(from);
+  const std::filesystem::path page = to.empty() ? from / "report.html" : std::filesystem::path(to);
+  std::error_code none;
+  const std::filesystem::path way =
+      std::filesystem::relative(from, std::filesystem::absolute(page).parent_path(), none);
+  const std::string folder = way.empty() || way == "." ? "" : way.string() + "/";
+  const std::string html = report_page(results, folder);
+  write_file(page, html);
+  fmt::print("report: {} tables, {} figures, {} claims, {:.1f} MB: {}\n", results.tables.size(), results.figures.size(),
+             results.claims.rows().size(), static_cast<double>(html.size()) * 1e-6, page.string());
+  return 0;
+}
+
+int run(int argc, char** argv) {
+  return run_program("report", "Writes a results folder as one page of HTML that needs no other file and no network.",
+                     argc, argv, write_report);
+}
+
+}  // namespace dmocbench::report_program

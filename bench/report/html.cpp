@@ -1,0 +1,76 @@
+#include "bench/report/html.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "methods/runtime/parsed.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// How many bytes a character takes that begins at `i`; 0 if no valid one does.
+std::size_t length_of_character(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const std::size_t length = byte(i) < 0x80                      ? 1
+                             : byte(i) >= 0xC2 && byte(i) < 0xE0 ? 2
+                             : byte(i) >= 0xE0 && byte(i) < 0xF0 ? 3
+                             : byte(i) >= 0xF0 && byte(i) < 0xF5 ? 4
+                                                                 : 0;
+  if (length == 0 || i + length > text.size()) return 0;
+  for (std::size_t k = i + 1; k < i + length; ++k) {
+    if ((byte(k) & 0xC0U) != 0x80U) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string html;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = length_of_character(text, i);
+    switch (length == 1 ? text[i] : 'x') {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += length == 0 ? std::string_view("?") : text.substr(i, length);
+    }
+    i += std::max<std::size_t>(length, 1);
+  }
+  return html;
+}
+
+std::string anchor(std::string_view kind, std::string_view name) {
+  std::string result = fmt::format("{}-{}", kind, name);
+  std::ranges::replace_if(
+      result, [](unsigned char letter) { return std::isalnum(letter) == 0; }, '-');
+  return result;
+}
+
+std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string shortened(const std::string& field) {
+  if (field.size() <= 8) return field;
+  const auto number = parsed<double>(field);
+  return number ? fmt::format("{:.6g}", *number) : field;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace dmocbench {
+
+/// A text as HTML shows it, in elements and in attributes with double quotes; what is no UTF-8 becomes a question mark.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// "two_link_manipulator/state_slope" as a name for links within the page: letters, digits and dashes.
+[[nodiscard]] std::string anchor(std::string_view kind, std::string_view name);
+
+/// "two link manipulator" of "two_link_manipulator".
+[[nodiscard]] std::string in_words(std::string_view name);
+
+/// A field of a table for readers: numbers with six digits.
+[[nodiscard]] std::string shortened(const std::string& field);
+
+}  // namespace dmocbench

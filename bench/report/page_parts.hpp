@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace dmocbench {
+
+/// plots/report/report.css and report.js, which the build puts into the program.
+extern const std::string_view style_of_page;
+extern const std::string_view script_of_page;
+
+}  // namespace dmocbench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench {
+
+/// A run that wrote into a results folder, by what its metadata tell.
+struct ReportedRun {
+  std::string name;
+  nlohmann::ordered_json metadata;
+};
+
+/// A table of a results folder.
+struct ReportedTable {
+  std::string file;  ///< without folder
+  std::string run;   ///< whose metadata tell of it; empty if none do
+  Table table;
+};
+
+/// A figure, as gnuplot wrote it.
+struct ReportedFigure {
+  std::string name;  ///< without folder and ending
+  std::string svg;
+};
+
+/// A motion's picture: where points are at the nodes.
+struct ReportedMotion {
+  std::string problem;
+  std::string method;  ///< empty if no row tells
+  Table picture;
+};
+
+/// All that a report shows of a results folder.
+struct ResultsFolder {
+  std::vector<ReportedRun> runs;
+  std::vector<ReportedTable> tables;
+  std::vector<ReportedFigure> figures;
+  std::vector<ReportedMotion> motions;
+  Table claims;                     ///< no rows if nothing has been judged
+  std::vector<std::string> faults;  ///< files that are there and cannot be shown, a sentence each
+
+  /// The metadata of a run; null if there are none of that name.
+  [[nodiscard]] const nlohmann::ordered_json* metadata_of(const std::string& run) const;
+};
+
+/// Reads a folder, files in the order of their names. Throws `Error` if there is no such folder, or nothing in it that
+/// a report could show.
+[[nodiscard]] ResultsFolder read_results_folder(const std::filesystem::path& folder);
+
+}  // namespace dmocbench

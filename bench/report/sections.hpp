@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "bench/report/results_folder.hpp"
+
+namespace dmocbench {
+
+/// The parts of the page, each a <section>; empty where there is nothing to show.
+/// What was compared, on which machine, when, and what was not solved.
+[[nodiscard]] std::string overview_section(const ResultsFolder& results);
+/// The claims that answer five questions, then all of them with their verdicts.
+[[nodiscard]] std::string claims_section(const ResultsFolder& results);
+/// Motions that a slider moves through time.
+[[nodiscard]] std::string motions_section(const ResultsFolder& results);
+/// Every figure, its own markup in the page.
+[[nodiscard]] std::string figures_section(const ResultsFolder& results);
+/// Every table: columns that differ between rows, as many rows as `most_rows`; `folder` as `report_page`.
+[[nodiscard]] std::string tables_section(const ResultsFolder& results, const std::string& folder);
+
+/// Rows of a table in the page; the others are in its file.
+inline constexpr std::size_t most_rows = 100;
+
+}  // namespace dmocbench

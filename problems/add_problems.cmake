@@ -1,0 +1,56 @@
+# A shared library of problems, which every experiment takes by --library:
+#
+#   dmocbench_add_problems(<target> <header> ... [NAMESPACE <name>])
+#
+# Each header states the problem whose class has the header's name in CamelCase (furuta.hpp: Furuta), in no namespace, in
+# dmocbench, or in that of NAMESPACE. The target is an ordinary one: sources and libraries of one's own may be added.
+
+# "PlanarArm" of "planar_arm.hpp", in a variable of the caller.
+function(dmocbench_class_of header variable)
+  cmake_path(GET header STEM LAST_ONLY name)
+  string(REGEX REPLACE "[^A-Za-z0-9]+" ";" words "${name}")
+  set(class)
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 first)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${first}" first)
+    string(APPEND class "${first}${rest}")
+  endforeach()
+  set(${variable} "${class}" PARENT_SCOPE)
+endfunction()
+
+function(dmocbench_add_problems target)
+  cmake_parse_arguments(PARSE_ARGV 1 problems "" "NAMESPACE" "")
+  if(NOT problems_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "dmocbench_add_problems(${target}): name the header of at least one problem")
+  endif()
+  set(includes)
+  set(additions)
+  foreach(header IN LISTS problems_UNPARSED_ARGUMENTS)
+    cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE OUTPUT_VARIABLE file)
+    if(NOT EXISTS ${file})
+      message(FATAL_ERROR "dmocbench_add_problems(${target}): there is no ${file}")
+    endif()
+    dmocbench_class_of(${header} class)
+    file(READ ${file} text)
+    if(NOT text MATCHES "(class|struct)[ \t\r\n]+${class}[^A-Za-z0-9_]")
+      message(FATAL_ERROR "dmocbench_add_problems(${target}): ${file} has no class ${class}, whose name is that of the header")
+    endif()
+    string(APPEND includes "#include \"${file}\"\n")
+    string(APPEND additions "  problems.add<${class}>();\n")
+  endforeach()
+  string(STRIP "${includes}" includes)
+  string(STRIP "${additions}" additions)
+  set(using)
+  if(problems_NAMESPACE)
+    set(using "using namespace ${problems_NAMESPACE}; ")
+  endif()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_problems.cpp)
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/problem_library.cpp.in ${source} @ONLY)
+  add_library(${target} MODULE ${source} ${problems_UNPARSED_ARGUMENTS})
+  target_link_libraries(${target} PRIVATE dmocbench::problem_headers)
+  # The program that loads it has the functions of dmocbench, and only it. What the library defines itself it uses itself:
+  # a class of the same name in the program is another one.
+  target_link_options(${target} PRIVATE LINKER:-Bsymbolic)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+endfunction()

@@ -1,0 +1,21 @@
+# cmake -D OUTPUT=<header> -D VERSION=<version> -D HEADERS=<pattern>|... -P build_tag.cmake
+# Writes the header that tells which dmocbench this is: its version, and a checksum of the headers that problems include. It
+# is left alone where it says so already, so that nothing is compiled anew.
+string(REPLACE "|" ";" patterns "${HEADERS}")
+file(GLOB headers LIST_DIRECTORIES false ${patterns})
+list(SORT headers)
+set(checksums)
+foreach(header IN LISTS headers)
+  file(SHA256 ${header} checksum)
+  string(APPEND checksums ${checksum})
+endforeach()
+string(SHA256 checksum "${checksums}")
+string(SUBSTRING ${checksum} 0 12 checksum)
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "\
+#pragma once
+
+/// The version of dmocbench.
+#define DMOCBENCH_VERSION \"${VERSION}\"
+/// A checksum of the headers that problems include.
+#define DMOCBENCH_HEADERS \"${checksum}\"
+")
