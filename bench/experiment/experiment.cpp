@@ -386,11 +386,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
       line.list("--tolerances", experiment.options().tolerances,
                 "several tolerances, a row for each; wins over --tolerance");
     }
-    if (card.takes_batches) {
-      line.flag("--batch,!--no-batch", experiment.options().batch,
-                "solves by interior_point that differ in start, parameters or ends side by side, without times; not "
-                "with --seconds, --option, --verbose or --repeats");
-    }
+    if (card.takes_batches) add_batch_option(line, experiment.options());
     if (card.takes_parts) add_part_options(line, experiment.options());
     experiment.add_options(line);
     const std::vector<std::string> command_line = parse_with_libraries(line);

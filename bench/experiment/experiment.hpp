@@ -58,8 +58,8 @@ class Experiment {
   [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options);
   /// The motion that a case starts from; by default the one that --start names.
   [[nodiscard]] virtual Motion start_for(const Case& /*the_case*/, Motion chosen) const { return chosen; }
-  /// May give a case another grid, number of stages and start, and lower the time and tolerance of its solve; by default
-  /// nothing. Throws `NoStart` where there is nothing to solve then.
+  /// May give a case another grid, number of stages and start, and lower the time and tolerance of its solve; by
+  /// default nothing. Throws `NoStart` where there is nothing to solve then.
   virtual void adapt(Case& /*the_case*/, Start& /*start*/, SolverOptions& /*options*/) {}
   /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
   virtual void check(const std::vector<Case>& /*cases*/) {}

@@ -200,6 +200,12 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.flag("--verbose", options.verbose, "show the solver's own output");
 }
 
+void add_batch_option(CommandLine& line, ExperimentOptions& options) {
+  line.flag("--batch,!--no-batch", options.batch,
+            "solves by interior_point that differ in start, parameters or ends side by side, without times; not with "
+            "--seconds, --option, --verbose or --repeats");
+}
+
 void add_part_options(CommandLine& line, ExperimentOptions& options) {
   line.option(
       "--part", options.part,

@@ -52,6 +52,8 @@ void add_options(CommandLine& line, ExperimentOptions& options);
 
 /// Registers the options of an experiment whose cases can be dealt out to parts.
 void add_part_options(CommandLine& line, ExperimentOptions& options);
+/// `--batch` and `--no-batch`.
+void add_batch_option(CommandLine& line, ExperimentOptions& options);
 
 /// The solver options among them; an interrupt stops the solver. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);

@@ -128,8 +128,8 @@ void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& opt
 /// The same of a solved case whose answer is known to be this one, which is judged once for all of them.
 void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<JudgedAnswer> answer);
 
-/// How often a solve like `first` is repeated within one round: short ones for 20 ms, so that an interruption by something
-/// else is an outlier.
+/// How often a solve like `first` is repeated within one round: short ones for 20 ms, so that an interruption by
+/// something else is an outlier.
 [[nodiscard]] int solves_per_round(const Solution& first);
 
 /// Keeps the times of several solves, and replaces those of the answer by their medians.

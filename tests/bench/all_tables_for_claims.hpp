@@ -7,17 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/challenge_tables_for_claims.hpp"
 #include "tests/bench/tables_for_claims.hpp"
 
 // The tables that claims read, as a run that reproduces all of them would write them.
 namespace dmocbench::tests {
-
-/// A row from texts in the order of columns.
-inline Row row_of_texts(const ColumnNames& columns, const std::vector<std::string>& texts) {
-  Row row;
-  for (std::size_t i = 0; i < columns.size(); ++i) row.set(columns[i], texts.at(i));
-  return row;
-}
 
 /// Which rows.
 using Where = std::function<bool(const Row&)>;
@@ -67,12 +61,6 @@ inline Rows consistency_order_rows() {
     rows.push_back(row_of_texts({"problem", "tableau", "stages", "order", "quantity", "slope"},
                                 {orbit, "gauss", "1", "2", quantity, "3.01"}));
   }
-  return rows;
-}
-
-inline Rows rows_of_texts(const ColumnNames& columns, const std::vector<std::vector<std::string>>& texts) {
-  Rows rows;
-  for (const std::vector<std::string>& row : texts) rows.push_back(row_of_texts(columns, row));
   return rows;
 }
 
@@ -143,42 +131,6 @@ inline Rows smoothness_rows() {
   }
   append("two_link_bounded", "control", "fixed", "2", "state", "2.1");
   append("beam", "state", "fixed", "1", "control", "0.98");
-  return rows;
-}
-
-/// Cost errors 1 (DMOC and tangent), 3 (explicit midpoint) and 1/10 (rk4), at any number of steps.
-inline Rows low_thrust_rows() {
-  const std::map<std::string, const char*> cost_errors{{"dmoc", "1e-4"},
-                                                       {"tangent", "1e-4"},
-                                                       {"multiple_shooting_midpoint_1", "3e-4"},
-                                                       {"multiple_shooting_rk4_1", "1e-5"}};
-  Rows rows;
-  for (const char* revolutions : {"10", "20"}) {
-    for (const auto& [method, cost_error] : cost_errors) {
-      for (const char* steps : {"8", "16", "32"}) {
-        rows.push_back(row_of_texts(
-            {"problem", "method", "tableau", "stages", "revolutions", "steps_per_revolution", "status", "branch",
-             "reference_digits", "cost_error", "state_error", "replay_error", "momentum_balance"},
-            {orbit, method, "gauss", "1", revolutions, steps, "solved", "same", "12", cost_error, cost_error, "1e-3",
-             method == "tangent" ? "1e-9" : "1e-13"}));
-      }
-    }
-  }
-  return rows;
-}
-
-/// Rows of rules of steps along three ellipses, with the texts of some further columns by rule.
-inline Rows step_control_rows(const ColumnNames& more, const std::map<std::string, std::vector<std::string>>& texts) {
-  ColumnNames columns{"problem", "eccentricity", "rule", "sigma", "stages"};
-  columns.insert(columns.end(), more.begin(), more.end());
-  Rows rows;
-  for (const char* eccentricity : {"0.3", "0.6", "0.8"}) {
-    for (const auto& [rule, of_rule] : texts) {
-      std::vector<std::string> all{"kepler", eccentricity, rule, "distance", "1"};
-      all.insert(all.end(), of_rule.begin(), of_rule.end());
-      rows.push_back(row_of_texts(columns, all));
-    }
-  }
   return rows;
 }
 
@@ -255,49 +207,6 @@ inline Rows sequence_rows() {
                                     {orbit, method, "gauss", "1", "64", sequence, std::to_string(step), "solved",
                                      is_dmoc ? "4" : "5", is_dmoc ? "100" : "150"}));
       }
-    }
-  }
-  return rows;
-}
-
-inline Rows shooting_rows() {
-  return rows_of_texts({"problem", "method", "tableau", "stages", "status", "intervals", "unknowns", "condition"},
-                       {{orbit, "dmoc", "gauss", "1", "solved", "64", "190", "1e3"},
-                        {orbit, "multiple_shooting_rk4_1", "gauss", "1", "solved", "64", "316", "1e4"},
-                        {orbit, "single_shooting_rk4_1", "gauss", "1", "solved", "64", "64", "1e5"}});
-}
-
-inline Rows shooting_slope_rows(const char* stages) {
-  const ColumnNames columns{"problem", "method", "tableau", "stages", "quantity", "verdict", "slope"};
-  if (stages == std::string("2")) {
-    return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "2", "state", "slope", "4.01"}});
-  }
-  return rows_of_texts(columns, {{orbit, "multiple_shooting_rk4_1", "gauss", "1", "state", "slope", "2.01"},
-                                 {orbit, "multiple_shooting_midpoint_1", "gauss", "1", "state", "slope", "1.99"}});
-}
-
-inline Rows shooting_cold_rows() {
-  const ColumnNames columns{"problem",     "method",    "tableau",    "stages", "solver",
-                            "derivatives", "intervals", "start_kind", "starts", "confirmed"};
-  return rows_of_texts(columns,
-                       {{orbit, "dmoc", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "48"},
-                        {orbit, "multiple_shooting_rk4_1", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "35"},
-                        {orbit, "single_shooting_rk4_1", "gauss", "1", "ipopt", "tape", "32", "cold", "50", "10"}});
-}
-
-/// Errors of the cost fall as 1/N²; those of shooting are twice DMOC's, and its solves take longer.
-inline Rows shooting_cost_rows() {
-  Rows rows;
-  for (const char* method : {"dmoc", "multiple_shooting_rk4_1", "single_shooting_rk4_1"}) {
-    const bool is_dmoc = method == std::string("dmoc");
-    for (const long long intervals : {16LL, 32LL, 64LL}) {
-      Row row = solved_row(method, intervals);
-      const auto count = static_cast<double>(intervals);
-      row.set("tolerance", Cell());
-      row.set("solver", "ipopt");
-      row.set("objective_error", (is_dmoc ? 1.0 : 2.0) / (count * count));
-      row.set("round_seconds", rounds_around((is_dmoc ? 1e-4 : 2e-4) * count));
-      rows.push_back(row);
     }
   }
   return rows;

@@ -235,4 +235,17 @@ inline ResultTables tables(const std::string& doctored = "", const std::function
   return result;
 }
 
+/// A row from texts in the order of columns.
+inline Row row_of_texts(const ColumnNames& columns, const std::vector<std::string>& texts) {
+  Row row;
+  for (std::size_t i = 0; i < columns.size(); ++i) row.set(columns[i], texts.at(i));
+  return row;
+}
+
+inline Rows rows_of_texts(const ColumnNames& columns, const std::vector<std::vector<std::string>>& texts) {
+  Rows rows;
+  for (const std::vector<std::string>& row : texts) rows.push_back(row_of_texts(columns, row));
+  return rows;
+}
+
 }  // namespace dmocbench::tests
