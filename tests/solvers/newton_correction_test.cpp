@@ -13,7 +13,6 @@
 namespace dmocbench {
 namespace {
 
-using tests::HyperDual;
 using tests::HyperVector;
 using tests::SmallProgram;
 using tests::vector;
