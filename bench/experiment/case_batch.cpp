@@ -165,8 +165,16 @@ std::vector<BatchedCase> started(const BatchWork& work, std::span<const std::siz
   return group;
 }
 
+/// Null where the program cannot be made; solved alone, a case says why.
+std::unique_ptr<CaseBatch> batch_of(const Case& the_case, const SolverOptions& options) {
+  try {
+    return std::make_unique<CaseBatch>(the_case, options);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 void judge_and_keep(const BatchWork& work, CaseBatch& batch, const BatchedCase& one) {
-  if (!one.solution || one.solution->status == Status::interrupted) return;
   SolvedCase solved = batch.judged(one);
   if (interrupt_requested() && solved.solution.status == Status::interrupted) return;  // its judgement was
   work.keep(solved, one.number);
@@ -174,12 +182,8 @@ void judge_and_keep(const BatchWork& work, CaseBatch& batch, const BatchedCase& 
 
 void solve_cases_of_program(const BatchWork& work, std::span<const std::size_t> numbers) {
   constexpr std::size_t most_in_group = 2048;
-  std::optional<CaseBatch> batch;
-  try {
-    batch.emplace(work.cases[numbers.front()], work.options);
-  } catch (const Error&) {  // alone it says what is wrong
-    return;
-  }
+  const std::unique_ptr<CaseBatch> batch = batch_of(work.cases[numbers.front()], work.options);
+  if (!batch) return;
   for (; !numbers.empty() && !interrupt_requested();
        numbers = numbers.subspan(std::min(most_in_group, numbers.size()))) {
     std::vector<BatchedCase> group = started(work, numbers.first(std::min(most_in_group, numbers.size())));
@@ -187,7 +191,10 @@ void solve_cases_of_program(const BatchWork& work, std::span<const std::size_t> 
     work.show(fmt::format("{} and {} more", group.front().the_case->label(), group.size() - 1));
     batch->solve(group);
     if (batch->is_refused()) return;
-    for (const BatchedCase& one : group) judge_and_keep(work, *batch, one);
+    const bool was_interrupted = interrupt_requested();  // then what is not solved was perhaps not solved to its end
+    for (const BatchedCase& one : group) {
+      if (one.solution && (!was_interrupted || is_solved(one.solution->status))) judge_and_keep(work, *batch, one);
+    }
   }
 }
 
