@@ -137,10 +137,7 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"cold_start_shares", "cold_start", solve},
       {"sequence", "sequence", columns(scheme, {"intervals", "sequence", "step"}), {"status"}},
       {"adaptive", "adaptive", columns(scheme, {"grid"}), {"status"}},
-      {"adaptive_effectivity",
-       "adaptive",
-       columns(scheme, {"grid", "intervals", "quantity"}),
-       {"status", "verdict"}},
+      {"adaptive_effectivity", "adaptive", columns(scheme, {"grid", "intervals", "quantity"}), {"status", "verdict"}},
       {"profile", "profile", solve, {"status", "success"}},
       {"slips", "slips", {"problem", "slip"}},
   };
