@@ -33,8 +33,12 @@ constexpr double margin = 0.9;
 class AdaptiveRun {
  public:
   AdaptiveRun(const AdaptiveTask& task, const AdaptiveOptions& options)
-      : task_(task), options_(options), element_(make_element(task.method)), grid_(task.first), stages_(task.stages) {
-    solver_options_ = options.solver_options;
+      : task_(task),
+        options_(options),
+        element_(make_element(task.method)),
+        solver_options_(options.solver_options),
+        grid_(task.first),
+        stages_(task.stages) {
     solver_options_.tolerance = options.solver_tolerance(solver_options_.tolerance);
   }
 
@@ -183,7 +187,8 @@ double AdaptiveOptions::solver_tolerance(double tolerance) const {
 }
 
 void AdaptiveOptions::validate() const {
-  if (!(accuracy >= finest && accuracy <= coarsest)) {
+  const bool is_allowed = accuracy >= finest && accuracy <= coarsest;
+  if (!is_allowed) {
     throw Error(fmt::format("the accuracy must lie between {:g} and {:g}, got {:g}: doubles have 16 digits", finest,
                             coarsest, accuracy));
   }

@@ -232,8 +232,8 @@ const Transcription& with_fixed_ends(const Transcription& program) {
 double relative_size(const Trajectory& answer, const Eigen::MatrixXd& q, const Eigen::MatrixXd& p, double objective,
                      double cost_scale) {
   const double cost = std::max(std::abs(answer.cost), rounding_share / cost_scale);
-  const double largest =
-      std::max({largest_row(q) / scale_of(answer.q), largest_row(p) / scale_of(answer.p), std::abs(objective) / cost});
+  const double of_motion = std::max(largest_row(q) / scale_of(answer.q), largest_row(p) / scale_of(answer.p));
+  const double largest = std::max(of_motion, std::abs(objective) / cost);
   return std::isfinite(largest) ? largest : infinite;
 }
 
