@@ -14,8 +14,10 @@ string(SUBSTRING ${checksum} 0 12 checksum)
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "\
 #pragma once
 
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): joined with other texts by the preprocessor
 /// The version of dmocbench.
 #define DMOCBENCH_VERSION \"${VERSION}\"
 /// A checksum of the headers that problems include.
 #define DMOCBENCH_HEADERS \"${checksum}\"
+// NOLINTEND(cppcoreguidelines-macro-usage)
 ")

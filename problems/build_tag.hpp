@@ -6,6 +6,7 @@
 // What two builds have to agree in before one may use problems of the other: each entry "name=value;" is one that
 // changes where things lie in memory. A macro, since it has to be one text in the file of a library, where it is read
 // before anything of that library runs.
+// NOLINTBEGIN(cppcoreguidelines-macro-usage)
 #define DMOCBENCH_TEXT_OF(value) #value
 #define DMOCBENCH_TEXT(value) DMOCBENCH_TEXT_OF(value)
 #ifdef __clang__
@@ -32,3 +33,4 @@
   ";Eigen=" DMOCBENCH_TEXT(EIGEN_WORLD_VERSION) "." DMOCBENCH_TEXT(EIGEN_MAJOR_VERSION) "." DMOCBENCH_TEXT( \
       EIGEN_MINOR_VERSION) ";alignment by Eigen=" DMOCBENCH_TEXT(EIGEN_MAX_ALIGN_BYTES)              \
   ";aligned malloc=" DMOCBENCH_TEXT(EIGEN_MALLOC_ALREADY_ALIGNED) ";"
+// NOLINTEND(cppcoreguidelines-macro-usage)

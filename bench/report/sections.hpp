@@ -19,6 +19,6 @@ namespace dmocbench {
 [[nodiscard]] std::string tables_section(const ResultsFolder& results, const std::string& folder);
 
 /// Rows of a table in the page; the others are in its file.
-inline constexpr std::size_t most_rows = 100;
+inline constexpr std::size_t most_rows = 60;
 
 }  // namespace dmocbench
