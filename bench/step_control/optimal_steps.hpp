@@ -9,6 +9,7 @@
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/extended_action.hpp"
+#include "methods/transcription/interpolation.hpp"
 
 namespace dmocbench {
 
