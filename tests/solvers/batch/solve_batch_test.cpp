@@ -134,21 +134,6 @@ TEST(SolveBatch, GivesTheAnswersOfSingleSolvesWhereThereAreBoundsAndInequalities
   Case("container_crane", "dmoc", 1, 16).expect_answers_of_single_solves(4, 0.01);
 }
 
-TEST(SolveBatch, RestoresFeasibilityInLanes) {
-  Case orbit("orbital_transfer", "dmoc", 1, 64);
-  BatchOptions options;
-  options.falls_back = false;
-  const std::vector<BatchInstance> instances = orbit.instances(256, 0.1);  // some of which ask for it
-  std::size_t as_cheap = 0;
-  const std::vector<Solution> solutions = orbit.solve(instances, options);
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    EXPECT_EQ(solutions[i].status, Status::solved) << i;
-    const double alone = orbit.solve_alone(instances[i]).objective;
-    as_cheap += std::abs(solutions[i].objective - alone) <= 1e-10 * std::abs(alone) ? 1U : 0U;
-  }
-  EXPECT_GE(as_cheap, instances.size() * 95 / 100);  // from there another path may lead to another minimum
-}
-
 TEST(SolveBatch, StartsWarmFromMultipliers) {
   Case orbit("orbital_transfer", "dmoc", 1, 16);
   const Solution neighbour = InteriorPointSolver().solve(*orbit.program, orbit.start);
