@@ -124,7 +124,7 @@ struct Transfer {
 constexpr auto solved = &Transfer::solved;
 constexpr auto transfer_errors = &OptimalSteps::errors;
 const Columns<Transfer> transfer_columns{
-    {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "eccentric_transfer"; }},
+    {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }},
     {"eccentricity", "", "of both ellipses", [](const Transfer& row) { return fmt::format("{:g}", row.eccentricity); }},
     {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
      from(&Transfer::choice, &StepChoice::rule)},

@@ -16,7 +16,7 @@
 namespace dmocbench {
 
 SteppedTransfer::SteppedTransfer(double eccentricity, const SolverOptions& options)
-    : problem_(std::make_shared<EccentricTransfer>(eccentricity)), solver_(make_solver("ipopt", options)) {
+    : problem_(std::make_shared<EllipseTransfer>(eccentricity)), solver_(make_solver("ipopt", options)) {
   constexpr long long intervals = 96;
   const Case the_case{.problem = problem_,
                       .method = "dmoc",

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/step_control/eccentric_transfer.hpp"
+#include "bench/step_control/ellipse_transfer.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/extended_action.hpp"
@@ -47,7 +47,7 @@ class SteppedTransfer {
   [[nodiscard]] OptimalSteps judged(const Solution& solution, std::size_t variables,
                                     const std::function<Trajectory()>& read) const;
 
-  std::shared_ptr<const EccentricTransfer> problem_;
+  std::shared_ptr<const EllipseTransfer> problem_;
   std::unique_ptr<Solver> solver_;
   std::unique_ptr<const IndirectSolution> optimum_;
   Motion motion_;

@@ -10,11 +10,11 @@ namespace dmocbench {
 
 /// From the pericentre of an ellipse with semi-major axis 1 to that of one with semi-major axis 1.2 and the same
 /// eccentricity and direction, after one revolution, with the least C = ½|u|²: L = ½|q̇|² + 1/|q|, f = u in the plane.
-class EccentricTransfer final : public Problem {
+class EllipseTransfer final : public Problem {
  public:
-  explicit EccentricTransfer(double eccentricity) : ellipse_(eccentricity) {}
+  explicit EllipseTransfer(double eccentricity) : ellipse_(eccentricity) {}
 
-  [[nodiscard]] std::string name() const override { return "eccentric_transfer"; }
+  [[nodiscard]] std::string name() const override { return "ellipse_transfer"; }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_x", "u_y"}; }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return ellipse_.lagrangian(x); }
