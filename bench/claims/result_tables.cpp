@@ -161,24 +161,27 @@ const std::vector<DeclaredTable>& declared_tables() {
 ResultTables ResultTables::read(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
   ResultTables tables;
-  for (const DeclaredTable& declared : declared_tables()) {
-    const std::string file = declared.name + ".csv";
-    try {
-      if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
-        refuse_parts(folder, declared.run, file);
-        continue;
-      }
-      const std::string content = content_of(folder / file);
-      tables.add(declared.name, Table::from_csv(content));
-      check(tables.tables_.at(declared.name), declared);
-      check_run(folder, declared.run, file, content);
-    } catch (const Error& error) {
-      const std::string sentence = error.what();
-      const bool names_it = sentence.find(file) != std::string::npos;
-      tables.faults_[declared.name] = names_it ? sentence : fmt::format("{}: {}", file, sentence);
-    }
-  }
+  for (const DeclaredTable& declared : declared_tables()) tables.read_table(folder, declared);
   return tables;
+}
+
+void ResultTables::read_table(const std::filesystem::path& folder, const DeclaredTable& declared) {
+  tables_.erase(declared.name);
+  faults_.erase(declared.name);
+  const std::string file = declared.name + ".csv";
+  try {
+    if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
+      return refuse_parts(folder, declared.run, file);
+    }
+    const std::string content = content_of(folder / file);
+    add(declared.name, Table::from_csv(content));
+    check(tables_.at(declared.name), declared);
+    check_run(folder, declared.run, file, content);
+  } catch (const Error& error) {
+    const std::string sentence = error.what();
+    const bool names_it = sentence.find(file) != std::string::npos;
+    faults_[declared.name] = names_it ? sentence : fmt::format("{}: {}", file, sentence);
+  }
 }
 
 void ResultTables::add(const std::string& name, Table table) {

@@ -38,6 +38,9 @@ class ResultTables {
   /// Reads the declared tables and the .json beside them. Throws `Error` if there is no such folder.
   [[nodiscard]] static ResultTables read(const std::filesystem::path& folder);
 
+  /// Reads one declared table and the .json beside it as they are now.
+  void read_table(const std::filesystem::path& folder, const DeclaredTable& declared);
+
   /// Errors in numbers name the table and the record.
   void add(const std::string& name, Table table);
   [[nodiscard]] bool has(std::string_view table) const { return tables_.contains(table) || faults_.contains(table); }

@@ -74,7 +74,8 @@ class DoctoredClaims : public tests::InTemporaryFolder {
       columns_[declared.name] = columns_of_rows(declared, rows_[declared.name]);
       write(declared.name, columns_[declared.name], rows_[declared.name]);
     }
-    whole_ = judge();
+    tables_ = ResultTables::read(folder());
+    whole_ = judgements_of(tables_);
   }
   /// Writes a table without telling its run.
   void slip_in(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
@@ -107,33 +108,40 @@ class DoctoredClaims : public tests::InTemporaryFolder {
   /// The table with a text in a column of some rows.
   [[nodiscard]] Judgements with(
       const std::string& name, const std::string& column, const std::string& text,
-      const std::function<bool(const Row&)>& where = [](const Row&) { return true; }) const {
+      const std::function<bool(const Row&)>& where = [](const Row&) { return true; }) {
     Rows doctored = rows_.at(name);
     for (Row& row : doctored) {
       if (where(row) && !row.text(column).empty()) row.set(column, text);
     }
-    write(name, columns_.at(name), doctored);
-    Judgements judged = judge();
-    write(name, columns_.at(name), rows_.at(name));
-    return judged;
+    return judge_with(name, columns_.at(name), doctored);
   }
-  [[nodiscard]] Judgements without(const std::string& name, const std::string& column) const {
+  [[nodiscard]] Judgements without(const std::string& name, const std::string& column) {
     ColumnNames columns = columns_.at(name);
     std::erase(columns, column);
-    write(name, columns, rows_.at(name));
-    Judgements judged = judge();
+    return judge_with(name, columns, rows_.at(name));
+  }
+  /// Another table in the place of one; the others are those that were read.
+  [[nodiscard]] Judgements judge_with(const std::string& name, const ColumnNames& columns, const Rows& rows) {
+    const DeclaredTable& declared = *std::ranges::find(declared_tables(), name, &DeclaredTable::name);
+    write(name, columns, rows);
+    tables_.read_table(folder(), declared);
+    Judgements judged = judgements_of(tables_);
     write(name, columns_.at(name), rows_.at(name));
+    tables_.read_table(folder(), declared);
     return judged;
   }
-  [[nodiscard]] Judgements judge() const {
+  /// Of all tables as they are now.
+  [[nodiscard]] Judgements judge() const { return judgements_of(ResultTables::read(folder())); }
+  static Judgements judgements_of(const ResultTables& tables) {
     Judgements judged;
-    for (const JudgedClaim& claim : judge_claims(ResultTables::read(folder()))) judged[claim.id] = claim;
+    for (const JudgedClaim& claim : judge_claims(tables)) judged[claim.id] = claim;
     return judged;
   }
 
   std::map<std::string, Rows> rows_ = tests::all_rows();
   std::map<std::string, ColumnNames> columns_;
-  Judgements whole_;  ///< of the tables as they are
+  ResultTables tables_;  ///< as they are
+  Judgements whole_;     ///< of them
 };
 
 const std::vector<std::string> no_numbers{"nan", "-nan", "inf", "-inf", "much", ""};
