@@ -58,7 +58,7 @@ do for [kind in kinds] {
       offset 0, -0.4 margins 0.07, 0.985, 0.24, 0.78 spacing 0.02
   do for [quantity in quantities] {
     eval power_axis("xy")
-    set xtics 1e-12, 1e3
+    set xtics 1e-11, 1e3
     set format y (quantity eq "state" ? "%g" : "")
     set yrange [0.1:10]
     set xlabel "largest relative error"

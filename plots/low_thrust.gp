@@ -37,7 +37,7 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
       set xrange [7:36]
       set xlabel "steps per revolution"
       set ylabel "|J − J*| / J*"
-      set key at screen 0.5, screen 0.01 center bottom vertical maxrows 2 width 2
+      set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width 0
       set title entry(panel, "revolutions")." revolutions; ".reference_label(panel)
       plot for [family in families] rows("low_thrust", where.",".family, "cost_error")\
              using "steps_per_revolution":"cost_error"\
