@@ -38,7 +38,7 @@ struct Solution {
   double objective = 0.0;  ///< φ at `primal`, as the solver saw it (scaled)
 
   // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
-  std::optional<double> kkt_residual;          ///< none if the solver never started
+  std::optional<double> kkt_residual;  ///< none if the solver never started, or stopped late without multipliers
   std::optional<double> constraint_violation;  ///< none if the solver never started
   /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none where it was not asked,
   /// or cannot be told.

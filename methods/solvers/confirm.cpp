@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -32,7 +33,16 @@ double largest_of(std::initializer_list<double> shares) {
 
 void Confirmation::judge_residuals(Solution& solution) {
   solution.objective = program_.objective(solution.primal);
-  if (static_cast<std::size_t>(solution.multipliers.size()) != program_.constraint_count()) {
+  const auto constraints = static_cast<Eigen::Index>(program_.constraint_count());
+  const bool has_multipliers = solution.multipliers.size() == constraints;
+  // A sparse least-squares problem may take minutes, which a solve whose time is over does not have.
+  const bool is_over = solution.status == Status::time_limit || solution.status == Status::interrupted;
+  if (!has_multipliers && is_over) {
+    solution.multipliers.setConstant(constraints, std::numeric_limits<double>::quiet_NaN());
+    solution.constraint_violation = constraint_violation(program_, solution.primal);
+    return;
+  }
+  if (!has_multipliers) {
     solution.multipliers = least_squares_multipliers(program_, solution.primal);
     solution.multipliers_are_estimated = true;
   }

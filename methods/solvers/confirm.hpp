@@ -10,7 +10,8 @@
 namespace dmocbench {
 
 /// Computes the objective, KKT residual and constraint violation at `solution.primal` (variable_count() entries); where
-/// the solver gave no multipliers, also their least-squares estimate, so that every point is judged alike.
+/// the solver gave no multipliers, also their least-squares estimate, so that every point is judged alike. Where a
+/// limit of time or an interrupt ended the solve they are not estimated: they are NaN, and there is no KKT residual.
 void judge_residuals(NonlinearProgram& program, Solution& solution);
 
 /// The larger of KKT residual and constraint violation, each divided by what `StopRule` allows it at this tolerance: at

@@ -37,6 +37,19 @@ TEST(Confirm, LetsATrueOptimumPass) {
   EXPECT_EQ(solution.constraint_violation, 0.0);
 }
 
+TEST(Confirm, EstimatesNoMultipliersOnceTimeIsOver) {
+  for (const Status status : {Status::time_limit, Status::interrupted}) {
+    const Solution late = claimed(status, vector({1.0, 1.0}), Eigen::VectorXd());
+    EXPECT_TRUE(late.multipliers.hasNaN());
+    EXPECT_FALSE(late.multipliers_are_estimated);
+    EXPECT_FALSE(late.kkt_residual.has_value());
+    EXPECT_EQ(late.constraint_violation, 0.0);
+  }
+  const Solution failed = claimed(Status::step_failed, vector({1.0, 1.0}), Eigen::VectorXd());
+  EXPECT_NEAR(failed.multipliers[0], -2.0, 1e-15);
+  EXPECT_TRUE(failed.multipliers_are_estimated);
+}
+
 TEST(Confirm, TakesSolvedBackWhereThePointIsNotStationary) {
   EXPECT_EQ(claimed(Status::solved, vector({1.0 + 1e-6, 1.0 - 1e-6}), vector({-2.0})).status, Status::not_confirmed);
 }
