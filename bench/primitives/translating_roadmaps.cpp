@@ -86,28 +86,37 @@ Cells turned_by(int quarters, Cells speed) {
   return speed;
 }
 
-/// Every trim for a time step, and maneuvers between any two of them with all displacements about that of the mean
-/// velocity, at most `reach` cells away.
-std::vector<PrimitiveRequest> plane_requests(const PlaneLattice& lattice, const std::vector<int>& durations,
-                                             const std::vector<int>& turns, int reach) {
+/// Which maneuvers are tried between two trims.
+struct ManeuverRange {
+  int quarters = 0;            ///< by which the frame turns
+  std::vector<int> durations;  ///< in time steps
+  std::vector<int> offsets;    ///< in cells, along both axes, from where the mean velocity leads to
+};
+
+/// Every trim for a time step, and maneuvers between any two of them.
+std::vector<PrimitiveRequest> plane_requests(const PlaneLattice& lattice, const std::vector<ManeuverRange>& ranges) {
   std::vector<PrimitiveRequest> requests;
   const std::size_t count = lattice.trims().size();
-  for (std::size_t from = 0; from < count; ++from) {
+  const auto add = [&](std::size_t from, std::size_t to, const ManeuverRange& range) {
     const Cells leaving = lattice.speeds()[from];
-    requests.push_back({.first = from, .last = from, .displacement = lattice.moved(leaving), .duration = 1});
-    for (std::size_t to = 0; to < count; ++to) {
-      for (const int quarters : turns) {
-        const Cells arriving = turned_by(quarters, lattice.speeds()[to]);
-        for (const int duration : durations) {
-          const Cells mean{duration * (leaving.x + arriving.x) / 2, duration * (leaving.y + arriving.y) / 2};
-          for (int x = mean.x - reach; x <= mean.x + reach; ++x) {
-            for (int y = mean.y - reach; y <= mean.y + reach; ++y) {
-              requests.push_back(
-                  {.first = from, .last = to, .displacement = lattice.moved({x, y}, quarters), .duration = duration});
-            }
-          }
+    const Cells arriving = turned_by(range.quarters, lattice.speeds()[to]);
+    for (const int duration : range.durations) {
+      const Cells mean{duration * (leaving.x + arriving.x) / 2, duration * (leaving.y + arriving.y) / 2};
+      for (const int x : range.offsets) {
+        for (const int y : range.offsets) {
+          requests.push_back({.first = from,
+                              .last = to,
+                              .displacement = lattice.moved({mean.x + x, mean.y + y}, range.quarters),
+                              .duration = duration});
         }
       }
+    }
+  };
+  for (std::size_t from = 0; from < count; ++from) {
+    requests.push_back(
+        {.first = from, .last = from, .displacement = lattice.moved(lattice.speeds()[from]), .duration = 1});
+    for (std::size_t to = 0; to < count; ++to) {
+      for (const ManeuverRange& range : ranges) add(from, to, range);
     }
   }
   return requests;
@@ -135,11 +144,12 @@ StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& 
   constexpr int steps = 12;
   constexpr Cells goal{16, 8};
   PlaneLattice lattice(problem, {along_axis(0), along_axis(1)}, goal, steps);
-  for (const int x : {0, 1, 2, 3}) {
+  for (const int x : {0, 1, 2}) {
     for (const int y : {0, 1}) lattice.add_trim({x, y}, problem.guess(0.0).u);
   }
-  PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 4);
-  solve_cheapest(problem, plane_requests(lattice, {4, 6}, {0}, 2), 6, library, options);
+  PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 3);
+  const std::vector<ManeuverRange> ranges{{.durations = {3, 4, 5, 6}, .offsets = {-1, 0, 1}}};
+  solve_cheapest(problem, plane_requests(lattice, ranges), 9, library, options);
   return grown_on(lattice, std::move(library), goal, 0, steps);
 }
 
@@ -147,14 +157,13 @@ StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions&
   constexpr int steps = 10;
   constexpr Cells goal{8, 8};
   PlaneLattice lattice(problem, {along_axis(0), along_axis(1), about_origin()}, goal, steps);
-  lattice.add_trim({0, 0}, Eigen::Vector2d::Zero());
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      if (x != 0 || y != 0) lattice.add_trim({x, y}, Eigen::Vector2d::Zero());
-    }
+  for (const Cells speed : {Cells{0, 0}, Cells{1, 0}, Cells{0, 1}, Cells{1, 1}, Cells{-1, 0}, Cells{0, -1}}) {
+    lattice.add_trim(speed, Eigen::Vector2d::Zero());
   }
-  PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 4);
-  solve_cheapest(problem, plane_requests(lattice, {3, 5}, {-1, 0, 1}, 2), 6, library, options);
+  PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 3);
+  const std::vector<ManeuverRange> ranges{{.quarters = 0, .durations = {3, 5}, .offsets = {-2, 0, 2}},
+                                          {.quarters = 1, .durations = {5, 7}, .offsets = {-6, -3, 0, 3, 6}}};
+  solve_cheapest(problem, plane_requests(lattice, ranges), 9, library, options);
   return grown_on(lattice, std::move(library), goal, 1, steps);
 }
 
