@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/experiment/column.hpp"
+#include "bench/primitives/planned_motion.hpp"
+
+namespace dmocbench {
+
+/// A point of the picture of a plan: where in the plane of the first two quantities of `Problem::picture`.
+struct PicturePoint {
+  std::string problem;
+  std::string part;  ///< "node" of the roadmap, "joint" of the path, or the motion "before" or "after" the full solve
+  std::optional<double> t;  ///< in the problem's unit of time; none of nodes
+  double x = 0.0;
+  double y = 0.0;
+  std::optional<double> u;  ///< the first control; none of nodes
+};
+
+[[nodiscard]] Columns<PicturePoint> picture_columns();
+
+/// Nodes (evenly chosen ones, if they are very many), path and motions.
+[[nodiscard]] std::vector<PicturePoint> picture_of(const PlannedMotion& planned);
+
+}  // namespace dmocbench

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/primitives/solve_primitives.hpp"
+#include "methods/primitives/stored_roadmap.hpp"
+
+namespace dmocbench {
+
+/// Builds the roadmap of a problem. Throws `Error` if it cannot, `Stopped` where the options ask for a stop.
+using BuildRoadmap = std::function<StoredRoadmap(const Problem& problem, const PrimitiveOptions& options)>;
+
+/// A problem with its primitives.
+struct RoadmapSystem {
+  std::string problem;
+  std::string nodes;  ///< what the nodes are, in a few words
+  BuildRoadmap build;
+  int intervals = 64;  ///< of the full solve
+  int stages = 2;      ///< of its Gauss tableau
+};
+
+/// All problems that have primitives. To add one, write its function below and a line into the list.
+[[nodiscard]] const std::vector<RoadmapSystem>& roadmap_systems();
+/// The one of that name. Throws `Error` that lists the names if there is none.
+[[nodiscard]] const RoadmapSystem& roadmap_system(const std::string& problem);
+
+/// Problems whose trims turn about an axis (`Problem::symmetry`) at any rate: circular orbits, the cones of a spherical
+/// pendulum.
+[[nodiscard]] StoredRoadmap rotating_roadmap(const Problem& problem, const PrimitiveOptions& options);
+/// The hovercraft: rest, gliding and turning on the spot, moved by translations and rotations of the plane.
+[[nodiscard]] StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions& options);
+/// The planar quadrotor: level flight in all directions, moved by translations.
+[[nodiscard]] StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& options);
+
+}  // namespace dmocbench

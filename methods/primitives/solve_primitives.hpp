@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
+#include "methods/primitives/displacement.hpp"
+#include "methods/primitives/primitive_library.hpp"
+#include "methods/transcription/interpolation.hpp"
+
+namespace dmocbench {
+
+/// A primitive that is wanted.
+struct PrimitiveRequest {
+  std::size_t first = 0;      ///< state of the library in which it begins
+  std::size_t last = 0;       ///< state in which it ends, moved by `displacement`
+  Displacement displacement;  ///< of its end
+  int duration = 1;           ///< in time steps
+  /// The motion from which it is solved; where it is none, the cubic polynomial between both states, with the controls
+  /// of the problem's guess at t = 0.
+  Motion start = {};
+};
+
+/// How primitives are solved.
+struct PrimitiveOptions {
+  double tolerance = 1e-9;
+  int most_iterations = 100;
+  bool falls_back = false;  ///< as in `BatchOptions`: what lanes cannot solve is solved once more, one by one
+  std::function<bool()> stop_requested = {};
+};
+
+/// Solves primitives by DMOC with the midpoint rule and appends those that are solved to the library, in the order of
+/// the requests. All of one duration are one batch (`solve_batch`): eight side by side, on all threads.
+///
+/// Bounds and path constraints are those of the problem. Throws `Error` if the problem has other ends than fixed ones,
+/// a free horizon, a final cost or boundary conditions, if a state does not exist, or a duration is less than a step.
+void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest>& requests, PrimitiveLibrary& library,
+                      const PrimitiveOptions& options = {});
+
+}  // namespace dmocbench
