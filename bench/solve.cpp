@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/tables/motion_file.hpp"
 
 namespace dmocbench::solve_program {
 

@@ -54,7 +54,13 @@ inline double value_of(double x, double y, double exponent) {
       return std::atan2(x, y);
     case Operation::power:
       return std::pow(x, exponent);
-    default:  // a constant or an input that is an output: copied
+    case Operation::inverse_hyperbolic_sine:
+      return std::asinh(x);
+    case Operation::error_function:
+      return std::erf(x);
+    case Operation::unit_step:
+      return x > 0.0 ? 1.0 : x <= 0.0 ? 0.0 : x;  // not the template of operation.hpp, which one set might keep for all
+    default:                                      // a constant or an input that is an output: copied
       return x;
   }
 }
