@@ -13,6 +13,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "methods/expression/operation.hpp"
+#include "methods/runtime/independent_iterations.hpp"
 
 namespace dmocbench {
 
@@ -110,7 +111,7 @@ inline void for_each_number(const TapeInstruction& instruction, double* const* s
                             std::index_sequence<k...> /*operands*/) {
   double* result = series[instruction.result];
   const std::array<const double*, sizeof...(k)> operands{series[instruction.operands[k]]...};
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < width.value; ++i) result[i] = function(operands[k][i]...);
 }
 
