@@ -1,6 +1,10 @@
 // Momentum-force consistency over the number of intervals: fig:kepler_J and fig:twolink_obj b) of the paper.
 #include <optional>
 #include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
@@ -26,13 +30,18 @@ class Consistency final : public Experiment {
         {"largest_force", "force", "largest force along the symmetry", of(result_, &Result::largest_force)},
     };
   }
+  /// Problems without a symmetry have no momentum to watch and are left out.
+  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    const Problem& problem = *curve.front().problem;
+    if (TracedProblem(problem).has_symmetry()) return curve;
+    left_out_.insert(problem.name());
+    return {};
+  }
   void check(const std::vector<Case>& cases) override {
-    std::set<const Problem*> problems;
-    for (const Case& the_case : cases) problems.insert(the_case.problem.get());
-    for (const Problem* problem : problems) {
-      if (TracedProblem(*problem).has_symmetry()) continue;
-      throw Error(problem->name() + " states no symmetry, so there is no momentum to watch");
-    }
+    const std::string names = fmt::format("{}", fmt::join(left_out_, ", "));
+    const char* const state = left_out_.size() > 1 ? "state" : "states";
+    if (cases.empty()) throw Error(fmt::format("{} {} no symmetry, so there is no momentum to watch", names, state));
+    if (!left_out_.empty()) fmt::print("{} {} no symmetry, so there is no momentum to watch: left out\n", names, state);
   }
   void complete(SolvedCase& solved) override {
     result_.reset();
@@ -40,6 +49,7 @@ class Consistency final : public Experiment {
   }
 
  private:
+  mutable std::set<std::string> left_out_;
   std::optional<MomentumConsistency> result_;
 };
 

@@ -86,10 +86,26 @@ void print_reference(const Problem& problem) {
   print_field("remark", reference->remark);
 }
 
+/// The card's words, unless they are those of the default and the problem has a guess of its own.
+std::string guess_in_words(const Problem& problem) {
+  const std::string words = problem.card().guess;
+  if (words != ProblemCard().guess) return words;
+  for (const double share : {0.0, 0.3, 0.6, 1.0}) {
+    const double t = share * problem.horizon();
+    const MotionPoint own = problem.guess(t);
+    const MotionPoint usual = problem.Problem::guess(t);
+    if (own.q != usual.q || own.v != usual.v || own.u != usual.u) {
+      return "one of its own, which its card (ProblemCard::guess) does not describe";
+    }
+  }
+  return words;
+}
+
 void print_problem(const Problem& problem) {
   const TracedProblem traced(problem);
   const auto q_names = problem.configuration_names();
-  fmt::print("{}\n    {}\n", problem.name(), problem.card().description);
+  fmt::print("{}\n", problem.name());
+  if (!problem.card().description.empty()) fmt::print("    {}\n", problem.card().description);
   const std::string& library = known_problems().origin(problem.name());
   print_field("library", library.empty() ? "dmocbench" : library);
   print_field("source", problem.card().source);
@@ -103,7 +119,7 @@ void print_problem(const Problem& problem) {
   print_field("rows", fmt::format("{} path constraints, {} boundary conditions", traced.path_constraint_count(),
                                   traced.boundary_condition_count()));
   print_reference(problem);
-  print_field("guess", problem.card().guess);
+  print_field("guess", guess_in_words(problem));
   print_field("scale", fmt::format("the cost is multiplied by {:g} for the solver", problem.cost_scale()));
   for (const Parameter& parameter : problem.parameters()) {
     fmt::print("    --set {}={:.6g}{}{}: {}, {}\n", parameter.name, parameter.value, parameter.unit.empty() ? "" : " ",

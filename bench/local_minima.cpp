@@ -9,6 +9,7 @@
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
+#include "bench/summary/selection.hpp"
 
 namespace dmocbench::local_minima_program {
 
@@ -59,7 +60,24 @@ class LocalMinima final : public Experiment {
     write_file(prefix.string() + "_minima.csv", minima.csv());
     write_file(prefix.string() + "_shares.csv", shares.csv());
     metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
+    for (const Selection& minimum :
+         Selection(minima)
+             .where("is_best", "yes")
+             .group_by({"problem", "intervals", "stages", "tableau", "solver", "derivatives"})) {
+      const Row& best = minimum.front();
+      fmt::print("{}, N = {}: the best minimum found by any method here costs {:.7g}\n", best.text("problem"),
+                 best.text("intervals"), best.needed("objective"));
+    }
     for (const Row& row : shares.rows()) {
+      if (Selection(minima)
+              .matching(row, {"problem", "tableau", "stages", "solver", "derivatives", "intervals"})
+              .where("is_best", "yes")
+              .empty()) {
+        fmt::print(
+            "{} {}: no answer of any method is confirmed to be a motion, so that none is the best: {} of {} solved\n",
+            row.text("problem"), row.text("method"), row.text("solved"), row.text("starts"));
+        continue;
+      }
       fmt::print("{} {}: best minimum in {} of {} ({:.0f} to {:.0f} %)\n", row.text("problem"), row.text("method"),
                  row.text("best"), row.text("starts"), 100.0 * row.number("share_lower").value_or(0.0),
                  100.0 * row.number("share_upper").value_or(1.0));

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/tables/motion_file.hpp"
 
 namespace dmocbench::solve_program {
 
@@ -47,7 +47,9 @@ class Solve final : public Experiment {
       : Experiment({.name = "solve",
                     .description =
                         "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
-                        "NAME_picture.csv; with several cases each NAME carries the case's label.",
+                        "NAME_picture.csv; with several cases each NAME carries the case's label. Figures are drawn of "
+                        "motions "
+                        "whose NAME is motion_PROBLEM.",
                     .options = {.intervals = "128", .start = "guess"},
                     .takes_costates = true,
                     .takes_parts = false}) {}

@@ -9,6 +9,10 @@ install(
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
 install(
+  TARGETS dmocbench_version dmocbench_dmocbench
+  EXPORT dmocbenchTargets
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(
   EXPORT dmocbenchTargets
   NAMESPACE dmocbench::
   DESTINATION ${DMOCBENCH_CMAKE_DIR})

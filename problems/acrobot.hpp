@@ -19,7 +19,7 @@ namespace dmocbench {
 ///
 /// Energy bounds the cost from below: the power of motor and friction at the elbow is uq̇₂ - b₂q̇₂² <= u²/(4b₂), hence
 /// ∫u² >= 4b₂ΔV, 27.468 with the guide's potential and 19.62 with the physical one.
-class Acrobot final : public Problem {
+class Acrobot : public Problem {
  public:
   Acrobot()
       : Problem({
@@ -30,6 +30,7 @@ class Acrobot final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "acrobot"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a double pendulum by a motor at its elbow in fixed time, least control effort",
             .source = "PROPT guide, example Acrobot, after Tedrake: Underactuated Robotics, chapter 3",

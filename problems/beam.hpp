@@ -16,11 +16,12 @@ namespace dmocbench {
 ///   l <= 1/6: x lies on it for 3l <= t <= 1 - 3l, u = -2/(3l)(1 - t/(3l)) before and 0 there, J = 8/(9l).
 /// ψ^p = -2u; ψ^q = -ψ̇^p jumps where x reaches the bound and where it leaves it. (With the factor ½ that some authors
 /// write before u², costs and costates are half of these.)
-class Beam final : public Problem, public ClosedForm {
+class Beam : public Problem, public ClosedForm {
  public:
   Beam() : Problem({{"bound", 0.1, "", "bound l of x", 1e-3, 1.0}}) {}
 
   [[nodiscard]] std::string name() const override { return "beam"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "elastic line between two clamps below a bound, least bending",
             .source =

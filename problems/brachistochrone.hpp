@@ -16,7 +16,7 @@ namespace dmocbench {
 /// control u = ω, so that T = φ₁ sqrt(R/g) with φ₁ and R such that it meets the end. The Hamiltonian is linear in u:
 /// the whole optimum is a singular arc. At t = 0, where the velocity is zero, the control has no effect: Gauss has no
 /// stage there, but Lobatto has one and leaves its control undetermined. Data of the Dymos example (metres, seconds).
-class Brachistochrone final : public Problem {
+class Brachistochrone : public Problem {
  public:
   Brachistochrone()
       : Problem({
@@ -26,6 +26,7 @@ class Brachistochrone final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "brachistochrone"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "the fastest descent between two points, controlled by the wire's reaction; free horizon",
             .source = "Johann Bernoulli 1696; data of the Dymos example",

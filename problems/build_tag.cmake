@@ -1,6 +1,6 @@
-# cmake -D OUTPUT=<header> -D VERSION=<version> -D HEADERS=<pattern>|... -P build_tag.cmake
-# Writes the header that tells which dmocbench this is: its version, and a checksum of the headers that problems include. It
-# is left alone where it says so already, so that nothing is compiled anew.
+# cmake -D OUTPUT=<header> -D HEADERS=<pattern>|... -P build_tag.cmake
+# Writes the header that tells which dmocbench this is: a checksum of the headers that problems include. It is left alone
+# where it says so already, so that nothing is compiled anew.
 string(REPLACE "|" ";" patterns "${HEADERS}")
 file(GLOB headers LIST_DIRECTORIES false ${patterns})
 list(SORT headers)
@@ -15,8 +15,6 @@ file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "\
 #pragma once
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): joined with other texts by the preprocessor
-/// The version of dmocbench.
-#define DMOCBENCH_VERSION \"${VERSION}\"
 /// A checksum of the headers that problems include.
 #define DMOCBENCH_HEADERS \"${checksum}\"
 // NOLINTEND(cppcoreguidelines-macro-usage)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <dmocbench/version.hpp>
 #include <dmocbench_build_tag.hpp>
 
 // What two builds have to agree in before one may use problems of the other: each entry "name=value;" is one that

@@ -14,7 +14,7 @@ namespace dmocbench {
 ///   L = ½(m₁ + m₂)ẋ² + m₂lẋθ̇ cos θ + ½m₂l²θ̇² + m₂gl cos θ,  f = (u, 0),  C = u²,
 /// from hanging at x = 0 to upright at x = d, at rest, T = 2 s, |u| <= 20 N and |x| <= 2 m (neither is active along the
 /// two minima that are known: θ swings back first, or forward first).
-class CartPole final : public Problem {
+class CartPole : public Problem {
  public:
   CartPole()
       : Problem({
@@ -28,6 +28,7 @@ class CartPole final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "cart_pole"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a pendulum on a cart in fixed time, least control effort",
             .source = "Kelly: An Introduction to Trajectory Optimization, SIAM Review 59 (2017), section 6",

@@ -15,7 +15,7 @@ namespace dmocbench {
 /// ρ = 0 as in Teo and Goh (then the control is singular, because the cost does not depend on it) or ρ = 0.01 as
 /// Augustin and Maurer add. |u₁| <= 2.83374, -0.80865 <= u₂ <= 0.71265, |ṡ| <= 2.5, |l̇| <= 1; from (0, 22, 0), l̇ = -1,
 /// to (10, 14, 0), ṡ = 2.5. Metres and seconds.
-class ContainerCrane final : public Problem {
+class ContainerCrane : public Problem {
  public:
   ContainerCrane()
       : Problem({
@@ -24,6 +24,7 @@ class ContainerCrane final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "container_crane"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "container crane in fixed time with the least swing, velocities bounded",

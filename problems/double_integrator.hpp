@@ -15,7 +15,7 @@ namespace dmocbench {
 ///
 /// A force of at most U < 6d/T² is a bound that is active: u = U until ½ - σ, -U from ½ + σ on and between them a line,
 /// with σ² = ¾ - 3d/(T²U), and J = TU²(½ - ⅔σ). Below 4d/T² no motion is left.
-class DoubleIntegrator final : public Problem, public ClosedForm {
+class DoubleIntegrator : public Problem, public ClosedForm {
  public:
   DoubleIntegrator()
       : Problem({
@@ -25,6 +25,7 @@ class DoubleIntegrator final : public Problem, public ClosedForm {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_integrator"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a unit mass from rest to rest in fixed time, least control effort",
             .source = "folklore; mineng_di of the PSOPT examples",

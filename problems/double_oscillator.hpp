@@ -12,7 +12,7 @@ namespace dmocbench {
 /// q = (x₁, x₂), L = ½m₁ẋ₁² + ½m₂ẋ₂² - ½k₁x₁² - ½k₂(x₂ - x₁)², f = (sin(2πt/T), -c(1 - u)ẋ₂): a force that depends on
 /// time and one that is the product of control and velocity. C = ½(x₁² + x₂² + u²), |u| <= 1, T = 2π, q(0) = 0; the
 /// initial velocity and the final state are free. Data: m = (100, 2) kg, k = (100, 3) N/m, c = 0.5 N s/m.
-class DoubleOscillator final : public Problem {
+class DoubleOscillator : public Problem {
  public:
   DoubleOscillator()
       : Problem({
@@ -24,6 +24,7 @@ class DoubleOscillator final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "double_oscillator"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "two shaken masses whose damper is the control, initial velocity and final state free",

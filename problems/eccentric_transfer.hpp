@@ -15,7 +15,7 @@ namespace dmocbench {
 /// first semi-major axis, time sqrt(a⁰³/(γM)), mass 1. Both ellipses have their apogee at φ = 0; from the apogee of the
 /// first, after d revolutions, to that of the last, in the time T = 2πd ((a⁰ + a^T)/2)^(3/2). At an apogee r = a(1 +
 /// e), ṙ = 0, φ̇ = sqrt(a(1 - e²))/r².
-class EccentricTransfer final : public Problem {
+class EccentricTransfer : public Problem {
  public:
   EccentricTransfer()
       : Problem({
@@ -26,6 +26,7 @@ class EccentricTransfer final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "eccentric_transfer"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "low thrust transfer of a satellite between two ellipses, least control effort",

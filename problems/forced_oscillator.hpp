@@ -13,9 +13,10 @@ namespace dmocbench {
 /// is x(π) = ∫ (sin(π - t), cos(π - t)) u dt with the Gramian diag(π/2, π/2), so that
 ///   u = (2/π) sin t,   q = (sin t - t cos t)/π,   J = 1/π.
 /// Source: the minimum energy control of a linear system, any textbook on linear systems; made for this suite.
-class ForcedOscillator final : public Problem {
+class ForcedOscillator : public Problem {
  public:
   [[nodiscard]] std::string name() const override { return "forced_oscillator"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "harmonic oscillator from rest to rest, least control effort; constant mass, optimum 1/pi",
             .source = "minimum energy control of a linear system, closed form; not in the paper",

@@ -14,7 +14,7 @@ namespace dmocbench {
 /// velocity (13.23, -1.288) m/s. Bulirsch, Nerz, Pesch and von Stryk, who posed it, have g = 9.80665 m/s² and
 /// (13.2275675, -1.28750052) m/s. Solved in units of 100 m and 10 s, which leave accelerations in m/s², and of the mass
 /// m; the cost is in m.
-class HangGlider final : public Problem {
+class HangGlider : public Problem {
  public:
   HangGlider()
       : Problem({
@@ -26,6 +26,7 @@ class HangGlider final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "hang_glider"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "hang glider through a thermal updraft to the largest distance",

@@ -12,7 +12,7 @@ namespace dmocbench {
 /// q = (x, y, θ), L = ½m(ẋ² + ẏ²) + ½Jθ̇², f = (R(θ)(u₁, u₂), -r u₂): u₁ pushes along the axis, u₂ across it at the
 /// distance r behind the centre, so there are fewer controls than degrees of freedom. C = ½|u|², from (0, 0, 0) at rest
 /// to (1, 1, π/2) at rest. Data: m = 1, J = 0.05, r = 0.1, T = 5.
-class Hovercraft final : public Problem {
+class Hovercraft : public Problem {
  public:
   Hovercraft()
       : Problem({
@@ -23,6 +23,7 @@ class Hovercraft final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "hovercraft"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "underactuated hovercraft to another place and attitude, least control effort",

@@ -12,11 +12,12 @@ namespace dmocbench {
 ///
 /// L = ½q̇² - ¼q⁴, f = u, hence q̈ = -q³ + u, C = ½(q² + q̇² + u²), from rest at q = 1 to rest at q = 1.5; nondimensional.
 /// Rao and Mease have ẋ = -x³ + u with C = ½(x² + u²) and these ends; here x is a configuration with a velocity.
-class Hypersensitive final : public Problem {
+class Hypersensitive : public Problem {
  public:
   Hypersensitive() : Problem({{"horizon", 40.0, "", "duration T", 1.0, 1e4}}) {}
 
   [[nodiscard]] std::string name() const override { return "hypersensitive"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "spring that hardens, driven to rest and away again: fast at both ends, slow between them",

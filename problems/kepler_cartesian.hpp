@@ -13,9 +13,10 @@ namespace dmocbench {
 /// `CircleToCircle`: `orbital_transfer` in another chart, hence with the same optimum. L_vv is constant here, so that
 /// tangent-space and Hamiltonian collocation are one method. Both ends lie on the x-axis for every number of
 /// revolutions d. Only the guess, a spiral, contains d, so that the solution must be checked for it.
-class KeplerCartesian final : public CircleToCircle {
+class KeplerCartesian : public CircleToCircle {
  public:
   [[nodiscard]] std::string name() const override { return "kepler_cartesian"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
     card.description = "the orbital transfer in Cartesian coordinates, where the mass matrix is constant";

@@ -17,7 +17,7 @@ namespace dmocbench {
 ///   L = ½ Σ_i J θ̇_i² + ½ m l² Σ_ij a_ij cos(θ_i - θ_j) θ̇_i θ̇_j - m g l Σ_i (n - i + ½) sin θ_i,
 /// f_i = u_i - u_{i+1} (motor i turns rod i against rod i - 1, u_{n+1} = 0), C = ½|u|², from hanging at rest to upright
 /// at rest. Data: m = 1, l = 1, J = ml²/12, T = 1.
-class LinkChain final : public Problem {
+class LinkChain : public Problem {
  public:
   LinkChain()
       : Problem({
@@ -29,6 +29,7 @@ class LinkChain final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "link_chain"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a planar chain of n rods in fixed time, least control effort",
             .source =

@@ -78,9 +78,10 @@ class CircleToCircle : public Problem {
 ///
 /// q = (r, φ), L = ½(ṙ² + r²φ̇²) + 1/r, f = (0, r u), C = u², data and units of `CircleToCircle`. φ is unwrapped:
 /// φ(T) = 2πd after d revolutions.
-class OrbitalTransfer final : public CircleToCircle {
+class OrbitalTransfer : public CircleToCircle {
  public:
   [[nodiscard]] std::string name() const override { return "orbital_transfer"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
     card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";

@@ -14,7 +14,7 @@ namespace dmocbench {
 ///
 /// Closed form: tan u = c(1 - 2τ) with τ = t/T, and with I = arcsinh(c)/c, ẋ(T) = aTI and
 /// y(T) = aT²(sqrt(1 + c²) - I)/(4c); eliminating T leaves one equation for c.
-class ParticleSteering final : public Problem {
+class ParticleSteering : public Problem {
  public:
   ParticleSteering()
       : Problem({
@@ -24,6 +24,7 @@ class ParticleSteering final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "particle_steering"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a particle steered by the direction of its thrust to a height and a speed, shortest time",
             .source = "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10",

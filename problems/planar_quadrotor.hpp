@@ -18,6 +18,7 @@ class PlanarQuadrotor : public Problem {
   PlanarQuadrotor() : PlanarQuadrotor(flight_duration) {}
 
   [[nodiscard]] std::string name() const override { return "planar_quadrotor"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "a quadrotor in a vertical plane flown from rest to rest in fixed time, least control effort",

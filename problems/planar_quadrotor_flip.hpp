@@ -8,11 +8,12 @@ namespace dmocbench {
 
 /// A somersault of the planar quadrotor: from rest at (0, 0, 0) to rest at (0, 0, 2π) in T = 1 s; all else is as in
 /// `PlanarQuadrotor`, by option 0 <= u <= mg.
-class PlanarQuadrotorFlip final : public PlanarQuadrotor {
+class PlanarQuadrotorFlip : public PlanarQuadrotor {
  public:
   PlanarQuadrotorFlip() : PlanarQuadrotor(flip_duration) {}
 
   [[nodiscard]] std::string name() const override { return "planar_quadrotor_flip"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = PlanarQuadrotor::card();
     card.description = "a somersault of a planar quadrotor on the spot in fixed time, least control effort";

@@ -16,7 +16,7 @@ namespace dmocbench {
 ///   f = u + (-½(∂I_θ/∂ρ θ̇² + ∂I_φ/∂ρ φ̇²), İ_θθ̇, İ_φφ̇ - ½ ∂I_θ/∂φ θ̇²);
 /// with `euler_lagrange` = 1, f = u, which is the true arm. Φ = T, |u_i| <= 1, 0 <= ρ <= ℓ, |θ| <= π, 0 <= φ <= π; from
 /// (4.5, 0, π/4) to (4.5, 2π/3, π/4), at rest. ℓ = 5.
-class RobotArm final : public Problem {
+class RobotArm : public Problem {
  public:
   RobotArm()
       : Problem({
@@ -26,6 +26,7 @@ class RobotArm final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "robot_arm"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "robot arm that slides and turns from rest to rest in the shortest time",

@@ -14,7 +14,7 @@ namespace dmocbench {
 /// cone θ the pendulum goes around at the rate sqrt(g/(l cos θ)) without any torque: both ends are such motions, from
 /// π/4 to π/3 during d revolutions. The coordinates are singular at θ = 0, far below both cones. Data: m = 1, l = 1,
 /// T = 1.5.
-class SphericalPendulum final : public Problem {
+class SphericalPendulum : public Problem {
  public:
   SphericalPendulum()
       : Problem({
@@ -28,6 +28,7 @@ class SphericalPendulum final : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "spherical_pendulum"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "spherical pendulum from one steady cone to a wider one, least control effort",

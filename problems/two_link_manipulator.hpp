@@ -29,6 +29,7 @@ class TwoLinkManipulator : public Problem {
         }) {}
 
   [[nodiscard]] std::string name() const override { return "two_link_manipulator"; }
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
     return {
         .description = "swing-up of a planar two-link arm in fixed time, least control effort",

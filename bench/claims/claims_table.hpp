@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
 #include "bench/summary/share_interval.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/compare/benchmark_file.hpp"
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

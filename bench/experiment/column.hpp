@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "bench/experiment/table.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

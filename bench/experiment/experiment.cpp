@@ -14,7 +14,6 @@
 #include "bench/experiment/cases_of_run.hpp"
 #include "bench/experiment/meanings.hpp"
 #include "bench/experiment/metadata.hpp"
-#include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/outcome.hpp"
 #include "bench/experiment/parts_of_run.hpp"
 #include "bench/experiment/problem_libraries.hpp"
@@ -25,6 +24,7 @@
 #include "bench/experiment/written_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/tables/motion_file.hpp"
 
 namespace dmocbench {
 
@@ -82,8 +82,9 @@ class Run {
       replace_earlier_files();
     }
     const bool complete = !interrupt_requested();
-    const Table table = write_table();
+    Table table = write_table();
     if (table.rows().empty()) throw_if_interrupted();
+    if (complete) write_file(table_file(), (table = experiment_.compared(table)).csv());
     const Outcome outcome = outcome_of(table);
     if (complete) {
       experiment_.finish(table, prefix_, metadata_);

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -156,7 +156,8 @@ RowsOfCases PartsOfRun::join(Json& metadata) const {
     experiment_.add_findings(file.description.at("findings"));
   }
   const auto lost = std::ranges::find(rows, false, &std::optional<Row>::has_value);
-  if (lost != rows.end()) throw Error(fmt::format("no part has a row of {}", cases_[lost - rows.begin()].label()));
+  if (lost != rows.end())
+    throw Error(fmt::format("no part has a row of {}", cases_[static_cast<std::size_t>(lost - rows.begin())].label()));
   describe_parts(files, metadata);
   forget_joining(metadata.at("command_line"));
   return rows;

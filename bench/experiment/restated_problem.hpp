@@ -53,6 +53,13 @@ class RestatedProblem final : public Problem {
     }
     return bounds;
   }
+  [[nodiscard]] std::string settings() const override { return base_->settings(); }
+  [[nodiscard]] std::vector<std::string> path_constraint_names() const override {
+    return base_->path_constraint_names();
+  }
+  [[nodiscard]] std::vector<std::string> boundary_condition_names() const override {
+    return base_->boundary_condition_names();
+  }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return base_->path_constraints(x);
   }

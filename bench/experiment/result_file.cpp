@@ -172,24 +172,6 @@ void append_to_file(const std::filesystem::path& path, std::string_view line) {
                 [&] { std::filesystem::resize_file(path, size, ignored); });
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(fmt::format("cannot read {}: it is a folder", path.string()));
-  }
-  if (std::filesystem::is_other(path, ignored)) {
-    throw Error(
-        fmt::format("cannot read {}: it is no regular file and might have no end; copy it to one", path.string()));
-  }
-  try {
-    std::ifstream stream(path, std::ios::binary);
-    std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream) return content;
-  } catch (const std::ios_base::failure&) {  // the system refuses to read what it has opened
-  }
-  throw Error(fmt::format("cannot read {}", path.string()));
-}
-
 ResultLock::ResultLock(const std::filesystem::path& prefix)
     : file_(prefix.parent_path() / fmt::format(".{}.lock", prefix.filename().string())) {
   // Another run removes its file when it ends; who was given that one by then has to ask for the new one.

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "methods/tables/text_file.hpp"
+
 namespace dmocbench {
 
 /// A folder for results, parents included; what it had to make and nothing was written to is gone when its time is
@@ -46,9 +48,6 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// Appends a line to a file, in one piece, so that a process that is killed leaves whole lines. Nothing waits for the
 /// disk. Throws `Error`, and leaves the file as it was, if the line cannot be written.
 void append_to_file(const std::filesystem::path& path, std::string_view line);
-
-/// The content of a regular file; others might have no end. Throws `Error` that names it if it cannot be read.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 /// While it lives, no other process has the results of that name in that folder: two runs never mix.
 class ResultLock {

@@ -46,6 +46,13 @@ Cell largest_step(const SolvedCase& solved) {
   return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->card().time_unit.factor;
 }
 
+Cell horizon_of(const SolvedCase& solved) {
+  const Problem& problem = *solved.the_case.problem;
+  const bool has_times = solved.trajectory && solved.trajectory->node_times.size() > 0;
+  const double horizon = has_times ? solved.trajectory->node_times.tail<1>()[0] : problem.horizon();
+  return horizon * problem.card().time_unit.factor;
+}
+
 }  // namespace
 
 const Columns<SolvedCase>& core_columns() {
@@ -59,6 +66,9 @@ const Columns<SolvedCase>& core_columns() {
       {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives)},
       {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals)},
       {"step", "time", "largest step of the start, in the problem's unit of time", largest_step},
+      {"horizon", "time", "T of the answer, or the guessed one, in the problem's unit of time", horizon_of},
+      {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",
+       [](const SolvedCase& s) { return s.the_case.problem->settings(); }},
       {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
       {"free_variables", "", "those not fixed by their bounds", count([](P p) { return free_variable_count(p); })},
       {"constraints", "", "constraints of the program", count([](P p) { return p.constraint_count(); })},

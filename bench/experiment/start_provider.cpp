@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/motion_file.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/written_tables.hpp"
@@ -20,6 +19,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/polish.hpp"
+#include "methods/tables/motion_file.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

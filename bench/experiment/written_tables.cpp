@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/table.hpp"
 #include "methods/error.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -8,6 +8,7 @@
 
 #include "bench/report/html.hpp"
 #include "bench/report/sections.hpp"
+#include "methods/tables/motion_file.hpp"
 
 namespace dmocbench {
 
@@ -26,12 +27,6 @@ std::vector<double> column_of(const Table& table, const std::string& column) {
   std::vector<double> values;
   for (const Row& row : table.rows()) values.push_back(row.number(column, std::nan("")));
   return values;
-}
-
-/// "tip_x" and "[m]" of "tip_x_[m]".
-std::pair<std::string, std::string> name_and_unit(const std::string& column) {
-  const std::size_t bracket = std::min(column.find("_["), column.size());
-  return {column.substr(0, bracket), column.substr(std::min(bracket + 1, column.size()))};
 }
 
 /// The points whose two coordinates are columns with one unit, that of the first point.

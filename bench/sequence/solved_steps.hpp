@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/experiment/solve_case.hpp"
-#include "bench/experiment/table.hpp"
 #include "bench/sequence/neighbours.hpp"
 #include "methods/solvers/prepared_solve.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/compare/benchmark_file.hpp"
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "bench/speed/kernels.hpp"
+#include "methods/runtime/independent_iterations.hpp"
 
 namespace dmocbench::speed {
 
@@ -12,7 +13,7 @@ namespace {
 void residual(std::size_t intervals, const HandColumns& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
   const auto out = first<4>(columns.out);
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
     const double rate = 1.0 / h;
@@ -29,7 +30,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
 void jacobian(std::size_t intervals, const HandColumns& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
   const auto out = first<18>(columns.out);
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
     const double rate = 1.0 / h;
@@ -59,7 +60,7 @@ void hessian(std::size_t intervals, const HandColumns& columns) {
               lambda_right_r, lambda_right_phi] = first<12>(columns.in);
   const double factor = columns.factor;
   const auto out = first<13>(columns.out);
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t k = 0; k < intervals; ++k) {
     const double h = step[k];
     const double rate = 1.0 / h;

@@ -8,6 +8,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "bench/speed/kernels.hpp"
+#include "methods/runtime/independent_iterations.hpp"
 
 namespace dmocbench::speed {
 
@@ -42,7 +43,7 @@ template <class Function, class Formulas>
   const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = first<7>(columns.in);
   for (std::size_t begin = 0; begin < intervals; begin += width) {
     const std::size_t count = std::min(width, intervals - begin);
-#pragma GCC ivdep
+    DMOCBENCH_INDEPENDENT_ITERATIONS
     for (std::size_t i = 0; i < count; ++i) {
       theta_1[i] = 0.5 * (left_1[begin + i] + right_1[begin + i]);
       theta_2[i] = 0.5 * (left_2[begin + i] + right_2[begin + i]);
@@ -55,7 +56,7 @@ template <class Function, class Formulas>
       function(Vector::load_aligned(&theta_1[i])).store_aligned(&function_1[i]);
       function(Vector::load_aligned(&theta_2[i])).store_aligned(&function_2[i]);
     }
-#pragma GCC ivdep
+    DMOCBENCH_INDEPENDENT_ITERATIONS
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t k = begin + i;
       const double rate = 1.0 / step[k];

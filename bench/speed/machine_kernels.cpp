@@ -5,6 +5,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "bench/speed/kernels.hpp"
+#include "methods/runtime/independent_iterations.hpp"
 
 namespace dmocbench::speed {
 
@@ -30,7 +31,7 @@ double arithmetic(std::size_t turns) {
 }
 
 void triad(std::size_t size, double* a, const double* b, const double* c, double factor) {
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < size; ++i) a[i] = b[i] + factor * c[i];
 }
 

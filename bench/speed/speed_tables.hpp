@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/compare/benchmark_file.hpp"
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/experiment/solve_case.hpp"
-#include "bench/experiment/table.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "methods/numerics/median.hpp"
@@ -65,6 +67,9 @@ void set_measure(const Contest& contest, const std::string& measure, const std::
 std::string reference_in_words(const Row& row) {
   const auto reference = row.number("reference_objective");
   const auto digits = row.number("reference_digits");
+  if (reference && row.text("reference_kind") == best_found_reference) {
+    return fmt::format("{:.7g} ({})", *reference, best_found_reference);
+  }
   if (!reference || !digits) return "unknown";
   return fmt::format("{:.{}g} ({} digits)", *reference, static_cast<int>(*digits), *digits);
 }
@@ -140,10 +145,33 @@ Table profile_summary(const Selection& rows) {
   return table;
 }
 
+Table with_best_found_references(const Table& rows, double tolerance) {
+  std::map<std::string, double> best;
+  for (const Selection& problem : Selection(rows).group_by({"problem"})) {
+    const Selection solved = problem.where("status", "solved").with_number("objective").sorted_by("intervals");
+    if (solved.empty() || problem.front().number("reference_objective")) continue;
+    best[problem.front().text("problem")] = solved.where("intervals", solved.back().text("intervals")).min("objective");
+  }
+  Table result(rows.columns());
+  for (Row row : rows.rows()) {
+    const auto found = best.find(row.text("problem"));
+    if (found != best.end()) {
+      row.set("reference_objective", found->second);
+      row.set("reference_kind", best_found_reference);
+      const auto objective = row.text("status") == "solved" ? row.number("objective") : std::nullopt;
+      const double error = std::abs(objective.value_or(never) - found->second);
+      if (objective) row.set("objective_error", error);
+      row.set("success", error <= tolerance * std::abs(found->second) ? "yes" : "no");
+    }
+    result.append(std::move(row));
+  }
+  return result;
+}
+
 Table library_table(const Selection& rows) {
-  Table library({"problem", "reference_objective", "reference_digits", "method", "tableau", "stages", "solver",
-                 "derivatives", "intervals", "status", "objective", "relative_difference", "success", "replay_error",
-                 "message"});
+  Table library({"problem", "reference_objective", "reference_digits", "reference_kind", "method", "tableau", "stages",
+                 "solver", "derivatives", "intervals", "status", "objective", "relative_difference", "success",
+                 "replay_error", "message"});
   for (const Selection& curve : rows.group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
     for (const Row& row : curve.where("intervals", curve.sorted_by("intervals").back().text("intervals"))) {
       Row line = fields_of(row, library.columns());

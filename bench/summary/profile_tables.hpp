@@ -25,8 +25,17 @@ namespace dmocbench {
 /// measure), and `wins_` per measure: on how many instances it is the best or as good.
 [[nodiscard]] Table profile_summary(const Selection& rows);
 
+/// Where the cost of a reference comes from, as the column `reference_kind` tells.
+inline constexpr const char* stated_reference = "stated by the problem";
+inline constexpr const char* best_found_reference = "best found by any method here";
+
+/// The rows, with a reference for problems that state none: the lowest cost of their solved rows on the finest grid
+/// that has any. `reference_objective`, `reference_kind`, `objective_error` and `success` are those beside it; success
+/// is a solve within `tolerance` of it, relative. Problems that nothing solves stay as they are.
+[[nodiscard]] Table with_best_found_references(const Table& rows, double tolerance);
+
 /// What every method reaches on every problem, at the finest grid of the rows:
-/// problem,reference_objective,reference_digits,method,tableau,stages,solver,derivatives,intervals,status,objective,
+/// problem,reference_objective,reference_digits,reference_kind,method,tableau,stages,solver,derivatives,intervals,status,objective,
 /// relative_difference,success,replay_error,message, in the order of the rows.
 ///
 /// `relative_difference` is (objective - reference_objective) / |reference_objective|, with its sign: a minimum is

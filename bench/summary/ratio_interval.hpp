@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

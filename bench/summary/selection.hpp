@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 

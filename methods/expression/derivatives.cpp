@@ -1,6 +1,7 @@
 #include "methods/expression/derivatives.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -60,6 +61,12 @@ Expression adjoint_of_operand(const Expression& adjoint, Node* node, std::size_t
       return adjoint * (1.0 - result * result);
     case Operation::power:
       return adjoint * (node->value() * pow(x, node->value() - 1.0));
+    case Operation::inverse_hyperbolic_sine:
+      return adjoint * (1.0 / sqrt(1.0 + x * x));
+    case Operation::error_function:
+      return adjoint * (2.0 * std::numbers::inv_sqrtpi * exp(-(x * x)));
+    case Operation::unit_step:
+      return {};
     case Operation::constant:
     case Operation::input:
     case Operation::divide:

@@ -219,6 +219,11 @@ Expression atan(const Expression& x) { return function(Operation::arc_tangent, s
 Expression sinh(const Expression& x) { return function(Operation::hyperbolic_sine, std::sinh, Symmetry::odd, x); }
 Expression cosh(const Expression& x) { return function(Operation::hyperbolic_cosine, std::cosh, Symmetry::even, x); }
 Expression tanh(const Expression& x) { return function(Operation::hyperbolic_tangent, std::tanh, Symmetry::odd, x); }
+Expression asinh(const Expression& x) {
+  return function(Operation::inverse_hyperbolic_sine, std::asinh, Symmetry::odd, x);
+}
+Expression erf(const Expression& x) { return function(Operation::error_function, std::erf, Symmetry::odd, x); }
+Expression hypot(const Expression& x, const Expression& y) { return sqrt(x * x + y * y); }
 
 Expression atan2(const Expression& y, const Expression& x) {
   const auto a = y.constant_value();
@@ -237,6 +242,10 @@ Expression pow(const Expression& x, double exponent) {
     return exponent < 0.0 ? 1.0 / magnitude : magnitude;
   }
   return make(NodeKey{.operation = Operation::power, .value = exponent, .operands = {x.node(), nullptr}});
+}
+
+Expression detail::unit_step(const Expression& x) {
+  return function(Operation::unit_step, detail::unit_step<double>, Symmetry::none, x);
 }
 
 }  // namespace dmocbench

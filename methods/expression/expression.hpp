@@ -20,6 +20,8 @@ namespace dmocbench {
 /// threads throws `Error`. A node is freed when the last expression that reads it is gone.
 ///
 /// Expressions cannot be compared: a traced formula that branches on a value would be traced on one side only.
+/// Functions with a kink or a jump are deleted for the same reason; the line of each names the smooth one
+/// (`smooth.hpp`).
 class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one assignment copies or moves
  public:
   /// The constant 0.
@@ -58,6 +60,18 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   Expression& operator*=(const Expression& right);
   Expression& operator/=(const Expression& right);
 
+  // Compilers show the line that deletes a function, and with it what to write instead.
+  friend Expression abs(const Expression& x) = delete;                        // not smooth: write smooth_abs(x, eps)
+  friend Expression fabs(const Expression& x) = delete;                       // not smooth: write smooth_abs(x, eps)
+  friend Expression max(const Expression& x, const Expression& y) = delete;   // not smooth: write smooth_max(x, y, eps)
+  friend Expression fmax(const Expression& x, const Expression& y) = delete;  // not smooth: write smooth_max(x, y, eps)
+  friend Expression min(const Expression& x, const Expression& y) = delete;   // not smooth: write smooth_min(x, y, eps)
+  friend Expression fmin(const Expression& x, const Expression& y) = delete;  // not smooth: write smooth_min(x, y, eps)
+  friend Expression sign(const Expression& x) = delete;                       // not smooth: write smooth_sign(x, eps)
+  template <class C>
+  friend Expression if_else(C, const Expression&, const Expression&) = delete;  // write smooth_if_else(x, a, b, eps)
+  friend Expression pow(const Expression& x, const Expression& y) = delete;     // write exp(y * log(x)), where x > 0
+
   /// The graph's node; for the algorithms of this folder.
   [[nodiscard]] detail::Node* node() const noexcept { return node_; }
   /// The expression that a node stands for; for the algorithms of this folder.
@@ -90,16 +104,29 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
 [[nodiscard]] Expression sinh(const Expression& x);
 [[nodiscard]] Expression cosh(const Expression& x);
 [[nodiscard]] Expression tanh(const Expression& x);
+/// log(x + √(x² + 1)), without cancellation.
+[[nodiscard]] Expression asinh(const Expression& x);
+/// 2/√π ∫₀ˣ exp(-t²) dt.
+[[nodiscard]] Expression erf(const Expression& x);
+/// √(x² + y²) by just that formula: not for numbers whose squares overflow, and not differentiable at 0.
+[[nodiscard]] Expression hypot(const Expression& x, const Expression& y);
 /// x to a constant exponent. Integers up to 16 in magnitude are products, ±1/2 is a square root.
 [[nodiscard]] Expression pow(const Expression& x, double exponent);
 
-// A traced formula cannot branch on a value: comparisons do not compile.
+// A traced formula cannot branch on a value: comparisons do not compile. smooth_if_else, smooth_max and smooth_min do
+// not need them.
 bool operator==(const Expression&, const Expression&) = delete;
 bool operator!=(const Expression&, const Expression&) = delete;
 bool operator<(const Expression&, const Expression&) = delete;
 bool operator<=(const Expression&, const Expression&) = delete;
 bool operator>(const Expression&, const Expression&) = delete;
 bool operator>=(const Expression&, const Expression&) = delete;
+
+namespace detail {
+/// `Operation::unit_step`: a product with it is a formula that holds on one side of x = 0 only. Its derivative is 0, so
+/// that derivatives of sums of such products are right where those formulas join smoothly.
+[[nodiscard]] Expression unit_step(const Expression& x);
+}  // namespace detail
 
 /// Number of nodes alive on this thread, inputs and constants (apart from 0) among them.
 [[nodiscard]] std::size_t live_nodes() noexcept;

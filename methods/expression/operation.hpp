@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -32,6 +33,11 @@ enum class Operation : std::uint8_t {
   hyperbolic_cosine,
   hyperbolic_tangent,
   power,
+  inverse_hyperbolic_sine,
+  error_function,
+  /// 1 where the operand is positive, else 0; its derivative counts as 0. Where a spline passes from one cubic to the
+  /// next.
+  unit_step,
 };
 
 /// Number of operands: 0 for constants and inputs, 1 or 2 otherwise. `power` has 1; its exponent is part of the node.
@@ -50,5 +56,14 @@ enum class Operation : std::uint8_t {
       return 1;
   }
 }
+
+namespace detail {
+/// The value of `Operation::unit_step` at a number; NaN passes.
+template <std::floating_point Real>
+[[nodiscard]] constexpr Real unit_step(Real x) noexcept {
+  if (x > Real(0)) return Real(1);
+  return x <= Real(0) ? Real(0) : x;
+}
+}  // namespace detail
 
 }  // namespace dmocbench

@@ -14,8 +14,8 @@ namespace detail {
 /// One step on values of type Scalar. Functions are found by argument-dependent lookup, or in std.
 template <class Scalar>
 Scalar replay_operation(const Schedule::Step& step, const std::vector<Scalar>& values) {
-  using std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow, std::sin,
-      std::sinh, std::sqrt, std::tan, std::tanh;
+  using std::acos, std::asin, std::asinh, std::atan, std::atan2, std::cos, std::cosh, std::erf, std::exp, std::log,
+      std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   const Scalar& x = values[step.left];
   const Scalar& y = values[step.right];
   switch (step.operation) {
@@ -59,6 +59,12 @@ Scalar replay_operation(const Schedule::Step& step, const std::vector<Scalar>& v
       return Scalar(tanh(x));
     case Operation::power:
       return Scalar(pow(x, step.value));
+    case Operation::inverse_hyperbolic_sine:
+      return Scalar(asinh(x));
+    case Operation::error_function:
+      return Scalar(erf(x));
+    case Operation::unit_step:
+      return Scalar(unit_step(x));
     case Operation::constant:
     case Operation::input:
       break;

@@ -13,6 +13,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "methods/expression/operation.hpp"
+#include "methods/runtime/independent_iterations.hpp"
 
 namespace dmocbench {
 
@@ -54,7 +55,13 @@ inline double value_of(double x, double y, double exponent) {
       return std::atan2(x, y);
     case Operation::power:
       return std::pow(x, exponent);
-    default:  // a constant or an input that is an output: copied
+    case Operation::inverse_hyperbolic_sine:
+      return std::asinh(x);
+    case Operation::error_function:
+      return std::erf(x);
+    case Operation::unit_step:
+      return x > 0.0 ? 1.0 : x <= 0.0 ? 0.0 : x;  // not the template of operation.hpp, which one set might keep for all
+    default:                                      // a constant or an input that is an output: copied
       return x;
   }
 }
@@ -104,7 +111,7 @@ inline void for_each_number(const TapeInstruction& instruction, double* const* s
                             std::index_sequence<k...> /*operands*/) {
   double* result = series[instruction.result];
   const std::array<const double*, sizeof...(k)> operands{series[instruction.operands[k]]...};
-#pragma GCC ivdep
+  DMOCBENCH_INDEPENDENT_ITERATIONS
   for (std::size_t i = 0; i < width.value; ++i) result[i] = function(operands[k][i]...);
 }
 

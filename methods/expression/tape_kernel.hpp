@@ -24,7 +24,7 @@ namespace instruction_code {
 inline constexpr std::size_t innermost = 3;     // add, subtract, multiply
 inline constexpr std::size_t combinations = 4;  // and subtract_from
 
-inline constexpr std::size_t sine_and_cosine = static_cast<std::size_t>(Operation::power) + 1;
+inline constexpr std::size_t sine_and_cosine = static_cast<std::size_t>(Operation::unit_step) + 1;
 inline constexpr std::size_t first_pair = sine_and_cosine + 1;
 inline constexpr std::size_t pairs = innermost * combinations;
 inline constexpr std::size_t first_chain = first_pair + pairs;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,18 +28,85 @@ struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocben
   };
 };
 
+/// Numbers and traced numbers may meet: 0.5 * x.v, Eigen::VectorXd + x.q.
+template <class Operation>
+struct Eigen::ScalarBinaryOpTraits<double, dmocbench::Expression, Operation> {
+  using ReturnType = dmocbench::Expression;
+};
+template <class Operation>
+struct Eigen::ScalarBinaryOpTraits<dmocbench::Expression, double, Operation> {
+  using ReturnType = dmocbench::Expression;
+};
+
 namespace dmocbench {
+
+namespace detail {
+/// Throws `Error` that tells the sizes unless the factors of a product fit.
+void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns);
+/// Throws `Error` that names the vector, its size and the entry.
+[[noreturn]] void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size);
+}  // namespace detail
 
 /// A vector of traced numbers.
 using ExpressionVector = Eigen::Matrix<Expression, Eigen::Dynamic, 1>;
 /// A matrix of traced numbers; an entry that is the constant 0 is a structural zero.
 using ExpressionMatrix = Eigen::Matrix<Expression, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Matrix times vector. (Eigen's own product compares numbers, which traced numbers cannot.) Other products of matrices
-/// of expressions: `a.lazyProduct(b)`.
-[[nodiscard]] inline ExpressionVector operator*(const ExpressionMatrix& a, const ExpressionVector& x) {
-  return a.lazyProduct(x);
+/// The two factors of a product of matrices or vectors, one of them traced, the other traced too or of numbers.
+template <class Left, class Right>
+concept TracedFactors = requires(const Left& a, const Right& b) {
+  []<class A, class B>(const Eigen::MatrixBase<A>&, const Eigen::MatrixBase<B>&) {}(a, b);
+  requires std::same_as<typename Left::Scalar, Expression> || std::same_as<typename Right::Scalar, Expression>;
+  requires std::same_as<typename Left::Scalar, Expression> || std::same_as<typename Left::Scalar, double>;
+  requires std::same_as<typename Right::Scalar, Expression> || std::same_as<typename Right::Scalar, double>;
+};
+
+/// The product of matrices, of a matrix and a vector, or of a row and a column, which is a number. (Eigen's own product
+/// compares numbers, which traced numbers cannot.) Throws `Error` if the sizes do not fit.
+template <class Left, class Right>
+  requires TracedFactors<Left, Right>
+[[nodiscard]] auto operator*(const Left& a, const Right& b) {
+  constexpr int rows = Left::RowsAtCompileTime;
+  constexpr int columns = Right::ColsAtCompileTime;
+  detail::require_factors(a.rows(), a.cols(), b.rows(), b.cols());
+  // Factors that are formulas themselves are computed once, not once for every entry.
+  const auto& left = a.derived().eval();
+  const auto& right = b.derived().eval();
+  Eigen::Matrix<Expression, rows, columns> product(a.rows(), b.cols());
+  for (Eigen::Index i = 0; i < product.rows(); ++i) {
+    for (Eigen::Index j = 0; j < product.cols(); ++j) {
+      Expression& entry = product(i, j);
+      for (Eigen::Index k = 0; k < left.cols(); ++k) entry += left(i, k) * right(k, j);
+    }
+  }
+  if constexpr (rows == 1 && columns == 1) {
+    return Expression(product(0, 0));
+  } else {
+    return product;
+  }
 }
+
+/// A vector whose name errors tell: an entry that it has not is an `Error`, not a read of foreign memory.
+template <char name>
+class NamedVector : public ExpressionVector {
+ public:
+  NamedVector() = default;
+  NamedVector(const ExpressionVector& entries) : ExpressionVector(entries) {}                 // NOLINT(*-explicit-*)
+  NamedVector(ExpressionVector&& entries) noexcept : ExpressionVector(std::move(entries)) {}  // NOLINT(*-explicit-*)
+  template <class Derived>
+  NamedVector(const Eigen::MatrixBase<Derived>& entries) : ExpressionVector(entries) {}  // NOLINT(*-explicit-*)
+
+  [[nodiscard]] const Expression& operator[](Eigen::Index entry) const { return coeffRef(checked(entry)); }
+  [[nodiscard]] Expression& operator[](Eigen::Index entry) { return coeffRef(checked(entry)); }
+  [[nodiscard]] const Expression& operator()(Eigen::Index entry) const { return coeffRef(checked(entry)); }
+  [[nodiscard]] Expression& operator()(Eigen::Index entry) { return coeffRef(checked(entry)); }
+
+ private:
+  [[nodiscard]] Eigen::Index checked(Eigen::Index entry) const {
+    if (entry < 0 || entry >= size()) detail::throw_no_entry(name, entry, size());
+    return entry;
+  }
+};
 
 [[nodiscard]] inline std::span<const Expression> entries_of(const ExpressionVector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};

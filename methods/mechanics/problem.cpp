@@ -1,9 +1,14 @@
 #include "methods/mechanics/problem.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <typeinfo>
 #include <utility>
 
+#include <cxxabi.h>
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
@@ -24,6 +29,16 @@ void Parameter::check(double candidate) const {
 }
 
 namespace {
+
+/// The name of a problem's class, without namespaces and arguments of templates.
+std::string class_of(const Problem& problem) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> text(  // NOLINT(cppcoreguidelines-no-malloc): as the ABI has it
+      abi::__cxa_demangle(typeid(problem).name(), nullptr, nullptr, &status), &std::free);
+  std::string name = status == 0 ? text.get() : "problem";
+  name.resize(std::min(name.find('<'), name.size()));
+  return name.substr(name.rfind(':') + 1);  // npos + 1 is 0
+}
 
 /// ∫ |C| dt + |Φ| along the guess; none where its parts have the wrong size, which is told elsewhere.
 std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
@@ -52,6 +67,25 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
 }
 
 }  // namespace
+
+std::string Problem::name() const {
+  const std::string type = class_of(*this);
+  std::string name;
+  for (const char letter : type) {
+    const bool is_capital = std::isupper(static_cast<unsigned char>(letter)) != 0;
+    if (is_capital && !name.empty() && name.back() != '_') name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  return name;
+}
+
+std::unique_ptr<Problem> Problem::clone() const {
+  const std::string type = class_of(*this);
+  throw Error(fmt::format(
+      "{} cannot be copied without knowing its class; give {} the line \"std::unique_ptr<Problem> clone() const "
+      "override {{ return copy_of(*this); }}\"",
+      name(), type));
+}
 
 double Problem::cost_scale() const {
   constexpr int left_alone = 5;  // powers of two
@@ -83,6 +117,10 @@ ProblemBounds Problem::bounds() const {
 ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const { return {}; }
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
+
+std::vector<std::string> Problem::path_constraint_names() const { return {}; }
+
+std::vector<std::string> Problem::boundary_condition_names() const { return {}; }
 
 Expression Problem::final_cost(const State& /*last*/) const { return {}; }
 
@@ -129,6 +167,15 @@ void Problem::set_parameter(std::string_view name, double value) {
   Parameter& parameter = parameters_[parameter_number(*this, name)];
   parameter.check(value);
   parameter.value = value;
+}
+
+std::string Problem::settings() const {
+  std::string text;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const auto& [name, value] = std::pair(parameters_[i].name, parameters_[i].value);
+    if (value != defaults_[i]) text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+  }
+  return text;
 }
 
 bool Problem::has_default_parameters(std::initializer_list<std::string_view> except) const {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <concepts>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,13 +51,13 @@ struct Parameter {
 class Problem {
  public:
   virtual ~Problem() = default;
-  Problem(const Problem&) = delete;
-  Problem& operator=(const Problem&) = delete;
-  Problem(Problem&&) = delete;
-  Problem& operator=(Problem&&) = delete;
 
-  /// snake_case, as on the command line.
-  [[nodiscard]] virtual std::string name() const = 0;
+  /// snake_case, as on the command line. Default: that of the class, pendulum_swing_up of PendulumSwingUp.
+  [[nodiscard]] virtual std::string name() const;
+  /// A copy, with the parameters as they are set. (A variant of a problem is a class derived from it that overrides
+  /// what differs.) Default: throws `Error` that says how a class offers it, which takes one line:
+  /// `std::unique_ptr<Problem> clone() const override { return copy_of(*this); }`.
+  [[nodiscard]] virtual std::unique_ptr<Problem> clone() const;
   /// Description, source, units and reference optimum, for people.
   [[nodiscard]] virtual ProblemCard card() const { return {}; }
 
@@ -86,6 +89,9 @@ class Problem {
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
   /// conditions. `last.t` is T.
   [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
+  /// What failed solves call the entries of `path_constraints` and `boundary_conditions`. Default: by their numbers.
+  [[nodiscard]] virtual std::vector<std::string> path_constraint_names() const;
+  [[nodiscard]] virtual std::vector<std::string> boundary_condition_names() const;
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;
 
@@ -123,8 +129,23 @@ class Problem {
   /// with which it was computed.
   [[nodiscard]] bool has_default_parameters(std::initializer_list<std::string_view> except = {}) const;
 
+  /// The parameters that differ from their defaults, as on the command line: "mass=2 length=0.5"; empty if none does.
+  [[nodiscard]] virtual std::string settings() const;
+
  protected:
   explicit Problem(std::vector<Parameter> parameters = {});
+  // Classes of problems are copied, never a problem by its base.
+  Problem(const Problem&) = default;
+  Problem& operator=(const Problem&) = default;
+  Problem(Problem&&) = default;
+  Problem& operator=(Problem&&) = default;
+
+  /// For `clone`. Throws `Error` if the problem is of a class derived from `Class`, whose additions would be lost.
+  template <std::derived_from<Problem> Class>
+  [[nodiscard]] static std::unique_ptr<Problem> copy_of(const Class& problem) {
+    if (typeid(problem) != typeid(Class)) static_cast<void>(problem.Problem::clone());
+    return std::make_unique<Class>(problem);
+  }
 
  private:
   std::vector<Parameter> parameters_;

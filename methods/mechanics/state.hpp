@@ -4,22 +4,24 @@
 
 #include <Eigen/Core>
 
+#include "methods/expression/smooth.hpp"
+#include "methods/expression/spline.hpp"
 #include "methods/expression/vectors.hpp"
 
 namespace dmocbench {
 
 /// A point of the tangent space at a time, as traced numbers: the argument of a Lagrangian.
 struct State {
-  ExpressionVector q;  ///< configuration, n entries
-  ExpressionVector v;  ///< velocity q̇, n entries
+  NamedVector<'q'> q;  ///< configuration, n entries
+  NamedVector<'v'> v;  ///< velocity q̇, n entries
   Expression t;        ///< time
 };
 
 /// A state and the control that acts there: the argument of forces and running costs.
 struct ControlledState {
-  ExpressionVector q;  ///< configuration, n entries
-  ExpressionVector v;  ///< velocity q̇, n entries
-  ExpressionVector u;  ///< control, m entries
+  NamedVector<'q'> q;  ///< configuration, n entries
+  NamedVector<'v'> v;  ///< velocity q̇, n entries
+  NamedVector<'u'> u;  ///< control, m entries
   Expression t;        ///< time
 
   [[nodiscard]] State state() const { return {q, v, t}; }

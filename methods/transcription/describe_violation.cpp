@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/expression/schedule.hpp"
 #include "methods/transcription/undefined_stage.hpp"
 
 namespace dmocbench {
@@ -15,6 +16,11 @@ namespace {
 /// "q[1] (theta)".
 std::string named(char symbol, Eigen::Index i, const std::vector<std::string>& names) {
   return fmt::format("{}[{}] ({})", symbol, i, names[static_cast<std::size_t>(i)]);
+}
+
+/// "path_constraints[1] (clearance)"; without the name where the problem gives none.
+std::string entry_of(const char* function, std::size_t i, const std::vector<std::string>& names) {
+  return fmt::format("{}[{}]{}", function, i, i < names.size() ? " (" + names[i] + ")" : "");
 }
 
 /// Words for the constraints and unknowns of a transcription at one point.
@@ -36,7 +42,7 @@ class Wording {
     const Eigen::Index own = column - shape.node_rows;
     if (own < shape.interval_rows()) return interval_row(own, place.index);
     if (place.kind == Place::Kind::border) {
-      return fmt::format("boundary_conditions[{}]", row - rows.runs().back().first);
+      return entry_of("boundary_conditions", row - rows.runs().back().first, problem_->boundary_condition_names());
     }
     return "lagrangian: the momentum p = L_v of " + coordinate((own - shape.interval_rows()) % n_) + where(place);
   }
@@ -102,7 +108,10 @@ class Wording {
     const std::vector<Eigen::Index> velocities = transcription_->bounds().bounded_velocities();
     const auto bounded = static_cast<Eigen::Index>(velocities.size());
     const Eigen::Index i = path % per_stage;
-    if (i >= bounded) return fmt::format("path_constraints[{}]", i - bounded) + in_interval(k);
+    if (i >= bounded) {
+      const auto number = static_cast<std::size_t>(i - bounded);
+      return entry_of("path_constraints", number, problem_->path_constraint_names()) + in_interval(k);
+    }
     return "bounds().v: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
   }
   /// A stage equation. Of elements outside the three families only the number of the equation is known.
@@ -191,6 +200,21 @@ std::string held_horizon(const Problem& problem, const Transcription& transcript
   return "";
 }
 
+/// A sentence if there are controls, but no force reads one.
+std::string idle_controls(const Problem& problem) {
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
+  if (m == 0) return "";
+  InputCounter inputs;
+  const ExpressionVector u = inputs.take(m);
+  const ControlledState x{inputs.take(n), inputs.take(n), u, inputs.take()};
+  const Schedule force(problem.force(x));
+  const bool is_read = std::ranges::any_of(force.steps(), [m](const Schedule::Step& step) {
+    return step.operation == Operation::input && step.input_index < static_cast<std::size_t>(m);
+  });
+  return is_read ? "" : " No entry of force reads a control, so that nothing steers this motion.";
+}
+
 /// The functions of the problem that contradict each other.
 std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
@@ -253,6 +277,7 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
                                              worst.amount);
   if (std::isnan(worst.amount)) return text;
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);
+  text += idle_controls(problem);
   if (solution.status == Status::infeasible) text += contradiction(transcription);
   return text;
 }

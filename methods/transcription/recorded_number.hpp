@@ -102,6 +102,17 @@ class RecordedNumber {
 [[nodiscard]] inline RecordedNumber tanh(const RecordedNumber& x) {
   return RecordedNumber::of([](const auto& a) { return tanh(a); }, x);
 }
+[[nodiscard]] inline RecordedNumber asinh(const RecordedNumber& x) {
+  return RecordedNumber::of([](const auto& a) { return asinh(a); }, x);
+}
+[[nodiscard]] inline RecordedNumber erf(const RecordedNumber& x) {
+  return RecordedNumber::of([](const auto& a) { return erf(a); }, x);
+}
+[[nodiscard]] inline RecordedNumber unit_step(const RecordedNumber& x) {
+  adouble result;
+  condassign(result, x.variable(), adouble(1.0), adouble(0.0));
+  return RecordedNumber(std::make_shared<const adouble>(result));
+}
 [[nodiscard]] inline RecordedNumber pow(const RecordedNumber& x, double exponent) {
   return RecordedNumber::of([exponent](const auto& a) { return pow(a, exponent); }, x);
 }

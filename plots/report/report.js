@@ -105,7 +105,7 @@ function start_motion(figure) {
       }
       from = at;
     });
-    output.value = "t = " + t.toPrecision(3) + " " + data.unit.replace(/[[\]]/g, "");
+    output.value = "t = " + t.toPrecision(3) + " " + data.unit;
   };
   // Nothing moves unless it is asked to; where motion is not wanted, Play goes to the end in steps.
   const seconds = 5, calm = matchMedia("(prefers-reduced-motion: reduce)");

@@ -56,6 +56,32 @@ TEST(LibraryTable, HoldsTheFinestGridOfEveryCurveFailedOnesToo) {
   EXPECT_EQ(Table::from_csv(library.csv()).rows().size(), 5U);
 }
 
+TEST(LibraryTable, ProblemsWithoutAReferenceAreMeasuredByTheBestFoundOnTheFinestGrid) {
+  Table rows(
+      {"problem", "method", "intervals", "status", "objective", "success", "reference_objective", "reference_kind"});
+  rows.append(row_of_library("known", "dmoc", 128, -4.04));
+  rows.append(row_of_library("unknown", "dmoc", 32, 1.5));  // lower, but a coarse grid's
+  rows.append(row_of_library("unknown", "dmoc", 64, 2.0));
+  rows.append(row_of_library("unknown", "tangent", 64, 2.01));
+  rows.append(row_of_library("unknown", "hamiltonian", 64, 1.0, "too coarse"));
+  rows.append(row_of_library("unsolved", "dmoc", 64, 1.0, "infeasible"));
+  const Table filled = with_best_found_references(rows, 0.02);
+  EXPECT_EQ(filled.rows()[0].number("reference_objective"), -4.0);
+  EXPECT_EQ(filled.rows()[0].text("reference_kind"), "");
+  const auto expect = [&](std::size_t i, const char* success) {
+    EXPECT_EQ(filled.rows()[i].number("reference_objective"), 2.0) << i;
+    EXPECT_EQ(filled.rows()[i].text("reference_kind"), "best found by any method here") << i;
+    EXPECT_EQ(filled.rows()[i].text("success"), success) << i;
+  };
+  expect(1, "no");
+  expect(2, "yes");
+  expect(3, "yes");
+  expect(4, "no");
+  EXPECT_FALSE(filled.rows()[5].number("reference_objective"));
+  const std::string text = library_table_in_markdown(library_table(filled));
+  EXPECT_NE(text.find("| unknown | 64 | 2 (best found by any method here) |"), std::string::npos) << text;
+}
+
 TEST(LibraryTable, ReadsAsMarkdownWithALinePerProblemAndAColumnPerMethod) {
   const std::string text = library_table_in_markdown(library_table(library_rows()));
   for (const char* line :

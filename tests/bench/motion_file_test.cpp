@@ -1,4 +1,4 @@
-#include "bench/experiment/motion_file.hpp"
+#include "methods/tables/motion_file.hpp"
 
 #include <functional>
 

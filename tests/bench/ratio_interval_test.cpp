@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/table.hpp"
 #include "methods/error.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 namespace {

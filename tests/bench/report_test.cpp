@@ -86,7 +86,7 @@ TEST(Report, FiguresShareNoNames) {
 TEST(Report, MotionsHaveRodsWhereDistancesStay) {
   ResultsFolder results;
   results.motions.push_back(
-      {"arm", "dmoc", Table::from_csv("t_[s],tip_x_[m],tip_y_[m],load_x_[m],load_y_[m]\n0,1,0,2,0\n1,0,1,0,5\n")});
+      {"arm", "dmoc", Table::from_csv("t_in_s,tip_x_in_m,tip_y_in_m,load_x_in_m,load_y_in_m\n0,1,0,2,0\n1,0,1,0,5\n")});
   const std::string page = report_page(results, "");
   EXPECT_TRUE(has(page, R"("name":"tip","x":[1.0,0.0],"y":[0.0,1.0],"rod":true)"));
   EXPECT_TRUE(has(page, R"("name":"load","x":[2.0,0.0],"y":[0.0,5.0],"rod":false)"));

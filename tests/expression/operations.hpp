@@ -131,6 +131,20 @@ void visit_operations(const Visitor& visit) {
         return tanh(x);
       },
       all);
+  visit(
+      "asinh",
+      [](const auto& x, const auto& /*y*/) {
+        using std::asinh;
+        return asinh(x);
+      },
+      all);
+  visit(
+      "erf",
+      [](const auto& x, const auto& /*y*/) {
+        using std::erf;
+        return erf(x);
+      },
+      all);
 }
 
 /// The same for x to a constant exponent: products, roots and genuine powers.

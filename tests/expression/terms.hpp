@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace dmocbench::tests {
 
@@ -65,6 +66,13 @@ inline Terms tanh(const Terms& x) {
   const double f = std::tanh(x.value);
   return Terms::apply(f, 1.0 - f * f, x);
 }
+inline Terms asinh(const Terms& x) {
+  return Terms::apply(std::asinh(x.value), 1.0 / std::sqrt(1.0 + x.value * x.value), x);
+}
+inline Terms erf(const Terms& x) {
+  return Terms::apply(std::erf(x.value), 2.0 * std::numbers::inv_sqrtpi * std::exp(-x.value * x.value), x);
+}
+inline Terms unit_step(const Terms& x) { return x.value > 0.0 ? 1.0 : 0.0; }
 inline Terms pow(const Terms& x, double exponent) {
   return Terms::apply(std::pow(x.value, exponent), exponent * std::pow(x.value, exponent - 1.0), x);
 }

@@ -42,6 +42,36 @@ class Tunable final : public Problem {
   [[nodiscard]] double horizon() const override { return 2.0; }
 };
 
+/// A class that states nothing but what has to be stated, and the line that makes it copied by its base.
+class FreeFlight : public Problem {
+ public:
+  explicit FreeFlight(double span = 1.0)
+      : Problem({{.name = "mass", .value = 1.0, .unit = "kg", .meaning = "of the body"}}), span_(span) {}
+  [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"f"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * parameter("mass") * x.v.squaredNorm();
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u.squaredNorm(); }
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return BoundaryState::at_rest(Eigen::VectorXd::Zero(1));
+  }
+  [[nodiscard]] BoundaryState final_state() const override {
+    return BoundaryState::at_rest(Eigen::VectorXd::Constant(1, span_));
+  }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+
+ private:
+  double span_;
+};
+
+/// A variant: another end, all else as it is.
+class FreeFlightUpwards : public FreeFlight {
+  [[nodiscard]] double horizon() const override { return 2.0; }
+};
+
 /// C = a (1 + u²) and Φ = b, at rest for one unit of time.
 class Costly final : public tests::SmallProblem {
  public:
@@ -144,6 +174,32 @@ TEST(Parameter, TakesEveryValueOfItsRangeTheEndsIncluded) {
 TEST(Parameter, RefusesValuesOutsideNamingItselfItsRangeItsUnitAndTheValue) {
   tests::expect_error_naming({"mass", "[0.5, 2]", "kg", "0.25"}, [] { mass().check(0.25); });
   tests::expect_error_naming({"mass", "[0.5, 2]", "2.5"}, [] { mass().check(2.5); });
+}
+
+TEST(Problem, IsNamedAfterItsClassUnlessItSaysOtherwise) {
+  EXPECT_EQ(FreeFlight().name(), "free_flight");
+  EXPECT_EQ(FreeFlightUpwards().name(), "free_flight_upwards");
+  EXPECT_EQ(Tunable().name(), "tunable");
+}
+
+TEST(Problem, CopiesAreIndependentAndKeepParametersAndMembers) {
+  FreeFlight original(3.0);
+  original.set_parameter("mass", 5.0);
+  const std::unique_ptr<Problem> by_base = original.clone();
+  FreeFlight by_class = original;
+  by_class.set_parameter("mass", 7.0);
+  EXPECT_EQ(original.parameter("mass"), 5.0);
+  EXPECT_EQ(by_base->parameter("mass"), 5.0);
+  EXPECT_EQ(by_base->final_state().q[0], 3.0);
+  EXPECT_FALSE(by_base->has_default_parameters());
+  EXPECT_EQ(by_class.parameter("mass"), 7.0);
+}
+
+TEST(Problem, WhoseClassDoesNotSayHowItIsCopiedTellsTheLineThatDoes) {
+  tests::expect_error_naming({"tunable", "Tunable", "copy_of(*this)"}, [] { static_cast<void>(Tunable().clone()); });
+  // The base's line would lose what the derived class adds.
+  tests::expect_error_naming({"FreeFlightUpwards", "copy_of(*this)"},
+                             [] { static_cast<void>(FreeFlightUpwards().clone()); });
 }
 
 TEST(Parameter, RefusesWhatIsNotANumberAndInfinity) {

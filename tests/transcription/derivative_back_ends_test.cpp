@@ -149,6 +149,41 @@ TEST(BackEndRegistry, RefusesAnUnknownNameAndListsThoseThereAre) {
   if (!offers("adolc")) tests::expect_error_naming({"adolc", "install", "tape"}, [&] { with("adolc"); });
 }
 
+/// A table in the Lagrangian and one in the force, erf and asinh: what the library's problems do without.
+class Tabulated final : public tests::SmallProblem {
+ public:
+  Tabulated() : SmallProblem("tabulated", at(-0.5, 0.2), at(1.5, 0.1), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override {
+    return 0.5 * x.v.squaredNorm() - potential_(x.q[0]) - erf(x.q[0]);
+  }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
+    return one(x.u[0] - potential_(x.v[0]) * asinh(x.v[0]));
+  }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u.squaredNorm(); }
+
+ private:
+  Spline potential_{{-1.0, 0.0, 0.4, 1.1, 2.0}, {0.2, 1.0, -0.7, 0.5, 0.3}};
+};
+
+TEST(BackEndsOfTables, AgreeOnTablesErrorFunctionsAndInverseHyperbolicSines) {
+  const Tabulated problem;
+  for (const std::string& method : element_names()) {
+    SCOPED_TRACE(method);
+    const auto by = [&](const std::string& name) {
+      return derivatives_by(name, problem, {method, 2}, Grid::uniform(16), 0.1);
+    };
+    const FilledDerivatives exact = by("tape");
+    const Differences differences = by("finite_differences") - exact;
+    EXPECT_LT(differences.jacobian, 1e-8);
+    EXPECT_LT(differences.hessian, 1e-4);  // third derivatives of the tables jump
+    if (!offers("adolc")) continue;
+    const Differences adolc = by("adolc") - exact;
+    EXPECT_LT(adolc.gradient, 1e-13);
+    EXPECT_LT(adolc.jacobian, 1e-13);
+    EXPECT_LT(adolc.hessian, 1e-13);
+  }
+}
+
 /// All problems, one method: free horizons without a running cost, ends without conditions, path constraints.
 class BackEndsOfTheLibrary : public testing::TestWithParam<std::string> {};
 

@@ -183,6 +183,33 @@ TEST_P(ViolationInWords, NamesALagrangianThatIsNotANumberWhereverASolveEnds) {
   }
 }
 
+/// Two constraints and a condition with names; its control is in the cost alone.
+class Idle final : public tests::SmallProblem {
+ public:
+  Idle() : SmallProblem("idle", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(-x.v[0]); }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return ExpressionVector{{x.q[0] + 1.0, -100.0 - x.q[0]}};
+  }
+  [[nodiscard]] std::vector<std::string> path_constraint_names() const override { return {"floor", "ceiling"}; }
+  [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& /*last*/) const override {
+    return one(first.q[0]);
+  }
+  [[nodiscard]] std::vector<std::string> boundary_condition_names() const override { return {"gate"}; }
+};
+
+TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) {
+  const Idle problem;
+  Ended ended(problem, GetParam());
+  EXPECT_PRED2(says, ended.words(), "path_constraints[1] (ceiling) in interval ");
+  EXPECT_PRED2(says, ended.words(), "No entry of force reads a control");
+  const auto last = static_cast<std::size_t>(ended.transcription->constraint_count()) - 1;
+  EXPECT_EQ(describe_constraint(problem, *ended.transcription, ended.solution.primal, last),
+            "boundary_conditions[0] (gate)");
+}
+
 TEST_P(ViolationInWords, NamesWhatIsNotANumber) {
   const tests::MovingFrame problem;
   Ended ended(problem, GetParam(), Status::evaluation_failed);

@@ -1,22 +1,23 @@
-// Solves the pendulum by DMOC and Ipopt, and writes its motion.
-#include <fstream>
+// Solves the pendulum by DMOC and Ipopt, and writes its motion and reads it back.
+#include <cstdlib>
 #include <iostream>
 
+#include <dmocbench/dmocbench.hpp>
 #include <pendulum.hpp>
 
-#include "methods/solvers/solver.hpp"
-#include "methods/transcription/start.hpp"
-#include "methods/transcription/trajectory_reader.hpp"
+static_assert(DMOCBENCH_VERSION_MAJOR > 0 || DMOCBENCH_VERSION_MINOR >= 1);
 
-int main() {
+int main() try {
   const Pendulum problem;
   Transcription program(problem, *make_element("dmoc"), gauss_tableau(1), Grid::uniform(64));
   const Solution solution = make_solver("ipopt")->solve(program, sample(program, guessed_motion(problem)));
   const Trajectory motion = read_trajectory(program, solution.primal, solution.multipliers);
-  std::ofstream table("pendulum.csv");
-  table << "t,theta,omega\n";
-  for (Eigen::Index k = 0; k <= motion.intervals(); ++k)
-    table << motion.node_times[k] << ',' << motion.q(k, 0) << ',' << motion.v(k, 0) << '\n';
-  std::cout << "pendulum: " << name_of(solution.status) << ", cost " << motion.cost << ", table pendulum.csv\n";
-  return is_solved(solution.status) ? 0 : 1;
+  write_motion(problem, motion, "pendulum_nodes.csv");
+  const bool is_kept = read_motion_tables(problem, "pendulum_nodes.csv").q == motion.q;
+  std::cout << "dmocbench " DMOCBENCH_VERSION ", pendulum: " << name_of(solution.status) << ", cost " << motion.cost
+            << ", tables pendulum_nodes.csv and pendulum_stages.csv\n";
+  return is_solved(solution.status) && is_kept ? EXIT_SUCCESS : EXIT_FAILURE;
+} catch (const Error& error) {
+  std::cerr << error.what() << '\n';
+  return EXIT_FAILURE;
 }

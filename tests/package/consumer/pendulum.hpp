@@ -7,7 +7,7 @@
 
 using namespace dmocbench;
 
-struct Pendulum final : Problem {  // θ = 0 hangs down; mass 1 kg, length 1 m
+struct Pendulum : Problem {  // θ = 0 hangs down; mass 1 kg, length 1 m
   std::string name() const override { return "pendulum"; }
   ProblemCard card() const override { return {.description = "a pendulum swings up with least torque"}; }
   std::vector<std::string> configuration_names() const override { return {"theta"}; }

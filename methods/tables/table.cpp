@@ -1,4 +1,4 @@
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 #include <algorithm>
 #include <cmath>

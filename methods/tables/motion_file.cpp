@@ -1,12 +1,15 @@
-#include "bench/experiment/motion_file.hpp"
+#include "methods/tables/motion_file.hpp"
 
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
+#include "methods/tables/text_file.hpp"
 
 namespace dmocbench {
 
@@ -143,8 +146,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
     const std::vector<PictureQuantity> picture = problem.picture(x);
     ExpressionVector values(static_cast<Eigen::Index>(picture.size()));
     for (std::size_t i = 0; i < picture.size(); ++i) {
-      names.push_back(picture[i].unit.empty() ? picture[i].name
-                                              : fmt::format("{}_[{}]", picture[i].name, picture[i].unit));
+      names.push_back(name_with_unit(picture[i].name, picture[i].unit));
       values[static_cast<Eigen::Index>(i)] = picture[i].value;
     }
     return values;
@@ -158,7 +160,34 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
     values.row(k) = at_node.transpose();
   }
   const Unit time = problem.card().time_unit;
-  return series_table(fmt::format("t_[{}]", time.name), trajectory.node_times * time.factor, {{"", names, values}});
+  return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor, {{"", names, values}});
+}
+
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  std::string word;
+  for (const char letter : unit.starts_with("1/") ? unit.substr(1) : unit) {
+    if (letter == '/') word += word.empty() ? "per_" : "_per_";
+    if (letter == ' ') word += '_';
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) word += letter;
+  }
+  return word.empty() ? name : name + "_in_" + word;
+}
+
+std::pair<std::string, std::string> name_and_unit(const std::string& column) {
+  const std::size_t end = column.rfind("_in_");
+  if (end == std::string::npos) return {column, ""};
+  return {column.substr(0, end), column.substr(end + 4)};
+}
+
+void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file) {
+  const std::filesystem::path stages_file = stages_file_of(nodes_file);
+  const std::string nodes = node_table(problem, trajectory).csv();
+  const std::string stages = stage_table(problem, trajectory).csv();
+  for (const auto& [file, text] : {std::pair(&stages_file, &stages), std::pair(&nodes_file, &nodes)}) {
+    std::ofstream stream(*file, std::ios::binary);
+    stream << *text << std::flush;
+    if (!stream) throw Error(fmt::format("cannot write {}", file->string()));
+  }
 }
 
 std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file) {

@@ -2,9 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
-#include "bench/experiment/table.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/tables/table.hpp"
 #include "methods/transcription/interpolation.hpp"
 #include "methods/transcription/trajectory.hpp"
 
@@ -18,8 +19,18 @@ namespace dmocbench {
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
 /// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of `Problem::picture`,
-/// each named NAME_[UNIT]. The control at a node is that of `control_at`.
+/// each named by `name_with_unit`. The control at a node is that of `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
+
+/// A column's name that tells its unit and that MATLAB and R keep: "t_in_s", "thrust_in_m_per_s2", "tau_in_N_m"; the
+/// name alone where there is no unit.
+[[nodiscard]] std::string name_with_unit(const std::string& name, const std::string& unit);
+/// The name and the unit, as such a column spells it; the unit is empty where none is told.
+[[nodiscard]] std::pair<std::string, std::string> name_and_unit(const std::string& column);
+
+/// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv beside it. Throws
+/// `Error` if the name has another ending or a file cannot be written.
+void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file);
 
 /// The stage table beside a node table: X_stages.csv beside X_nodes.csv. Throws `Error` if the name has another ending.
 [[nodiscard]] std::filesystem::path stages_file_of(const std::filesystem::path& nodes_file);

@@ -1,0 +1,23 @@
+#include "methods/expression/vectors.hpp"
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench::detail {
+
+void require_factors(Eigen::Index rows, Eigen::Index columns, Eigen::Index other_rows, Eigen::Index other_columns) {
+  if (columns == other_rows) return;
+  throw Error(
+      fmt::format("a product of {} x {} and {} x {} entries: the columns of the left factor are not as many as the "
+                  "rows of the right one",
+                  rows, columns, other_rows, other_columns));
+}
+
+void throw_no_entry(char name, Eigen::Index entry, Eigen::Index size) {
+  if (size == 0) throw Error(fmt::format("a formula reads {}[{}], but {} has no entries", name, entry, name));
+  throw Error(fmt::format("a formula reads {}[{}], but {} has {} {}, the last of which is {}[{}]", name, entry, name,
+                          size, size == 1 ? "entry" : "entries", name, size - 1));
+}
+
+}  // namespace dmocbench::detail
