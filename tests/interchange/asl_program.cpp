@@ -18,8 +18,8 @@ extern "C" {
 namespace dmocbench::tests {
 
 struct AslProgram::Library {
-  ASL* asl = ASL_alloc(ASL_read_fgh);
-  Library() = default;
+  ASL* asl;
+  explicit Library(AslReader reader) : asl(ASL_alloc(reader == AslReader::whole ? ASL_read_fgh : ASL_read_pfgh)) {}
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
   Library(Library&&) = delete;
@@ -45,7 +45,8 @@ void require(fint error, const char* what) {
 
 }  // namespace
 
-AslProgram::AslProgram(const std::filesystem::path& file) : library_(std::make_unique<Library>()) {
+AslProgram::AslProgram(const std::filesystem::path& file, AslReader reader)
+    : reader_(reader), library_(std::make_unique<Library>(reader)) {
   ASL* asl = library_->asl;
   return_nofile = 1;
   std::string name = file.string();
@@ -61,7 +62,8 @@ AslProgram::AslProgram(const std::filesystem::path& file) : library_(std::make_u
   Uvx = allocate(variables);
   LUrhs = allocate(rows);
   Urhsx = allocate(rows);
-  const int error = fgh_read(nl, ASL_return_read_err);
+  const int error = reader == AslReader::whole ? fgh_read(nl, ASL_return_read_err)
+                                               : pfgh_read(nl, ASL_return_read_err | ASL_findgroups);
   if (error != 0) throw Error("the library refuses " + name + " with code " + std::to_string(error));
   start = Eigen::Map<const Eigen::VectorXd>(X0, variables);
   variable_lower = bounds_of(LUv, variables);
@@ -116,9 +118,14 @@ SparseEntries AslProgram::jacobian(const Eigen::VectorXd& x) const {
 }
 
 SparseEntries AslProgram::hessian(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers) const {
-  ASL* asl = library_->asl;
   static_cast<void>(objective(x));  // second derivatives are those of the last point
   static_cast<void>(constraints(x));
+  return reader_ == AslReader::whole ? hessian_by_directions(factor, multipliers)
+                                     : hessian_by_parts(factor, multipliers);
+}
+
+SparseEntries AslProgram::hessian_by_directions(double factor, const Eigen::VectorXd& multipliers) const {
+  ASL* asl = library_->asl;
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(variables);
   Eigen::VectorXd column(variables);
   SparseEntries entries;
@@ -128,6 +135,20 @@ SparseEntries AslProgram::hessian(const Eigen::VectorXd& x, double factor, const
     direction[j] = 0.0;
     for (Eigen::Index i = j; i < variables; ++i) {
       if (column[i] != 0.0) entries[{i, j}] = column[i];
+    }
+  }
+  return entries;
+}
+
+SparseEntries AslProgram::hessian_by_parts(double factor, const Eigen::VectorXd& multipliers) const {
+  ASL* asl = library_->asl;
+  std::vector<real> values(static_cast<std::size_t>(sphsetup(-1, 1, 1, 1)));
+  sphes(values.data(), -1, &factor, const_cast<real*>(multipliers.data()));
+  SparseEntries entries;
+  const fint* const heads = sputinfo->hcolstarts;
+  for (int column = 0; column < n_var; ++column) {
+    for (fint e = heads[column]; e < heads[column + 1]; ++e) {
+      entries[{column, sputinfo->hrownos[e]}] = values[static_cast<std::size_t>(e)];  // of the upper triangle
     }
   }
   return entries;

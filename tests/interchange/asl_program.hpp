@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -14,11 +15,17 @@ namespace dmocbench::tests {
 /// A sparse matrix by rows and columns.
 using SparseEntries = std::map<std::pair<Eigen::Index, Eigen::Index>, double>;
 
+/// How the library reads a program, and by that how it differentiates.
+enum class AslReader : std::uint8_t {
+  whole,                ///< formulas as they stand (fgh_read); second derivatives direction by direction
+  partially_separable,  ///< as sums of parts (pfgh_read), as Ipopt reads; second derivatives part by part
+};
+
 /// A nonlinear program as AMPL's library of solvers reads it from STUB.nl.
 class AslProgram {
  public:
   /// Throws `Error` if the library refuses the file.
-  explicit AslProgram(const std::filesystem::path& file);
+  explicit AslProgram(const std::filesystem::path& file, AslReader reader = AslReader::partially_separable);
   AslProgram(const AslProgram&) = delete;
   AslProgram& operator=(const AslProgram&) = delete;
   AslProgram(AslProgram&&) = delete;
@@ -49,6 +56,10 @@ class AslProgram {
 
  private:
   struct Library;
+  [[nodiscard]] SparseEntries hessian_by_directions(double factor, const Eigen::VectorXd& multipliers) const;
+  [[nodiscard]] SparseEntries hessian_by_parts(double factor, const Eigen::VectorXd& multipliers) const;
+
+  AslReader reader_;
   std::unique_ptr<Library> library_;
 };
 
