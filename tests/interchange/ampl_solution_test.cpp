@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "methods/interchange/ampl_answer.hpp"
@@ -130,11 +131,11 @@ TEST(AmplModel, IsShort) {
   constexpr std::size_t most_bytes = 20'000'000;
   for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
-    for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const char* const method : {"dmoc", "tangent"}) {
       const auto program = tests::transcribe(*problem, {method}, Grid::uniform(1024));
       const AmplModel model = ampl_model(*program, sample(*program, guessed_motion(*problem)));
       EXPECT_LT(model.nl.size() + model.row.size() + model.col.size(), most_bytes) << name << ' ' << method;
-      testing::Test::RecordProperty(name + "_" + method, std::to_string(model.nl.size()));
+      testing::Test::RecordProperty(fmt::format("{}_{}", name, method), std::to_string(model.nl.size()));
     }
   }
 }
