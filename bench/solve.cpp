@@ -10,9 +10,12 @@
 #include "bench/experiment/start_provider.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/error.hpp"
+#include "methods/interchange/ampl_answer.hpp"
+#include "methods/interchange/ampl_model.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
+#include "methods/transcription/start.hpp"
 
 namespace dmocbench::solve_program {
 
@@ -68,6 +71,11 @@ class Solve final : public Experiment {
         "--accuracy", accuracy_,
         "estimated relative error of q, p and cost at which to stop, 1e-14 to 0.1: refines one case grid by grid, "
         "beginning with --intervals or --grid");
+    line.option("--write-nl", nl_file_,
+                "FILE.nl for solvers that read AMPL's format: the program of one case and its start, with the names of "
+                "rows and unknowns in FILE.row and FILE.col; written before the case is solved");
+    line.option("--read-sol", sol_file_,
+                "FILE.sol, the answer of such a solver: it takes the place of the solve and is judged as every answer");
     line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
   }
   void check(const std::vector<Case>& cases) override {
@@ -78,10 +86,13 @@ class Solve final : public Experiment {
     has_several_solvers_ =
         std::ranges::any_of(cases, [&](const Case& the_case) { return the_case.solver != cases.front().solver; });
     check_accuracy();
+    check_interchange(cases);
     for (const Case& the_case : cases) labels_.push_back(label_of(the_case));
     if (!trace_file_.empty()) check_trace();
   }
   void adapt(Case& the_case, Start& start, SolverOptions& options) override {
+    write_nl(the_case, start);
+    if (answer_) the_case.solver = "ampl";
     if (accuracy_.empty()) return;
     const auto begin = Clock::now();
     const AdaptiveAnswer answer = adapted(the_case, start, options);
@@ -101,6 +112,7 @@ class Solve final : public Experiment {
     options.tolerance = adaptive_.solver_tolerance(options.tolerance);
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (answer_) return std::make_unique<AmplAnswer>(*answer_, options);
     if (!trace_file_.empty()) {
       options.on_minor_iteration = [this](const MinorIteration& minor) {
         if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
@@ -114,6 +126,7 @@ class Solve final : public Experiment {
     const auto variables = static_cast<Eigen::Index>(solved.program ? solved.program->variable_count() : 0);
     if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
     checks_ = {};
+    if (answer_ && !answer_->message.empty()) solved.note(fmt::format("Its solver says: {}", answer_->message));
     if (!solved.trajectory) return;
     checks_ = check_independently(solved);
     if (!is_solved(solved.solution.status)) return;
@@ -172,6 +185,65 @@ class Solve final : public Experiment {
       throw Error(fmt::format("--accuracy: {}", error.what()));
     }
   }
+  /// Throws `Error` if --write-nl or --read-sol do not fit the cases, or their files are not what they should be.
+  void check_interchange(const std::vector<Case>& cases) {
+    if (nl_file_.empty() && sol_file_.empty()) return;
+    const char* const option = nl_file_.empty() ? "--read-sol" : "--write-nl";
+    if (!single_)
+      throw Error(fmt::format("{} is for exactly one case: one method, one number of stages, one grid", option));
+    if (!accuracy_.empty())
+      throw Error(fmt::format("--accuracy solves on several grids, {} knows one; leave one out", option));
+    if (!sol_file_.empty() && !trace_file_.empty()) throw Error("--read-sol solves nothing that --trace could tell of");
+    const Case& the_case = cases.front();
+    if (the_case.method.starts_with("single_shooting")) {
+      throw Error(
+          fmt::format("{}: what single_shooting simulates cannot be written as formulas of its unknowns; "
+                      "multiple_shooting is the same program with the nodes as unknowns",
+                      option));
+    }
+    if (!nl_file_.empty()) check_nl();
+    if (sol_file_.empty()) return;
+    try {
+      answer_ = read_ampl_solution(read_file(sol_file_));
+      AmplAnswer(*answer_).require_fit(*the_case.transcribe());
+    } catch (const Error& error) {
+      const std::string reason = error.what();
+      if (reason.find(sol_file_) != std::string::npos) throw;
+      throw Error(fmt::format("--read-sol {}: {}", sol_file_, reason));
+    }
+  }
+  /// FILE.nl, then the names beside it.
+  [[nodiscard]] std::vector<std::filesystem::path> files_of_nl() const {
+    const std::filesystem::path file(nl_file_);
+    std::vector<std::filesystem::path> files{file};
+    for (const char* const ending : {".row", ".col"})
+      files.push_back(std::filesystem::path(file).replace_extension(ending));
+    return files;
+  }
+  void check_nl() const {
+    if (std::filesystem::path(nl_file_).extension() != ".nl") {
+      throw Error(fmt::format("--write-nl {}: the name has to end in .nl", nl_file_));
+    }
+    for (const std::filesystem::path& file : files_of_nl()) {
+      std::error_code none;
+      if (std::filesystem::exists(std::filesystem::symlink_status(file, none))) {
+        throw Error(fmt::format("--write-nl: {} exists already; remove it or name another file", file.string()));
+      }
+      require_writable(file);
+    }
+  }
+  void write_nl(const Case& the_case, const Start& start) const {
+    if (nl_file_.empty()) return;
+    const auto program = the_case.transcribe();
+    const AmplModel model = ampl_model(*program, sample(*program, start.motion));
+    const std::vector<std::filesystem::path> files = files_of_nl();
+    write_file(files[1], model.row);
+    write_file(files[2], model.col);
+    write_file(files[0], model.nl);
+    fmt::print("solve: {}: {} variables, {} constraints: {}\n", the_case.label(), program->variable_count(),
+               program->constraint_count(), nl_file_);
+  }
+
   /// The answer by --accuracy; tells of every grid as soon as it is solved.
   [[nodiscard]] AdaptiveAnswer adapted(const Case& the_case, const Start& start, const SolverOptions& options) {
     adaptive_.solver = the_case.solver;
@@ -236,7 +308,10 @@ class Solve final : public Experiment {
   std::vector<MinorIteration> trace_;
   std::vector<SolvedCase> motions_;  // solved, each with its trajectory
   IndependentChecks checks_;         // of the case that is completed
-  std::string accuracy_;             // empty: one grid
+  std::string nl_file_;
+  std::string sol_file_;
+  std::optional<AmplSolution> answer_;  // of --read-sol
+  std::string accuracy_;                // empty: one grid
   std::string refine_;
   AdaptiveOptions adaptive_;
   std::optional<double> estimated_error_;

@@ -1,0 +1,253 @@
+#include "methods/c_interface/dmocbench.h"
+
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include "methods/diagnostics/accuracy.hpp"
+#include "methods/error.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+#include "problems/registry.hpp"
+
+struct dmocbench_problem {
+  std::unique_ptr<dmocbench::Problem> problem;
+  std::vector<std::string> parameters;
+  std::vector<std::string> configurations;
+  std::vector<std::string> controls;
+};
+
+struct dmocbench_solution {
+  using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  dmocbench::Solution solution;
+  std::string status;
+  std::map<std::string, double, std::less<>> numbers;
+  std::map<std::string, Table, std::less<>> arrays;
+};
+
+namespace dmocbench {
+
+namespace {
+
+thread_local std::string last_error;  // NOLINT(misc-use-internal-linkage): is internal
+
+/// Calls a function of ours; an exception becomes the thread's last error and `failure`.
+template <class Value, class Call>
+Value guarded(Value failure, const Call& call) noexcept {
+  try {
+    try {
+      return call();
+    } catch (const std::bad_alloc&) {
+      last_error = "there is not enough memory";
+    } catch (const std::exception& error) {
+      last_error = error.what();
+    } catch (...) {
+      last_error = "something unknown went wrong";
+    }
+  } catch (...) {  // no memory for a sentence
+    last_error.clear();
+  }
+  return failure;
+}
+
+template <class Handle>
+Handle& required(Handle* handle, const char* what) {
+  if (handle == nullptr) throw Error(fmt::format("{} is NULL", what));
+  return *handle;
+}
+
+/// The string at a number; null behind the last.
+const char* at(const std::vector<std::string>& names, size_t number) {
+  return number < names.size() ? names[number].c_str() : nullptr;
+}
+
+const std::vector<std::string>& names_of_problems() {
+  static const std::vector<std::string> names = problem_names();
+  return names;
+}
+
+void keep_numbers(dmocbench_solution& result) {
+  const Solution& solution = result.solution;
+  const auto keep = [&](const char* name, const auto& value) {
+    if (value) result.numbers[name] = static_cast<double>(*value);
+  };
+  keep("kkt_residual", solution.kkt_residual);
+  keep("constraint_violation", solution.constraint_violation);
+  keep("iterations", solution.major_iterations);
+  result.numbers["seconds"] = solution.seconds;
+}
+
+void keep_arrays(dmocbench_solution& result, const Trajectory& motion) {
+  const auto keep = [&](const char* name, const auto& values) {
+    if (values.size() > 0) result.arrays[name] = values;
+  };
+  keep("t", motion.node_times);
+  keep("q", motion.q);
+  keep("v", motion.v);
+  keep("p", motion.p);
+  keep("psi_q", motion.psi_q);
+  keep("psi_p", motion.psi_p);
+  keep("stage_t", motion.stage_times);
+  keep("stage_q", motion.stage_q);
+  keep("stage_v", motion.stage_v);
+  keep("stage_u", motion.stage_u);
+  result.numbers["cost"] = motion.cost;
+}
+
+/// Reads the motion and judges it: an answer whose intervals do not join is too coarse.
+void read_motion(dmocbench_solution& result, Transcription& program) {
+  Solution& solution = result.solution;
+  if (solution.primal.size() == 0 || !solution.primal.allFinite()) return;
+  const Trajectory motion = read_trajectory(program, solution.primal, solution.multipliers);
+  keep_arrays(result, motion);
+  if (!is_solved(solution.status)) return;
+  const Accuracy joined = accuracy(program.traced_problem(), motion);
+  result.numbers["relative_jump"] = joined.relative_jump;
+  if (joined.relative_jump <= largest_jump_of_a_motion) return;
+  solution.status = Status::too_coarse;
+  solution.message = sentence_of(solution.status);
+}
+
+std::unique_ptr<dmocbench_solution> solved(const Problem& problem, const dmocbench_options& options) {
+  const std::string method = &required(options.method, "the method");
+  if (method.starts_with("single_shooting")) {
+    throw Error(method + " is not offered here; multiple_shooting has the same solutions");
+  }
+  Transcription program(problem, *make_element(method),
+                        make_tableau(&required(options.tableau, "the tableau"), options.stages),
+                        Grid::uniform(static_cast<Eigen::Index>(options.intervals)));
+  SolverOptions of_solver;
+  of_solver.tolerance = options.tolerance;
+  of_solver.most_seconds = options.most_seconds;
+  const auto solver = make_solver(&required(options.solver, "the solver"), of_solver);
+  auto result = std::make_unique<dmocbench_solution>();
+  result->solution = solver->solve(program, sample(program, guessed_motion(problem)));
+  read_motion(*result, program);
+  keep_numbers(*result);
+  result->status = name_of(result->solution.status);
+  return result;
+}
+
+}  // namespace
+
+}  // namespace dmocbench
+
+using dmocbench::guarded;
+using dmocbench::required;
+
+const char* dmocbench_version() { return DMOCBENCH_VERSION; }
+
+const char* dmocbench_last_error() { return dmocbench::last_error.c_str(); }
+
+size_t dmocbench_problem_count() {
+  return guarded<size_t>(0, [] { return dmocbench::names_of_problems().size(); });
+}
+
+const char* dmocbench_problem_name(size_t number) {
+  return guarded<const char*>(nullptr, [&] { return dmocbench::at(dmocbench::names_of_problems(), number); });
+}
+
+dmocbench_problem* dmocbench_make_problem(const char* name) {
+  return guarded<dmocbench_problem*>(nullptr, [&] {
+    auto handle = std::make_unique<dmocbench_problem>();
+    handle->problem = dmocbench::make_problem(&required(name, "the name"));
+    for (const dmocbench::Parameter& parameter : handle->problem->parameters()) {
+      handle->parameters.push_back(parameter.name);
+    }
+    handle->configurations = handle->problem->configuration_names();
+    handle->controls = handle->problem->control_names();
+    return handle.release();
+  });
+}
+
+void dmocbench_free_problem(dmocbench_problem* problem) { delete problem; }
+
+const char* dmocbench_parameter_name(dmocbench_problem* problem, size_t number) {
+  return guarded<const char*>(nullptr,
+                              [&] { return dmocbench::at(required(problem, "the problem").parameters, number); });
+}
+
+int dmocbench_get_parameter(dmocbench_problem* problem, const char* name, double* value) {
+  return guarded(1, [&] {
+    required(value, "the place of the value") =
+        required(problem, "the problem").problem->parameter(&required(name, "the name"));
+    return 0;
+  });
+}
+
+int dmocbench_set_parameter(dmocbench_problem* problem, const char* name, double value) {
+  return guarded(1, [&] {
+    required(problem, "the problem").problem->set_parameter(&required(name, "the name"), value);
+    return 0;
+  });
+}
+
+const char* dmocbench_configuration_name(dmocbench_problem* problem, size_t number) {
+  return guarded<const char*>(nullptr,
+                              [&] { return dmocbench::at(required(problem, "the problem").configurations, number); });
+}
+
+const char* dmocbench_control_name(dmocbench_problem* problem, size_t number) {
+  return guarded<const char*>(nullptr,
+                              [&] { return dmocbench::at(required(problem, "the problem").controls, number); });
+}
+
+void dmocbench_default_options(dmocbench_options* options) {
+  if (options == nullptr) return;
+  *options = {.method = "dmoc",
+              .tableau = "gauss",
+              .stages = 1,
+              .intervals = 128,
+              .solver = "auto",
+              .tolerance = dmocbench::SolverOptions{}.tolerance,
+              .most_seconds = 0.0};
+}
+
+dmocbench_solution* dmocbench_solve(dmocbench_problem* problem, const dmocbench_options* options) {
+  return guarded<dmocbench_solution*>(nullptr, [&] {
+    return dmocbench::solved(*required(problem, "the problem").problem, required(options, "the options")).release();
+  });
+}
+
+void dmocbench_free_solution(dmocbench_solution* solution) { delete solution; }
+
+int dmocbench_is_solved(const dmocbench_solution* solution) {
+  return solution != nullptr && is_solved(solution->solution.status) ? 1 : 0;
+}
+
+const char* dmocbench_status(const dmocbench_solution* solution) {
+  return guarded<const char*>(nullptr, [&] { return required(solution, "the solution").status.c_str(); });
+}
+
+const char* dmocbench_message(const dmocbench_solution* solution) {
+  return guarded<const char*>(nullptr, [&] { return required(solution, "the solution").solution.message.c_str(); });
+}
+
+int dmocbench_number(const dmocbench_solution* solution, const char* name, double* value) {
+  return guarded(1, [&] {
+    const auto& numbers = required(solution, "the solution").numbers;
+    const auto found = numbers.find(&required(name, "the name"));
+    if (found == numbers.end()) throw dmocbench::Error(fmt::format("the solution has no number \"{}\"", name));
+    required(value, "the place of the value") = found->second;
+    return 0;
+  });
+}
+
+const double* dmocbench_array(const dmocbench_solution* solution, const char* name, size_t* rows, size_t* columns) {
+  return guarded<const double*>(nullptr, [&] {
+    const auto& arrays = required(solution, "the solution").arrays;
+    const auto found = arrays.find(&required(name, "the name"));
+    if (found == arrays.end()) throw dmocbench::Error(fmt::format("the solution has no array \"{}\"", name));
+    required(rows, "the place of the number of rows") = static_cast<size_t>(found->second.rows());
+    required(columns, "the place of the number of columns") = static_cast<size_t>(found->second.cols());
+    return found->second.data();
+  });
+}

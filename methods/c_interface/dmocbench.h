@@ -1,0 +1,89 @@
+/* dmocbench for other languages: solve a problem by its name, get arrays.
+ *
+ * Nothing here is C++: pointers to opaque handles, numbers, strings (UTF-8), arrays of doubles row by row. What fails
+ * returns NULL, or a number other than 0, and leaves a sentence for a person: dmocbench_last_error(). No exception
+ * comes out. All functions may be called by several threads at once; one handle is used by one thread at a time. A
+ * string belongs to the handle that it was asked of, or to the library, and nobody frees it. */
+#ifndef DMOCBENCH_H
+#define DMOCBENCH_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define DMOCBENCH_API __attribute__((visibility("default")))
+#else
+#define DMOCBENCH_API
+#endif
+
+/* A problem with the values of its parameters. */
+typedef struct dmocbench_problem dmocbench_problem;
+/* The result of a solve, whether or not it succeeded. */
+typedef struct dmocbench_solution dmocbench_solution;
+
+/* "0.1.0". */
+DMOCBENCH_API const char* dmocbench_version(void);
+/* Why the last call of this thread that failed did so; empty if none has. Valid until the thread's next failure. */
+DMOCBENCH_API const char* dmocbench_last_error(void);
+
+/* The names of all problems, number 0 to count - 1; NULL behind them. */
+DMOCBENCH_API size_t dmocbench_problem_count(void);
+DMOCBENCH_API const char* dmocbench_problem_name(size_t number);
+
+/* The problem of that name with its default parameters; NULL if there is none. Freed by dmocbench_free_problem. */
+DMOCBENCH_API dmocbench_problem* dmocbench_make_problem(const char* name);
+DMOCBENCH_API void dmocbench_free_problem(dmocbench_problem* problem);
+
+/* Its parameters: names (NULL behind the last), values. Both return 0, or another number if there is no parameter of
+ * that name or the value is not allowed. */
+DMOCBENCH_API const char* dmocbench_parameter_name(dmocbench_problem* problem, size_t number);
+DMOCBENCH_API int dmocbench_get_parameter(dmocbench_problem* problem, const char* name, double* value);
+DMOCBENCH_API int dmocbench_set_parameter(dmocbench_problem* problem, const char* name, double value);
+
+/* The names of q_1 .. q_n and of u_1 .. u_m; NULL behind the last. */
+DMOCBENCH_API const char* dmocbench_configuration_name(dmocbench_problem* problem, size_t number);
+DMOCBENCH_API const char* dmocbench_control_name(dmocbench_problem* problem, size_t number);
+
+/* How a problem is solved. dmocbench_default_options fills all of it. */
+typedef struct dmocbench_options {
+  const char* method;  /* "dmoc", "hamiltonian", "tangent", or a shooting method as "multiple_shooting_rk4_1" */
+  const char* tableau; /* "gauss", "lobatto" */
+  int stages;          /* of the tableau */
+  size_t intervals;    /* of equal length */
+  const char* solver;  /* "interior_point", "ipopt", "auto", "sqp", "nlopt" */
+  double tolerance;    /* of the KKT residual */
+  double most_seconds; /* wall clock of the solver; 0 for no limit */
+} dmocbench_options;
+DMOCBENCH_API void dmocbench_default_options(dmocbench_options* options);
+
+/* Solves from the problem's guess. NULL on misuse only: an unknown name, a number out of range; a solve that does not
+ * converge is a solution whose status says so. Freed by dmocbench_free_solution. */
+DMOCBENCH_API dmocbench_solution* dmocbench_solve(dmocbench_problem* problem, const dmocbench_options* options);
+DMOCBENCH_API void dmocbench_free_solution(dmocbench_solution* solution);
+
+/* 1 if the answer is solved: confirmed by residuals of our own, and a motion (each interval, replayed alone, meets the
+ * next node). Only then are its arrays results. */
+DMOCBENCH_API int dmocbench_is_solved(const dmocbench_solution* solution);
+/* "solved", "iteration limit", "too coarse", ..., and the same in a sentence. */
+DMOCBENCH_API const char* dmocbench_status(const dmocbench_solution* solution);
+DMOCBENCH_API const char* dmocbench_message(const dmocbench_solution* solution);
+
+/* A number of a solution: "cost", "kkt_residual", "constraint_violation", "relative_jump" (by how much of the motion's
+ * range an interval, replayed alone, misses the next node), "iterations", "seconds". Returns 0; another number if
+ * there is none of that name, or it is not known of this solution. */
+DMOCBENCH_API int dmocbench_number(const dmocbench_solution* solution, const char* name, double* value);
+
+/* An array of a solution, row by row, valid as long as the solution: a row per node of "t" (1 column), "q", "v", "p",
+ * "psi_q", "psi_p" (n columns); a row per stage, interval by interval, of "stage_t" (1), "stage_q", "stage_v" (n),
+ * "stage_u" (m). NULL if there is none of that name, or the solve ended without one. */
+DMOCBENCH_API const double* dmocbench_array(const dmocbench_solution* solution, const char* name, size_t* rows,
+                                            size_t* columns);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "methods/interchange/ampl_solution.hpp"
+#include "methods/solvers/solver.hpp"
+
+namespace dmocbench {
+
+/// The answer of a solver that read a .nl file, in place of a solve of our own: it is judged as every answer is
+/// (`Solver::solve`).
+///
+/// The other solver's word is kept unless our residual denies it. Multipliers that it did not write are estimated. Some
+/// solvers write multipliers with the other sign than AMPL asks for; that sign is taken which leaves the smaller
+/// residual.
+class AmplAnswer final : public Solver {
+ public:
+  explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});
+
+  [[nodiscard]] std::string name() const override { return "ampl"; }
+  [[nodiscard]] std::string description() const override { return "the answer of another solver, from its .sol file"; }
+
+  /// Throws `Error` if the answer is not one of a program of that size.
+  void require_fit(const NonlinearProgram& program) const;
+
+ protected:
+  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
+
+ private:
+  AmplSolution answer_;
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "methods/program/status.hpp"
+
+namespace dmocbench {
+
+/// What a solver writes to STUB.sol.
+struct AmplSolution {
+  std::string message;     ///< the solver's words, as one line
+  Eigen::VectorXd primal;  ///< empty if the solver has no point
+  /// Multipliers λ of φ + λᵀa. AMPL's dual of a row is the derivative of the optimum by its bound, hence -λ. Empty if
+  /// the solver wrote none.
+  Eigen::VectorXd multipliers;
+  Eigen::Index variable_count = 0;  ///< of the program that was solved
+  Eigen::Index constraint_count = 0;
+  int code = 0;  ///< AMPL's solve_result_num
+  /// The solver's own word by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,
+  /// 500 solver error, each with the 99 above it.
+  [[nodiscard]] Status status() const noexcept;
+};
+
+/// Reads the text of a .sol file. Throws `Error` that says what is wrong if it is none: binary, cut off, a number that
+/// is no number, sizes that contradict each other. What follows the line `objno` (suffixes) is not read.
+[[nodiscard]] AmplSolution read_ampl_solution(std::string_view text);
+
+}  // namespace dmocbench
