@@ -22,6 +22,7 @@ struct ControlledState {
   ExpressionVector u;  ///< control, m entries
   Expression t;        ///< time
 
+  /// The same point without its control.
   [[nodiscard]] State state() const { return {q, v, t}; }
 };
 
