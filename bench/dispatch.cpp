@@ -49,6 +49,10 @@ int dispatch(std::span<const Program> programs, int argc, char** argv) {
     argv[1] = call.data();
     return found->run(argc - 1, argv + 1);
   }
+  if (name == "--version") {
+    fmt::print("dmocbench {}\n", DMOCBENCH_VERSION);
+    return 0;
+  }
   const bool is_help = name == "--help" || name == "-h";
   return run_program("dmocbench", description, argc, argv, [&](CommandLine& /*line*/) {
     if (is_help) {

@@ -12,6 +12,7 @@ namespace dmocbench {
 /// A solve that does not converge is not an error; it is a `Status`.
 class Error : public std::runtime_error {
  public:
+  /// `sentence` says what is wrong and how to mend it; the place in the source is kept beside it.
   explicit Error(const std::string& sentence, std::source_location where = std::source_location::current())
       : std::runtime_error(sentence), where_(where) {}
 

@@ -10,7 +10,7 @@ namespace dmocbench {
 struct OptimalPoint {
   MotionPoint motion;     ///< q*, q̇*, u*
   Eigen::VectorXd psi_q;  ///< ψ = ∂V/∂(q, p), the gradient of the optimal cost-to-go, n entries each
-  Eigen::VectorXd psi_p;
+  Eigen::VectorXd psi_p;  ///< costate of p, n entries
 };
 
 /// A problem that knows its optimal motion in closed form.

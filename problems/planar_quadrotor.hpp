@@ -90,8 +90,8 @@ class PlanarQuadrotor : public Problem {
   }
 
  protected:
-  static constexpr double flight_duration = 1.5;  // s
-  static constexpr const char* certificate =
+  static constexpr double flight_duration = 1.5;  ///< s
+  static constexpr const char* certificate =      ///< how the optimum was certified
       "Gauss and Lobatto with s = 4 on 192 intervals, a replay and the indirect method agree";
   /// A flight that lasts `duration` seconds unless it is set.
   explicit PlanarQuadrotor(double duration)
@@ -104,6 +104,7 @@ class PlanarQuadrotor : public Problem {
             switch_parameter("bounded", false, "1: 0 <= u <= m g for either thrust, 0: thrusts are free"),
         }) {}
 
+  /// True if the rotors' thrusts are bounded.
   [[nodiscard]] bool is_bounded() const { return parameter("bounded") == 1.0; }
   /// mg in N.
   [[nodiscard]] double weight() const { return parameter("mass") * parameter("gravity"); }

@@ -12,6 +12,7 @@ namespace dmocbench {
 /// Problems by their names, in the order in which they were added.
 class Registry {
  public:
+  /// Makes a problem.
   using Maker = std::unique_ptr<Problem> (*)();
 
   /// Adds the problem of a class, `registry.add<Furuta>()`; it is made by its default constructor. Throws `Error` if
@@ -21,12 +22,14 @@ class Registry {
   void add() {
     add([]() -> std::unique_ptr<Problem> { return std::make_unique<Type>(); });
   }
+  /// Adds the problem that this makes.
   void add(Maker make);
 
   /// Adds all problems of another registry, which come from `origin`, such as the path of a library. Throws `Error`,
   /// and adds none, if one of their names is there already.
   void add_all(const Registry& others, const std::string& origin);
 
+  /// In the order in which they were added.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none.
   [[nodiscard]] std::unique_ptr<Problem> make(std::string_view name) const;

@@ -20,10 +20,10 @@ namespace dmocbench {
 
 /// A case of a batch on its way.
 struct BatchedCase {
-  std::size_t number = 0;  ///< of the case, for the caller
-  const Case* the_case = nullptr;
-  Start start;
-  BatchInstance instance = {};
+  std::size_t number = 0;                           ///< of the case, for the caller
+  const Case* the_case = nullptr;                   ///< what is solved
+  Start start;                                      ///< where it begins
+  BatchInstance instance = {};                      ///< the same as a batch takes it
   std::optional<Solution> solution = std::nullopt;  ///< none where the batch did not solve it: it is to be solved alone
 };
 
@@ -43,6 +43,7 @@ class CaseBatch {
   /// Solves cases from their starts. Those that the batch cannot take are left without a solution: all of them where
   /// the program does not fit (`is_refused`), else the ones whose parameters formulas or bounds contain.
   void solve(std::span<BatchedCase> cases);
+  /// True if the program does not fit a batch, so that no case was solved.
   [[nodiscard]] bool is_refused() const noexcept { return is_refused_; }
 
   /// The judged case of one that was solved. It refers to the program, which has the values of this case until the next
@@ -68,12 +69,13 @@ class CaseBatch {
 
 /// What the batches of a run need of it.
 struct BatchWork {
-  const std::vector<Case>& cases;
-  const std::vector<bool>& is_wanted;  ///< per case
-  const SolverOptions& options;
+  const std::vector<Case>& cases;           ///< in the order of rows
+  const std::vector<bool>& is_wanted;       ///< per case
+  const SolverOptions& options;             ///< of every solve
   std::function<Start(const Case&)> start;  ///< throws `Error` where a case has none
+  /// Told of every answer, with the number of its case.
   std::function<void(SolvedCase& solved, std::size_t number)> keep;
-  std::function<void(const std::string& activity)> show;
+  std::function<void(const std::string& activity)> show;  ///< told what is being worked on
 };
 
 /// Solves those wanted of some cases that batches take, program after program, and keeps what is solved; what is not

@@ -25,8 +25,8 @@ namespace dmocbench {
 
 /// Cases of one problem, by number: from `first` up to `end`, which is not one of them.
 struct CaseSpan {
-  std::size_t first = 0;
-  std::size_t end = 0;
+  std::size_t first = 0;  ///< number of the first case
+  std::size_t end = 0;    ///< number behind the last one
 };
 
 /// Those of all problems with a case that is wanted, in their order.

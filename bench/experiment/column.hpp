@@ -16,15 +16,17 @@ namespace dmocbench {
 /// A column of a table that has a row per `Record`.
 template <class Record>
 struct Column {
-  std::string name;
-  std::string unit;  ///< empty for texts, counts and numbers without unit
-  std::string meaning;
+  std::string name;                         ///< as in the first line of a table
+  std::string unit;                         ///< empty for texts, counts and numbers without unit
+  std::string meaning;                      ///< in words, for `--help`
   std::function<Cell(const Record&)> cell;  ///< the record's field
 };
 
+/// The columns of a table whose rows are made of records.
 template <class Record>
 using Columns = std::vector<Column<Record>>;
 
+/// The row of a record: a cell for every column.
 template <class Record>
 [[nodiscard]] Row row_of(const Columns<Record>& columns, const Record& record) {
   Row row;
@@ -32,6 +34,7 @@ template <class Record>
   return row;
 }
 
+/// The names of columns, in their order.
 template <class Record>
 [[nodiscard]] std::vector<std::string> names_of(const Columns<Record>& columns) {
   std::vector<std::string> names;
@@ -39,6 +42,7 @@ template <class Record>
   return names;
 }
 
+/// The table of records: a row for each.
 template <class Record>
 [[nodiscard]] Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
   Table table(names_of(columns));
@@ -69,6 +73,7 @@ template <class Object>
 [[nodiscard]] Cell member(const Object& object) {
   return object;
 }
+/// A cell of a member of a member: `member(object, &A::b, &B::c)`.
 template <class Object, class First, class... Rest>
 [[nodiscard]] Cell member(const Object& object, First first, Rest... rest) {
   if constexpr (requires { *object; }) {  // an optional or a pointer; std::invoke would not ask whether it is empty
@@ -93,10 +98,10 @@ template <class Object, class... Members>
 
 /// What a row is about where nothing is solved.
 struct Scheme {
-  std::string problem;
-  std::string method;
-  std::string tableau;
-  Eigen::Index stages = 0;
+  std::string problem;      ///< its name
+  std::string method;       ///< its family of elements
+  std::string tableau;      ///< its family of Butcher tableaus
+  Eigen::Index stages = 0;  ///< s
 };
 
 /// The columns that tell `Record::scheme`.

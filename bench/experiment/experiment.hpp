@@ -38,6 +38,7 @@ struct ExperimentCard {
 /// experiment adds its own columns and files.
 class Experiment {
  public:
+  /// An experiment of this name, with these options.
   explicit Experiment(ExperimentCard card) : card_(std::move(card)) { card_.options.name = card_.name; }
   virtual ~Experiment() = default;
   Experiment(const Experiment&) = delete;
@@ -45,7 +46,9 @@ class Experiment {
   Experiment(Experiment&&) = delete;
   Experiment& operator=(Experiment&&) = delete;
 
+  /// What the experiment says of itself.
   [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }
+  /// Its options, as the command line has set them.
   [[nodiscard]] ExperimentOptions& options() noexcept { return card_.options; }
 
   /// Columns behind the core ones; they are read when `complete` has returned.
@@ -91,6 +94,7 @@ class Experiment {
                                   nlohmann::ordered_json& /*metadata*/) {}
 
  protected:
+  /// What the experiment says of itself.
   ExperimentCard card_;
 };
 

@@ -18,11 +18,11 @@ namespace dmocbench {
 
 /// The indirect solution of a problem, and checks of it.
 struct CheckedIndirectSolution {
-  std::string problem;
-  IndirectSolution solution;
+  std::string problem;            ///< its name
+  IndirectSolution solution;      ///< the certified answer
   std::optional<double> seconds;  ///< none where a file was used
-  double replay_error = 0.0;
-  double shooting_defect = 0.0;
+  double replay_error = 0.0;      ///< distance from the final state at which a replay ends
+  double shooting_defect = 0.0;   ///< largest jump between neighbouring intervals that are integrated alone
   std::vector<std::pair<std::string, double>> initial_costate;  ///< with the names of their columns
 };
 
@@ -42,6 +42,7 @@ class IndirectReference {
 
   /// All that table, metadata and notes are made of, an object per problem, and the same found by other parts of a run.
   [[nodiscard]] nlohmann::ordered_json findings() const;
+  /// Adds what an experiment has found to its metadata.
   void add_findings(const nlohmann::ordered_json& findings);
 
   /// A row per problem that was asked for; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of

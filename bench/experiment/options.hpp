@@ -17,31 +17,31 @@ struct ExperimentOptions {
   std::vector<std::string> methods = {};                      ///< empty: the families that the paper compares
   std::vector<std::string> integrators = {};                  ///< of shooting; empty: rk4
   std::vector<int> substeps = {};                             ///< of shooting per interval; empty: 1
-  std::vector<std::string> tableaus{"gauss"};
-  std::string controls = "stage";  ///< stage, or shared: one control where two intervals meet
-  std::vector<int> stages{1};
-  std::vector<std::string> solvers{"ipopt"};
-  std::vector<std::string> derivatives{"tape"};
-  std::string intervals = {};
-  std::filesystem::path grid_file = {};     ///< relative node times; replaces `intervals`
-  std::vector<std::string> settings = {};   ///< "parameter=value"
-  std::vector<std::string> passed_on = {};  ///< "option=value" for the solver
-  std::string form = "bolza";               ///< bolza or mayer
-  std::string start = "common";             ///< common, guess or a file X_nodes.csv
-  double tolerance = SolverOptions{}.tolerance;
+  std::vector<std::string> tableaus{"gauss"};                 ///< families of Butcher tableaus
+  std::string controls = "stage";                ///< stage, or shared: one control where two intervals meet
+  std::vector<int> stages{1};                    ///< numbers of stages s
+  std::vector<std::string> solvers{"ipopt"};     ///< names of solvers
+  std::vector<std::string> derivatives{"tape"};  ///< names of back ends
+  std::string intervals = {};                    ///< numbers of intervals, as on the command line
+  std::filesystem::path grid_file = {};          ///< relative node times; replaces `intervals`
+  std::vector<std::string> settings = {};        ///< "parameter=value"
+  std::vector<std::string> passed_on = {};       ///< "option=value" for the solver
+  std::string form = "bolza";                    ///< bolza or mayer
+  std::string start = "common";                  ///< common, guess or a file X_nodes.csv
+  double tolerance = SolverOptions{}.tolerance;  ///< for the KKT residual of the scaled program
   std::vector<std::string> tolerances = {};  ///< several, where an experiment compares them; empty: `tolerance` alone
-  int most_iterations = SolverOptions{}.most_iterations;
-  double most_seconds = 0.0;    ///< of a solve, and of its set-up; 0 for no limit
-  double start_seconds = 30.0;  ///< of the search of a problem's common start
-  int jobs = 1;                 ///< problems worked on at the same time, where an experiment allows it
-  bool batch = false;           ///< cases of one program are solved side by side, where an experiment allows it
-  int repeats = 1;              ///< solves per row; times are their medians
-  bool verbose = false;
-  std::filesystem::path out = "results";
-  std::string name = {};
-  std::string part = {};               ///< "i/n": solve the i-th of n parts of the cases; empty: all
-  std::string missing_parts = {};      ///< n: solve nothing, but name the parts of n that are missing; empty: do not
-  std::vector<std::string> join = {};  ///< results folders whose parts are joined instead of solving; empty: solve
+  int most_iterations = SolverOptions{}.most_iterations;  ///< of a solver
+  double most_seconds = 0.0;                              ///< of a solve, and of its set-up; 0 for no limit
+  double start_seconds = 30.0;                            ///< of the search of a problem's common start
+  int jobs = 1;          ///< problems worked on at the same time, where an experiment allows it
+  bool batch = false;    ///< cases of one program are solved side by side, where an experiment allows it
+  int repeats = 1;       ///< solves per row; times are their medians
+  bool verbose = false;  ///< shows the solver's own output
+  std::filesystem::path out = "results";  ///< folder for results
+  std::string name = {};                  ///< of the table and the files beside it
+  std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all
+  std::string missing_parts = {};         ///< n: solve nothing, but name the parts of n that are missing; empty: do not
+  std::vector<std::string> join = {};     ///< results folders whose parts are joined instead of solving; empty: solve
 };
 
 /// The numbers of `tolerances`. Throws `Error` if one is no number or out of range.

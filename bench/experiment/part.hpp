@@ -14,7 +14,7 @@ namespace dmocbench {
 /// its work.
 struct Part {
   std::size_t number = 1;  ///< from 1, as the tasks of an array job and the lines of a list are counted
-  std::size_t of = 1;
+  std::size_t of = 1;      ///< how many parts there are
 
   /// "3/16", as the option takes it.
   [[nodiscard]] std::string in_words() const;

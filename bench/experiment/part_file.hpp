@@ -14,9 +14,9 @@ namespace dmocbench {
 /// What one part of a run leaves behind, in one file, so that it is whole or absent: a line of JSON that describes it,
 /// then a table of its rows, each with the number of its case in front. No program takes that for the table of a run.
 struct PartFile {
-  std::filesystem::path path;
-  nlohmann::ordered_json description;
-  std::string table;  ///< as comma-separated values
+  std::filesystem::path path;          ///< where it lies
+  nlohmann::ordered_json description;  ///< what it says of its run
+  std::string table;                   ///< as comma-separated values
 
   /// Which part it is, as the description says.
   [[nodiscard]] Part part() const;

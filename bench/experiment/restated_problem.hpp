@@ -16,14 +16,15 @@ class RestatedProblem final : public Problem {
  public:
   /// What differs from the problem.
   struct Changes {
-    std::optional<Bounds> control = std::nullopt;
+    std::optional<Bounds> control = std::nullopt;  ///< bounds on u
     /// w: the final state is free and the cost has the further term ½w(|q(T) - q^T|² + |q̇(T) - q̇^T|²).
     std::optional<double> final_weight = std::nullopt;
     /// What is fixed at an end takes these values, what is free stays free. The guess is moved with the ends.
     std::optional<BoundaryState> initial = std::nullopt;
-    std::optional<BoundaryState> final = std::nullopt;
-    std::optional<double> cost_scale = std::nullopt;
+    std::optional<BoundaryState> final = std::nullopt;  ///< the state at T
+    std::optional<double> cost_scale = std::nullopt;    ///< factor of the cost
   };
+  /// `base` with these changes; it is shared and stays as it is.
   RestatedProblem(std::shared_ptr<const Problem> base, Changes changes)
       : base_(std::move(base)), changes_(std::move(changes)) {}
 

@@ -21,23 +21,24 @@ namespace dmocbench {
 
 /// One solve: a problem, a method with its tableau, a solver, its derivatives and a grid.
 struct Case {
-  std::shared_ptr<const Problem> problem;
-  std::string method;
-  std::string tableau;
-  int stages = 1;
-  std::string solver = {};
-  std::string derivatives = "tape";  ///< the back end that the solver sees
-  Grid grid = Grid::uniform(1);
-  std::string variant = {};  ///< a choice that only some experiments vary; empty in others
-  CostForm form = CostForm::bolza;
+  std::shared_ptr<const Problem> problem;          ///< what is solved; shared between cases
+  std::string method;                              ///< family of elements, as `make_element` takes it
+  std::string tableau;                             ///< family of Butcher tableaus, as `make_tableau` takes it
+  int stages = 1;                                  ///< s
+  std::string solver = {};                         ///< as `make_solver` takes it
+  std::string derivatives = "tape";                ///< the back end that the solver sees
+  Grid grid = Grid::uniform(1);                    ///< relative node times
+  std::string variant = {};                        ///< a choice that only some experiments vary; empty in others
+  CostForm form = CostForm::bolza;                 ///< how the cost is stated
   std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
   /// The problem of which this is an instance with other values: where its common start is looked for. Null for none.
   std::shared_ptr<const Problem> nominal = nullptr;
   /// Of an instance: all its parameters, in the order of those of `nominal`, and the names of those that instances
   /// vary.
   Eigen::VectorXd parameters = {};
-  std::vector<std::string> varied = {};
+  std::vector<std::string> varied = {};  ///< names of parameters that differ from case to case
 
+  /// N.
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
   /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
   [[nodiscard]] std::unique_ptr<Transcription> transcribe() const;
@@ -52,8 +53,8 @@ struct Case {
 
 /// Wall clock of one solve [s].
 struct SolveTimes {
-  double seconds = 0.0;
-  double evaluation_seconds = 0.0;
+  double seconds = 0.0;                                 ///< wall clock of the solve, s
+  double evaluation_seconds = 0.0;                      ///< part of it spent in evaluations, s
   std::optional<double> linear_seconds = std::nullopt;  ///< of solvers that tell it
 };
 
@@ -61,21 +62,21 @@ struct JudgedAnswer;
 
 /// The result of one solve.
 struct SolvedCase {
-  Case the_case;
+  Case the_case;                                     ///< what was solved
   std::shared_ptr<Transcription> program = nullptr;  ///< null if the case could not start
   /// What the solver sees instead, by single shooting; null of all other methods. The solution is that of `program`.
   std::shared_ptr<SingleShooting> condensed = nullptr;
-  Solution solution = {};
+  Solution solution = {};                               ///< as the solver left it and our residuals judge it
   Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
   std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
   std::optional<Accuracy> accuracy = std::nullopt;      ///< of a solved case: whether its intervals join
   /// "same" or "other" than that of the start; "unknown" if no common start was found, empty if none was looked for.
   std::string branch = {};
-  std::optional<double> setup_seconds = std::nullopt;
-  std::vector<SolveTimes> rounds = {};             ///< of every solve; the times of the solution are their medians
-  double tolerance = 0.0;                          ///< of the solver; 0 if the case could not start
-  std::optional<int> polish_steps = std::nullopt;  ///< none if the answer was not to be polished
-  double seconds_left = unbounded;                 ///< of the solver's limit, for what is measured of the answer
+  std::optional<double> setup_seconds = std::nullopt;  ///< of the transcription, s; none in a batch
+  std::vector<SolveTimes> rounds = {};                 ///< of every solve; the times of the solution are their medians
+  double tolerance = 0.0;                              ///< of the solver; 0 if the case could not start
+  std::optional<int> polish_steps = std::nullopt;      ///< none if the answer was not to be polished
+  double seconds_left = unbounded;                     ///< of the solver's limit, for what is measured of the answer
   bool is_timed = true;  ///< false of one of a batch: eight are solved side by side, so that none has a time
   std::shared_ptr<JudgedAnswer> answer = nullptr;  ///< of one of a batch: what it shares with others of the same answer
 
@@ -96,7 +97,7 @@ struct IndependentChecks {
 
 /// An answer that many starts may end at, with all that is found out of it.
 struct JudgedAnswer {
-  SolvedCase judged;
+  SolvedCase judged;                                       ///< the case with its answer and what is known of it
   std::optional<IndependentChecks> checks = std::nullopt;  ///< none until they are asked for
 };
 
@@ -106,8 +107,8 @@ struct JudgedAnswer {
 /// Where a solve starts, and the motion that tells whether its answer is on the wanted branch; without
 /// one the branch is left open.
 struct Start {
-  Motion motion;
-  std::optional<Motion> branch = std::nullopt;
+  Motion motion;                                ///< where solves begin
+  std::optional<Motion> branch = std::nullopt;  ///< the motion whose branch counts as the same; none if none is known
   std::string note = {};  ///< why it is not the motion that was asked for; the row's message ends with it
   /// The motion with its costates, which become start multipliers of solvers that can use them.
   std::optional<Trajectory> with_costates = std::nullopt;
@@ -146,6 +147,7 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 [[nodiscard]] bool is_usable(const SolvedCase& solved);
 /// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
 [[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
+/// True if the row has an answer that may be compared and drawn: solved, and on the wanted branch.
 [[nodiscard]] bool is_usable(const Row& row);
 
 /// Says of a solved case what the end of its time left out.

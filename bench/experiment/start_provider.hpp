@@ -20,6 +20,7 @@ namespace dmocbench {
 /// There is no motion that a case could start from; the sentence gives the reason.
 class NoStart : public Error {
  public:
+  /// With the sentence for the row, and its status.
   explicit NoStart(const std::string& sentence, Status of_row = Status::not_run) : Error(sentence), status(of_row) {}
   Status status;  ///< what the case's row says
 };
@@ -36,6 +37,7 @@ class NoStart : public Error {
 /// neither takes more iterations or seconds than a row's may.
 class StartProvider {
  public:
+  /// What the command line says about starts.
   struct Rules {
     std::string kind = "common";           ///< common, guess or the name of a node file
     double most_seconds = 30.0;            ///< of the search of one common start
@@ -43,6 +45,7 @@ class StartProvider {
     bool takes_costates = false;           ///< a file's costates come with its motion, where it has them
     bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
   };
+  /// `options` are those of the solves that look for a common start.
   StartProvider(Rules rules, SolverOptions options);
 
   /// Reads the file, if a file is the start. Throws `Error` if it does not fit one of the problems.

@@ -29,36 +29,36 @@ enum class Refinement : std::uint8_t {
 
 /// What is asked of an adaptive solve.
 struct AdaptiveOptions {
-  double accuracy = 1e-6;  ///< of `ErrorEstimate::relative`
-  Refinement refinement = Refinement::h;
-  double largest_ratio = 2.0;  ///< of neighbouring steps
-  int most_grids = 20;
-  Eigen::Index most_intervals = 1 << 20;
-  std::string solver = "interior_point";
-  SolverOptions solver_options;
+  double accuracy = 1e-6;                 ///< of `ErrorEstimate::relative`
+  Refinement refinement = Refinement::h;  ///< what is refined
+  double largest_ratio = 2.0;             ///< of neighbouring steps
+  int most_grids = 20;                    ///< after which it ends as `too_many`
+  Eigen::Index most_intervals = 1 << 20;  ///< of a grid
+  std::string solver = "interior_point";  ///< as `make_solver` takes it
+  SolverOptions solver_options;           ///< of every solve, but for the tolerance
 
   /// What solves are given instead of a tolerance: a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;
 
   /// The accuracies that may be asked for: doubles have 16 digits.
   static constexpr double finest = 1e-14;
-  static constexpr double coarsest = 0.1;
+  static constexpr double coarsest = 0.1;  ///< the largest accuracy that may be asked for
   /// Throws `Error` that names the number if it is out of range.
   void validate() const;
 };
 
 /// One grid on the way.
 struct GridAttempt {
-  Eigen::Index intervals = 0;
-  Eigen::Index stages = 0;
-  Status status = Status::not_run;
-  std::string message;    ///< of the solver
-  double relative = 0.0;  ///< `ErrorEstimate::relative`, infinite where there is none
-  double floor = 0.0;     ///< `ErrorEstimate::floor`
-  double largest_step = 0.0;
-  double smallest_step = 0.0;
-  int iterations = 0;
-  double seconds = 0.0;  ///< set-up, solve, replay, estimate
+  Eigen::Index intervals = 0;       ///< N
+  Eigen::Index stages = 0;          ///< s
+  Status status = Status::not_run;  ///< how the solve ended
+  std::string message;              ///< of the solver
+  double relative = 0.0;            ///< `ErrorEstimate::relative`, infinite where there is none
+  double floor = 0.0;               ///< `ErrorEstimate::floor`
+  double largest_step = 0.0;        ///< of the grid, as a time
+  double smallest_step = 0.0;       ///< of the grid, as a time
+  int iterations = 0;               ///< of the solver
+  double seconds = 0.0;             ///< set-up, solve, replay, estimate
 };
 
 /// How an adaptive solve ended.
@@ -71,23 +71,23 @@ enum class AdaptiveOutcome : std::uint8_t {
 
 /// The answer on the last grid, and the grids before it.
 struct AdaptiveAnswer {
-  AdaptiveOutcome outcome = AdaptiveOutcome::not_solved;
-  std::string message;  ///< a sentence
-  std::vector<GridAttempt> grids;
-  std::unique_ptr<Transcription> program;  ///< of the last grid
-  Solution solution;
+  AdaptiveOutcome outcome = AdaptiveOutcome::not_solved;  ///< how it ended
+  std::string message;                                    ///< a sentence
+  std::vector<GridAttempt> grids;                         ///< all grids, in their order
+  std::unique_ptr<Transcription> program;                 ///< of the last grid
+  Solution solution;                                      ///< of the last grid
   Trajectory trajectory;   ///< of the last grid that was solved; without nodes if none was
   ErrorEstimate estimate;  ///< of it
 };
 
 /// What is solved: a problem by a method, from a first grid and a motion.
 struct AdaptiveTask {
-  const Problem* problem = nullptr;
-  std::string method;   ///< as `make_element` takes it
-  std::string tableau;  ///< as `make_tableau` takes it, with `stages`
-  int stages = 1;
-  Grid first = Grid::uniform(32);
-  Motion start;
+  const Problem* problem = nullptr;  ///< what is solved
+  std::string method;                ///< as `make_element` takes it
+  std::string tableau;               ///< as `make_tableau` takes it, with `stages`
+  int stages = 1;                    ///< s
+  Grid first = Grid::uniform(32);    ///< the first grid
+  Motion start;                      ///< where the first solve begins
 };
 
 /// Solves on one grid after the other until the estimated error (`ErrorEstimator`) is at most `options.accuracy`.

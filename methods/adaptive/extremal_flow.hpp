@@ -67,6 +67,7 @@ class ExtremalFlow {
 /// Takes states and costates from (q, v, p, ψ^q, ψ^p) to `ExtremalStates` and back.
 class ExtremalCoordinates {
  public:
+  /// Scaled by the sizes of a problem whose cost solvers see times `cost_scale`.
   ExtremalCoordinates(const TracedProblem& problem, double cost_scale);
 
   /// The nodes of a motion with costates, which those of `ExtremalStates` are times the cost scale.
@@ -74,10 +75,10 @@ class ExtremalCoordinates {
 
   /// (q, p, ψ^q, ψ^p), a row per point; costates times the cost scale.
   struct Canonical {
-    Eigen::MatrixXd q;
-    Eigen::MatrixXd p;
-    Eigen::MatrixXd psi_q;
-    Eigen::MatrixXd psi_p;
+    Eigen::MatrixXd q;      ///< n columns
+    Eigen::MatrixXd p;      ///< n columns
+    Eigen::MatrixXd psi_q;  ///< ψ^q, n columns
+    Eigen::MatrixXd psi_p;  ///< ψ^p, n columns
   };
   /// Row k at times[k]. NaN where L_vv is singular.
   [[nodiscard]] Canonical canonical(const ExtremalStates& states, const Eigen::VectorXd& times);

@@ -13,10 +13,11 @@ namespace dmocbench {
 /// ā^q_ij = b_j - b_j a_ji / b_i for ψ^q, ā^p_ij = b_j - b_j ã_ji / b_i for ψ^p; the weights are those of the states.
 /// By (th:orderapp) they are (Ã, A): the scheme of (q, p) serves (ψ^p, ψ^q).
 struct AdjointCoefficients {
-  Eigen::MatrixXd a_q;
-  Eigen::MatrixXd a_p;
+  Eigen::MatrixXd a_q;  ///< of the scheme for ψ^q, s × s
+  Eigen::MatrixXd a_p;  ///< of the scheme for ψ^p, s × s
 };
 
+/// The coefficients of the adjoint scheme of a tableau (A, b, c).
 [[nodiscard]] AdjointCoefficients adjoint_coefficients(const Tableau& tableau);
 
 /// The residual of costates and stage costates in the adjoint scheme, the largest entry of any interval. Residuals of
@@ -31,6 +32,7 @@ struct AdjointResidual {
   /// are then stationary for the sum of two stages only.
   std::optional<double> control;
 
+  /// The largest of all entries.
   [[nodiscard]] double largest() const;
 };
 

@@ -31,6 +31,7 @@ struct MomentumConsistency {
 /// The energy E = L_v·v - L of a problem and the power f·v of its forces, on numbers.
 class Energy {
  public:
+  /// Traces E of the problem.
   explicit Energy(const Problem& problem);
 
   /// E(q, v, t).
@@ -52,6 +53,7 @@ struct EnergyBalance {
   double largest_work = 0.0;  ///< max over the nodes of |work up to t_k|, to compare with
 };
 
+/// Energy and work along a motion, interval by interval, by the quadrature of its tableau.
 [[nodiscard]] EnergyBalance energy_balance(const Problem& problem, const Trajectory& trajectory);
 
 /// The optimal control Hamiltonian H = C + ψ_q·q̇ + ψ_p·(L_q + f) of the maximum principle along a discrete motion,

@@ -7,17 +7,17 @@ namespace dmocbench {
 
 /// A grid's step (or number of intervals) and the error measured on it.
 struct GridError {
-  double step = 0.0;
-  double error = 0.0;
+  double step = 0.0;   ///< h
+  double error = 0.0;  ///< at this step
 };
 
 /// A straight line through log(error) over log(step).
 struct FittedOrder {
-  double order = 0.0;
+  double order = 0.0;           ///< the exponent of h
   double standard_error = 0.0;  ///< of the order; 0 with two points
   double finest = 0.0;          ///< smallest step used
   double coarsest = 0.0;        ///< largest step used
-  int points = 0;
+  int points = 0;               ///< how many it was fitted through
 };
 
 /// The order by least squares: the slope of log(error) over log(step). Points whose error is not positive and finite

@@ -11,7 +11,9 @@
 
 namespace dmocbench {
 
+/// A vector of numbers with 64 bits of mantissa.
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+/// A matrix of numbers with 64 bits of mantissa.
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// A control as a formula of time, m entries.
@@ -34,6 +36,7 @@ struct DiscreteObjects {
 /// sum D_1 L_d + f_d^- does not: there the stage equations cancel the terms with dQ̇/dq.) Computed in long double.
 class DiscreteLagrangian {
  public:
+  /// Traces L_d and f_d of the problem by this tableau.
   DiscreteLagrangian(const Problem& problem, const Tableau& tableau);
 
   /// The objects between `q_0` and `q_1` on an interval of length `h` that begins at time `t`. Row i of `controls` is

@@ -17,7 +17,9 @@ namespace dmocbench {
 template <class Scalar>
 class OneStepMap {
  public:
+  /// A vector of the map's numbers.
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  /// A matrix of the map's numbers.
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   /// The image of a point.
@@ -29,6 +31,7 @@ class OneStepMap {
     std::vector<Scalar> inputs;  ///< the solved interval, for `jacobian`
   };
 
+  /// The map of one interval of `element` by `tableau`; traces it.
   OneStepMap(const TracedProblem& problem, const Element& element, const Tableau& tableau);
 
   /// One step of length `h` from (q_0, p_0) at time `t`. Row i of `controls` is U_i (s × m). `velocity` is an estimate

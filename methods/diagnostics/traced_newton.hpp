@@ -70,11 +70,14 @@ class TracedNewton {
 template <class Scalar>
 class OutputBlocks {
  public:
+  /// A matrix of these numbers.
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
+  /// Evaluates all outputs at these inputs.
   OutputBlocks(const Schedule& schedule, const std::vector<Scalar>& inputs)
       : values_(replay<Scalar>(schedule, std::span<const Scalar>(inputs))), next_(values_.data()) {}
 
+  /// The next rows × columns outputs, column by column.
   [[nodiscard]] Matrix take(Eigen::Index rows, Eigen::Index columns = 1) {
     next_ += rows * columns;
     return Eigen::Map<const Matrix>(next_ - rows * columns, rows, columns);

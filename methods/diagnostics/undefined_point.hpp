@@ -12,7 +12,7 @@ namespace dmocbench {
 struct UndefinedPoint {
   std::string quantity;       ///< as `FormulaCheck` names it
   Eigen::Index interval = 0;  ///< k
-  double time = 0.0;
+  double time = 0.0;          ///< t, where it is
 
   /// "The motion leaves the set where its formulas are defined: lagrangian is not a number in interval 3 (t = 0.41)."
   [[nodiscard]] std::string words() const;

@@ -28,10 +28,13 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   Expression();
   /// The constant `value`.
   Expression(double value);  // NOLINT(google-explicit-constructor,hicpp-explicit-conversions): 2.0 * x must read so
+  /// The same number, not a copy of what is behind it.
   Expression(const Expression& other) noexcept : node_(other.node_) {
     if (node_ != nullptr) node_->gain_reader();
   }
+  /// Takes the other's number; that one may only be assigned to or destroyed.
   Expression(Expression&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
+  /// Stands for the other's number from now on.
   Expression& operator=(Expression other) noexcept {
     std::swap(node_, other.node_);
     return *this;
@@ -55,9 +58,13 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   /// True if both are the same node, hence the same formula.
   [[nodiscard]] bool is_same(const Expression& other) const noexcept { return node_ == other.node_; }
 
+  /// Stands for the sum from now on.
   Expression& operator+=(const Expression& right);
+  /// Stands for the difference from now on.
   Expression& operator-=(const Expression& right);
+  /// Stands for the product from now on.
   Expression& operator*=(const Expression& right);
+  /// Stands for the quotient from now on.
   Expression& operator/=(const Expression& right);
 
   // Compilers show the line that deletes a function, and with it what to write instead.
@@ -83,26 +90,43 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   detail::Node* node_;
 };
 
+/// The sum.
 [[nodiscard]] Expression operator+(const Expression& left, const Expression& right);
+/// The difference.
 [[nodiscard]] Expression operator-(const Expression& left, const Expression& right);
+/// The product.
 [[nodiscard]] Expression operator*(const Expression& left, const Expression& right);
+/// The quotient.
 [[nodiscard]] Expression operator/(const Expression& left, const Expression& right);
+/// The negative.
 [[nodiscard]] Expression operator-(const Expression& operand);
+/// The operand itself.
 [[nodiscard]] Expression operator+(const Expression& operand);
 
+/// √x.
 [[nodiscard]] Expression sqrt(const Expression& x);
-[[nodiscard]] Expression exp(const Expression& x);
+[[nodiscard]] Expression exp(const Expression& x);  ///< e^x.
+/// The natural logarithm.
 [[nodiscard]] Expression log(const Expression& x);
+/// The sine of x radians.
 [[nodiscard]] Expression sin(const Expression& x);
+/// The cosine of x radians.
 [[nodiscard]] Expression cos(const Expression& x);
+/// The tangent of x radians.
 [[nodiscard]] Expression tan(const Expression& x);
+/// The inverse sine, in radians.
 [[nodiscard]] Expression asin(const Expression& x);
+/// The inverse cosine, in radians.
 [[nodiscard]] Expression acos(const Expression& x);
+/// The inverse tangent, in radians.
 [[nodiscard]] Expression atan(const Expression& x);
 /// The angle of the point (x, y), as std::atan2.
 [[nodiscard]] Expression atan2(const Expression& y, const Expression& x);
+/// The hyperbolic sine.
 [[nodiscard]] Expression sinh(const Expression& x);
+/// The hyperbolic cosine.
 [[nodiscard]] Expression cosh(const Expression& x);
+/// The hyperbolic tangent.
 [[nodiscard]] Expression tanh(const Expression& x);
 /// log(x + √(x² + 1)), without cancellation.
 [[nodiscard]] Expression asinh(const Expression& x);

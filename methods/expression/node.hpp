@@ -20,31 +20,40 @@ class NodeTable;
 
 /// The identity of a formula: nodes with equal keys are the same formula.
 struct NodeKey {
-  Operation operation = Operation::constant;
-  double value = 0.0;     // of a constant, or the exponent of a power
-  std::size_t index = 0;  // of an input
-  std::array<Node*, 2> operands{nullptr, nullptr};
+  Operation operation = Operation::constant;        ///< what it computes
+  double value = 0.0;                               ///< of a constant, or the exponent of a power
+  std::size_t index = 0;                            ///< of an input
+  std::array<Node*, 2> operands{nullptr, nullptr};  ///< null where the operation has fewer
 
   /// Bitwise on `value`: 0 and -0 are different constants, and NaN equals itself.
   [[nodiscard]] bool equals(const NodeKey& other) const noexcept;
+  /// Equal for equal keys.
   [[nodiscard]] std::size_t hash() const noexcept;
 };
 
 /// One operation of a graph, shared by all formulas that contain it; its readers are counted.
 class Node {
  public:
+  /// A node of this key that the table of its thread knows.
   Node(const NodeKey& key, NodeTable& table) noexcept : key_(key), table_(&table) {}
 
+  /// What it computes.
   [[nodiscard]] Operation operation() const noexcept { return key_.operation; }
+  /// Of a constant, or the exponent of a power.
   [[nodiscard]] double value() const noexcept { return key_.value; }
+  /// Of an input.
   [[nodiscard]] std::size_t index() const noexcept { return key_.index; }
+  /// Null where the operation has fewer.
   [[nodiscard]] Node* operand(std::size_t which) const noexcept { return key_.operands[which]; }
+  /// What tells it from all others.
   [[nodiscard]] const NodeKey& key() const noexcept { return key_; }
   /// Order of creation: operands come before the nodes that read them.
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
   /// The place that `reachable_nodes` gave this node, or an algorithm after it.
   [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
+  /// Gives it a number within a walk over the graph.
   void set_number(std::size_t number) noexcept { number_ = static_cast<std::uint32_t>(number); }
+  /// One more node or expression reads it.
   void gain_reader() noexcept { ++readers_; }
   /// The last reader frees the node.
   void lose_reader() noexcept {

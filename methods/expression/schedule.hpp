@@ -17,17 +17,20 @@ class Schedule {
  public:
   /// One value of the schedule. `left` and `right` are positions of earlier steps.
   struct Step {
-    Operation operation = Operation::constant;
-    std::uint32_t left = 0;
-    std::uint32_t right = 0;
-    double value = 0.0;           ///< of a constant, or the exponent of a power
-    std::size_t input_index = 0;  ///< of an input
+    Operation operation = Operation::constant;  ///< what is computed
+    std::uint32_t left = 0;                     ///< index of the first operand's step
+    std::uint32_t right = 0;                    ///< index of the second operand's step
+    double value = 0.0;                         ///< of a constant, or the exponent of a power
+    std::size_t input_index = 0;                ///< of an input
   };
 
   Schedule() = default;
+  /// The code that computes these outputs, in their order.
   explicit Schedule(std::span<const Expression> outputs);
+  /// The same of a vector.
   explicit Schedule(const ExpressionVector& outputs) : Schedule(entries_of(outputs)) {}
 
+  /// All steps, operands before those that read them.
   [[nodiscard]] const std::vector<Step>& steps() const noexcept { return steps_; }
   /// Positions of the outputs among the steps, in the order in which they were asked for.
   [[nodiscard]] const std::vector<std::uint32_t>& outputs() const noexcept { return outputs_; }

@@ -29,13 +29,14 @@ class Tape {
 
   /// The values of an input: entry k for interval k, or one value for all intervals.
   struct Input {
-    const double* data = nullptr;
-    bool same_for_all = false;
+    const double* data = nullptr;  ///< a number per interval, or one for all
+    bool same_for_all = false;     ///< true for one number that all intervals share
   };
 
   /// The memory of one evaluation: slots, constants and the table of series. Not to be shared between threads.
   class Workspace {
    public:
+    /// For this tape; it may be used for any number of evaluations, by one thread at a time.
     explicit Workspace(const Tape& tape);
     // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;
@@ -58,6 +59,7 @@ class Tape {
   };
 
   Tape() = default;
+  /// Makes a schedule ready to be evaluated with the instructions of this set.
   explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set());
 
   /// Evaluates intervals 0 .. count - 1, or from `begin` to `end` - 1.
@@ -70,15 +72,19 @@ class Tape {
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
   }
+  /// Evaluates intervals `begin` .. `end` - 1: output j of interval k goes to `outputs`[j][k].
   void evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const;
 
+  /// Inputs that the formulas may read.
   [[nodiscard]] std::size_t input_count() const noexcept { return input_count_; }
+  /// Outputs per interval.
   [[nodiscard]] std::size_t output_count() const noexcept { return output_count_; }
   /// Instructions per interval that compute (copies of inputs or constants to outputs are not counted).
   [[nodiscard]] std::size_t operation_count() const noexcept { return operation_count_; }
   /// The number of slots, of `block_width` numbers each, for intermediate values.
   [[nodiscard]] std::size_t slot_count() const noexcept { return slot_count_; }
+  /// The set whose instructions it uses.
   [[nodiscard]] InstructionSet instruction_set() const noexcept { return set_; }
 
  private:

@@ -21,18 +21,20 @@ enum class Combination : std::uint8_t { add, subtract, multiply, subtract_from }
 /// The innermost combination is never `subtract_from`, since its operands can be swapped.
 namespace instruction_code {
 
-inline constexpr std::size_t innermost = 3;     // add, subtract, multiply
-inline constexpr std::size_t combinations = 4;  // and subtract_from
+inline constexpr std::size_t innermost = 3;     ///< add, subtract, multiply
+inline constexpr std::size_t combinations = 4;  ///< these and subtract_from
 
+/// The code of both at once.
 inline constexpr std::size_t sine_and_cosine = static_cast<std::size_t>(Operation::unit_step) + 1;
-inline constexpr std::size_t first_pair = sine_and_cosine + 1;
-inline constexpr std::size_t pairs = innermost * combinations;
-inline constexpr std::size_t first_chain = first_pair + pairs;
-inline constexpr std::size_t chains = pairs * combinations;
-inline constexpr std::size_t first_tree = first_chain + chains;
-inline constexpr std::size_t trees = innermost * innermost * innermost;
-inline constexpr std::size_t count = first_tree + trees;
+inline constexpr std::size_t first_pair = sine_and_cosine + 1;           ///< the code of the first pair of operations
+inline constexpr std::size_t pairs = innermost * combinations;           ///< how many pairs there are
+inline constexpr std::size_t first_chain = first_pair + pairs;           ///< the code of the first chain of three
+inline constexpr std::size_t chains = pairs * combinations;              ///< how many chains there are
+inline constexpr std::size_t first_tree = first_chain + chains;          ///< the code of the first tree of three
+inline constexpr std::size_t trees = innermost * innermost * innermost;  ///< how many trees there are
+inline constexpr std::size_t count = first_tree + trees;                 ///< how many codes there are
 
+/// The code of a single operation.
 [[nodiscard]] constexpr std::size_t of(Operation operation) { return static_cast<std::size_t>(operation); }
 
 /// (a ∘ b) ∘ c
@@ -59,11 +61,11 @@ inline constexpr std::size_t most_operands = 4;
 /// One operation on whole series of numbers, one number per interval. Results and operands are positions in a table of
 /// series.
 struct TapeInstruction {
-  std::uint32_t code;  ///< an `instruction_code`
-  std::uint32_t result;
-  std::uint32_t second_result;  ///< the cosine beside a sine
-  std::array<std::uint32_t, most_operands> operands;
-  double exponent;  ///< of a power
+  std::uint32_t code;                                 ///< an `instruction_code`
+  std::uint32_t result;                               ///< the slot that is written
+  std::uint32_t second_result;                        ///< the cosine beside a sine
+  std::array<std::uint32_t, most_operands> operands;  ///< the slots that are read
+  double exponent;                                    ///< of a power
 };
 
 /// Carries out `instructions` on the first `width` (<= tape_block_width) numbers of the series that they name. Nothing
@@ -72,9 +74,12 @@ using TapeKernel = void (*)(const TapeInstruction* instructions, std::size_t cou
                             std::size_t width);
 
 // The same source, tape_kernel.cpp, compiled once per instruction set.
+/// The kernel for any processor.
 void run_tape_baseline(const TapeInstruction* instructions, std::size_t count, double* const* series,
                        std::size_t width);
+/// The kernel for processors with AVX2.
 void run_tape_avx2(const TapeInstruction* instructions, std::size_t count, double* const* series, std::size_t width);
+/// The kernel for processors with AVX-512.
 void run_tape_avx512(const TapeInstruction* instructions, std::size_t count, double* const* series, std::size_t width);
 
 }  // namespace dmocbench

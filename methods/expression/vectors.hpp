@@ -13,10 +13,10 @@
 /// Eigen's traits of a traced number.
 template <>
 struct Eigen::NumTraits<dmocbench::Expression> : Eigen::GenericNumTraits<dmocbench::Expression> {
-  using Real = dmocbench::Expression;
-  using NonInteger = dmocbench::Expression;
-  using Nested = dmocbench::Expression;
-  using Literal = double;
+  using Real = dmocbench::Expression;        ///< as Eigen asks: of a real number, itself
+  using NonInteger = dmocbench::Expression;  ///< as Eigen asks: what quotients are
+  using Nested = dmocbench::Expression;      ///< as Eigen asks: how operands are kept
+  using Literal = double;                    ///< as Eigen asks: what constants in its code are
   enum {
     IsComplex = 0,
     IsInteger = 0,
@@ -108,6 +108,7 @@ class NamedVector : public ExpressionVector {
   }
 };
 
+/// The entries of a vector in place, while it exists.
 [[nodiscard]] inline std::span<const Expression> entries_of(const ExpressionVector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
@@ -124,13 +125,16 @@ class NamedVector : public ExpressionVector {
 /// Hands out consecutive inputs, from number `first` on.
 class InputCounter {
  public:
+  /// The first input that is taken has this number.
   explicit InputCounter(std::size_t first = 0) : taken_(first) {}
 
+  /// The next `count` inputs as a vector.
   [[nodiscard]] ExpressionVector take(Eigen::Index count) {
     ExpressionVector inputs = input_vector(taken_, count);
     taken_ += static_cast<std::size_t>(count);
     return inputs;
   }
+  /// The next input.
   [[nodiscard]] Expression take() { return Expression::input(taken_++); }
   /// The number of the next input: with `first` = 0, how many were handed out so far.
   [[nodiscard]] std::size_t taken() const noexcept { return taken_; }

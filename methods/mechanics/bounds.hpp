@@ -11,8 +11,8 @@ namespace dmocbench {
 /// lower <= x <= upper, entry by entry; ±infinity where there is no bound, equal entries where x is fixed. Without
 /// entries nothing is bounded.
 struct Bounds {
-  Eigen::VectorXd lower;
-  Eigen::VectorXd upper;
+  Eigen::VectorXd lower;  ///< one entry per component, or none
+  Eigen::VectorXd upper;  ///< one entry per component, or none
 
   /// -infinity <= x <= infinity, `size` entries.
   [[nodiscard]] static Bounds none(Eigen::Index size);
@@ -21,11 +21,15 @@ struct Bounds {
   /// x = value.
   [[nodiscard]] static Bounds fixed(const Eigen::VectorXd& value);
 
+  /// True if nothing is bounded.
   [[nodiscard]] bool empty() const noexcept { return lower.size() == 0 && upper.size() == 0; }
+  /// True if component i has only one value.
   [[nodiscard]] bool is_fixed(Eigen::Index i) const { return lower[i] == upper[i]; }
+  /// True if every component has only one value.
   [[nodiscard]] bool all_fixed() const { return lower == upper; }
   /// True if entry i, or any entry, has a finite bound on either side.
   [[nodiscard]] bool is_bounded(Eigen::Index i) const;
+  /// True if a component has a finite bound.
   [[nodiscard]] bool any() const;
 };
 
@@ -38,15 +42,18 @@ struct EndBounds {
   [[nodiscard]] static EndBounds fixed(const BoundaryState& state);
   /// Removes the bounds of q_i (v_i).
   EndBounds& free_configuration(Eigen::Index i);
+  /// Leaves the velocity of component i free.
   EndBounds& free_velocity(Eigen::Index i);
 
+  /// True if the state of this end is given completely.
   [[nodiscard]] bool all_fixed() const { return q.all_fixed() && v.all_fixed(); }
 };
 
 /// lower <= T <= upper; a fixed horizon has equal bounds.
 struct HorizonBounds {
-  double lower = 0.0;
-  double upper = 0.0;
+  double lower = 0.0;  ///< least T
+  double upper = 0.0;  ///< largest T
+  /// True if T is an unknown.
   [[nodiscard]] bool is_free() const noexcept { return lower != upper; }
 };
 

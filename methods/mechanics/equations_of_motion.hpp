@@ -13,6 +13,7 @@ namespace dmocbench {
 /// L_vv q̈ = L_q + f - L_vq q̇ - L_vt.
 class EquationsOfMotion {
  public:
+  /// Traces them for the problem.
   explicit EquationsOfMotion(const TracedProblem& problem);
 
   /// q̈ at (q, v) under the control u at time t, n entries. Throws `Error` if L_vv is singular there.

@@ -15,6 +15,7 @@ namespace dmocbench {
 /// motion contains the Lagrangian itself, so that a solver cannot notice.
 class FormulaCheck {
  public:
+  /// Which derivatives have to be finite.
   enum class Derivatives : std::uint8_t { first, second };
   /// Second derivatives, which Newton's method asks for, are looked at as sums over the second variable, and over the
   /// entries of a formula: a sum is not a number where one of its terms is not.

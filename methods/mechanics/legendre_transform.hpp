@@ -10,6 +10,7 @@ namespace dmocbench {
 /// The Legendre transform 𝔽L : (q, v) ↦ (q, p = L_v(q, v)) and its inverse, on numbers.
 class LegendreTransform {
  public:
+  /// Traces it for the problem.
   explicit LegendreTransform(const TracedProblem& problem);
 
   /// p = L_v(q, v, t), n entries.

@@ -29,6 +29,7 @@ class ParameterScope {
   /// The innermost scope of the problem in this thread; null if there is none.
   [[nodiscard]] static ParameterScope* of(const Problem& problem) noexcept;
 
+  /// The value of a parameter by its place in `Problem::parameters`.
   [[nodiscard]] double value(std::size_t parameter) const { return values_[static_cast<Eigen::Index>(parameter)]; }
 
  protected:

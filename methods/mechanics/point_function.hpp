@@ -30,10 +30,12 @@ class PointFunction {
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& u, double t, Eigen::Ref<Eigen::VectorXd> result);
 
+  /// The values at a point and a time, into output_count() entries of `result`.
   void evaluate(const MotionPoint& point, double t, const Eigen::Ref<Eigen::VectorXd>& result) {
     evaluate(point.q, point.v, point.u, t, result);
   }
 
+  /// How many numbers it has at a point.
   [[nodiscard]] Eigen::Index output_count() const noexcept { return static_cast<Eigen::Index>(outputs_.size()); }
 
  private:

@@ -75,6 +75,7 @@ class Problem {
 
   /// (q⁰, q̇⁰) and (q^T, q̇^T). Where the bounds of an end leave a component free, the guess takes this value.
   [[nodiscard]] virtual BoundaryState initial_state() const = 0;
+  /// The state at T: (q^T, q̇^T). Where the bounds of this end leave a component free, the guess takes this value.
   [[nodiscard]] virtual BoundaryState final_state() const = 0;
   /// T > 0; where T is free, the guess takes this value.
   [[nodiscard]] virtual double horizon() const = 0;
@@ -114,9 +115,10 @@ class Problem {
   /// What a picture of the motion shows. Default: q and u by their names.
   [[nodiscard]] virtual std::vector<PictureQuantity> picture(const ControlledState& x) const;
 
-  [[nodiscard]] Eigen::Index configuration_size() const;
-  [[nodiscard]] Eigen::Index control_size() const;
+  [[nodiscard]] Eigen::Index configuration_size() const;  ///< n.
+  [[nodiscard]] Eigen::Index control_size() const;        ///< m.
 
+  /// All parameters with their values, in the order of the constructor.
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if there is none of that name.
   [[nodiscard]] double parameter(std::string_view name) const;
@@ -133,6 +135,7 @@ class Problem {
   [[nodiscard]] virtual std::string settings() const;
 
  protected:
+  /// With these parameters, at their defaults.
   explicit Problem(std::vector<Parameter> parameters = {});
   // Classes of problems are copied, never a problem by its base.
   Problem(const Problem&) = default;

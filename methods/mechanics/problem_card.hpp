@@ -10,24 +10,24 @@ namespace dmocbench {
 
 /// A unit that tables and figures use: one unit of the problem as solved is `factor` times the unit `name`.
 struct Unit {
-  std::string name;
-  double factor = 1.0;
+  std::string name;     ///< "s", "m", "" where the problem has none
+  double factor = 1.0;  ///< how many of these a unit of the problem as solved is
 };
 
 /// A published value of a problem's least cost.
 struct PublishedOptimum {
-  double objective = 0.0;
-  std::string source;
+  double objective = 0.0;  ///< the cost
+  std::string source;      ///< where it was published
 };
 
 /// What is known of a problem's least cost: a closed form, or a number on which independent methods agree.
 struct ReferenceOptimum {
-  double objective = 0.0;
+  double objective = 0.0;  ///< the least cost
   /// Significant digits of `objective` that are certain; 16 for a closed form.
   int digits = 0;
   /// How it is known: "closed form", or which independent routes agree to that many digits.
   std::string certificate = {};
-  std::vector<PublishedOptimum> published = {};
+  std::vector<PublishedOptimum> published = {};  ///< by others, with their sources
   /// Where the published values differ from `objective`, and why; empty if they do not.
   std::string remark = {};
 };
@@ -48,7 +48,7 @@ struct ProblemCard {
 struct PictureQuantity {
   std::string name;  ///< a column's name, "tip_x"
   std::string unit;  ///< "km", "" for a pure number
-  Expression value;
+  Expression value;  ///< as a formula of the state and the control
 };
 
 }  // namespace dmocbench

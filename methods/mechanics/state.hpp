@@ -24,6 +24,7 @@ struct ControlledState {
   NamedVector<'u'> u;  ///< control, m entries
   Expression t;        ///< time
 
+  /// The same point without its control.
   [[nodiscard]] State state() const { return {q, v, t}; }
 };
 

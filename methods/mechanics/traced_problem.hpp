@@ -59,14 +59,19 @@ class TracedProblem {
   /// The same problem whose formulas `at` have the open parameters as inputs 0, 1, ..., not as their present values.
   [[nodiscard]] TracedProblem with_open_inputs() const;
 
-  [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }
-  [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }
+  [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }  ///< n.
+  [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }        ///< m.
+  /// True if the problem has a symmetry to show.
   [[nodiscard]] bool has_symmetry() const noexcept { return has_symmetry_; }
+  /// How many entries h has.
   [[nodiscard]] Eigen::Index path_constraint_count() const noexcept { return path_constraints_; }
+  /// How many entries r has.
   [[nodiscard]] Eigen::Index boundary_condition_count() const noexcept { return boundary_conditions_; }
   /// True if the conditions or the cost of the ends depend on the velocity of the first or the last end, or on T.
   [[nodiscard]] bool ends_read_first_velocity() const { return ends_read(n_, n_); }
+  /// True if r or Φ depends on q̇(T).
   [[nodiscard]] bool ends_read_last_velocity() const { return ends_read(3 * n_, n_); }
+  /// True if r or Φ depends on T.
   [[nodiscard]] bool ends_read_horizon() const { return ends_read(4 * n_, 1); }
   /// True if L_v depends on t: then the momentum of a given velocity changes with the horizon.
   [[nodiscard]] bool momentum_depends_on_time() const noexcept { return momentum_depends_on_time_; }

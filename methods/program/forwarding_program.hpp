@@ -27,7 +27,9 @@ class ForwardingProgram : public NonlinearProgram {
   }
 
  protected:
+  /// It must outlive this.
   explicit ForwardingProgram(NonlinearProgram& original) : original_(original) {}
+  /// The program behind it.
   [[nodiscard]] NonlinearProgram& original() const noexcept { return original_; }
 
  private:

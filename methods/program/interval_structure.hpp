@@ -11,17 +11,18 @@ namespace dmocbench {
 /// Where an unknown or a row of a transcribed program belongs: to a node k = 0 .. N, to an interval k = 0 .. N - 1, or
 /// to the border (a quantity of the whole horizon).
 struct Place {
+  /// A node, an interval, or the whole horizon.
   enum class Kind : std::uint8_t { node, interval, border };
-  Kind kind = Kind::border;
-  std::size_t index = 0;
+  Kind kind = Kind::border;  ///< what it belongs to
+  std::size_t index = 0;     ///< which node or interval, from 0
 };
 
 /// Consecutive unknowns, or rows, of one kind: number `first` + i belongs to node, or interval, `index` + i.
 struct PlaceRun {
-  Place::Kind kind = Place::Kind::border;
-  std::size_t index = 0;
-  std::size_t count = 0;
-  std::size_t first = 0;
+  Place::Kind kind = Place::Kind::border;  ///< what they belong to
+  std::size_t index = 0;                   ///< of the first one's node or interval
+  std::size_t count = 0;                   ///< how many there are
+  std::size_t first = 0;                   ///< the first one's number
 };
 
 /// The places of all unknowns, or of all rows, as runs. A quantity of all nodes is one run of N + 1, a quantity of all
@@ -35,7 +36,9 @@ class Places {
     return runs_.back().first;
   }
 
+  /// All runs; together they name every unknown, or row, once.
   [[nodiscard]] const std::vector<PlaceRun>& runs() const noexcept { return runs_; }
+  /// How many places there are.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
   /// The number of the run that a member belongs to.
@@ -67,9 +70,9 @@ class Places {
 /// and of the border only; a row of node k those of intervals k - 1 and k. A run of the Jacobian's pattern keeps within
 /// one run of `rows` and one of `unknowns`, a run of the Hessian's within two of `unknowns`.
 struct IntervalStructure {
-  std::size_t intervals = 0;
-  Places unknowns;
-  Places rows;
+  std::size_t intervals = 0;  ///< N
+  Places unknowns;            ///< one for every unknown
+  Places rows;                ///< one for every row
 };
 
 }  // namespace dmocbench

@@ -28,10 +28,10 @@ struct KktEntries {
 /// Memory for residuals that are computed again and again: after the first time nothing is allocated.
 /// What they were computed from stays there.
 struct KktMemory {
-  Eigen::VectorXd constraints;
-  Eigen::VectorXd gradient_of_cost;
-  Eigen::VectorXd gradient;  ///< of the Lagrangian
-  Eigen::VectorXd jacobian;
+  Eigen::VectorXd constraints;       ///< a, an entry per constraint
+  Eigen::VectorXd gradient_of_cost;  ///< ∇φ, an entry per variable
+  Eigen::VectorXd gradient;          ///< of the Lagrangian
+  Eigen::VectorXd jacobian;          ///< the entries of ∂a/∂ξ
 };
 
 /// Evaluates the program at `primal` with `multipliers`.
@@ -42,6 +42,7 @@ void evaluate_kkt(NonlinearProgram& program, const Eigen::VectorXd& primal, cons
 /// NaN where the program gives NaN. Throws `Error` if a size is wrong, as all functions here do.
 [[nodiscard]] KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                        const Eigen::VectorXd& multipliers, KktMemory& memory);
+/// The same with memory of its own.
 [[nodiscard]] inline KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                               const Eigen::VectorXd& multipliers) {
   KktMemory memory;

@@ -34,8 +34,10 @@ class LaneProgram {
 
   /// φ of every lane.
   virtual void objective(const double* x, double* result) = 0;
+  /// ∇φ: eight numbers per variable.
   virtual void gradient(const double* x, double* result) = 0;
-  virtual void constraints(const double* x, double* result) = 0;
+  virtual void constraints(const double* x, double* result) = 0;  ///< a: eight numbers per constraint.
+  /// ∂a/∂ξ: eight numbers per entry of its structure.
   virtual void jacobian(const double* x, double* values) = 0;
   /// Hessian of φ + λᵀa.
   virtual void hessian(const double* x, const double* multipliers, double* values) = 0;

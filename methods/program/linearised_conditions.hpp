@@ -13,14 +13,14 @@ namespace dmocbench {
 /// complementarity decides whether the unknown moves to the bound: `diagonal` is the multiplier over the distance. An
 /// inequality is treated alike with its multiplier: `compliance` is the distance over the multiplier.
 struct LinearisedConditions {
-  Eigen::VectorXd hessian;  ///< of the Lagrangian
-  Eigen::VectorXd jacobian;
-  Eigen::VectorXd diagonal;    ///< one per variable
-  Eigen::VectorXd compliance;  ///< one per constraint; `no_part` where nothing holds an inequality
-  Eigen::VectorXd gradient_of_cost;
-  Eigen::VectorXd gradient_of_lagrangian;
-  Eigen::VectorXd gradient;     ///< of the Lagrangian, less what bounds take up
-  Eigen::VectorXd constraints;  ///< residuals
+  Eigen::VectorXd hessian;                 ///< of the Lagrangian
+  Eigen::VectorXd jacobian;                ///< the entries of ∂a/∂ξ
+  Eigen::VectorXd diagonal;                ///< one per variable
+  Eigen::VectorXd compliance;              ///< one per constraint; `no_part` where nothing holds an inequality
+  Eigen::VectorXd gradient_of_cost;        ///< ∇φ
+  Eigen::VectorXd gradient_of_lagrangian;  ///< ∇φ + (∂a/∂ξ)ᵀλ
+  Eigen::VectorXd gradient;                ///< of the Lagrangian, less what bounds take up
+  Eigen::VectorXd constraints;             ///< residuals
 
   LinearisedConditions() = default;
   /// variable_count() and constraint_count() entries.
@@ -29,6 +29,7 @@ struct LinearisedConditions {
   void compute(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                const KktMemory& memory);
 
+  /// True if every number is finite.
   [[nodiscard]] bool is_finite() const;
 
   /// The compliance of an inequality that takes no part.

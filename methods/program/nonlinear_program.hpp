@@ -15,6 +15,7 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A vector that is read, or written, in place: an Eigen vector or a map of someone else's memory.
 using VectorIn = Eigen::Ref<const Eigen::VectorXd>;
+/// The same to be written.
 using VectorOut = Eigen::Ref<Eigen::VectorXd>;
 
 /// A nonlinear program, (NLP) of the paper with constants in the bounds:
@@ -34,20 +35,23 @@ class NonlinearProgram {
   NonlinearProgram(NonlinearProgram&&) = delete;
   NonlinearProgram& operator=(NonlinearProgram&&) = delete;
 
+  /// Number of unknowns ξ.
   [[nodiscard]] virtual std::size_t variable_count() const = 0;
+  /// Number of rows of a.
   [[nodiscard]] virtual std::size_t constraint_count() const = 0;
 
   // variable_count() and constraint_count() entries.
-  [[nodiscard]] virtual const Eigen::VectorXd& variable_lower() const = 0;
-  [[nodiscard]] virtual const Eigen::VectorXd& variable_upper() const = 0;
-  [[nodiscard]] virtual const Eigen::VectorXd& constraint_lower() const = 0;
-  [[nodiscard]] virtual const Eigen::VectorXd& constraint_upper() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& variable_lower() const = 0;    ///< ξ⁻, variable_count() entries.
+  [[nodiscard]] virtual const Eigen::VectorXd& variable_upper() const = 0;    ///< ξ⁺, variable_count() entries.
+  [[nodiscard]] virtual const Eigen::VectorXd& constraint_lower() const = 0;  ///< a⁻, constraint_count() entries.
+  [[nodiscard]] virtual const Eigen::VectorXd& constraint_upper() const = 0;  ///< a⁺, constraint_count() entries.
 
   /// ∂a_i/∂ξ_j.
   [[nodiscard]] virtual const BlockPattern& jacobian_structure() const = 0;
   /// Lower triangle (row >= column) of the Hessian of the Lagrangian. A run lies on the diagonal, or does not touch it.
   [[nodiscard]] virtual const BlockPattern& hessian_structure() const = 0;
 
+  /// Φ(x); `x`: variable_count() entries, here and below..
   [[nodiscard]] virtual double objective(const VectorIn& x) = 0;
   /// `result`: variable_count() entries.
   virtual void gradient(const VectorIn& x, VectorOut result) = 0;

@@ -17,22 +17,23 @@ namespace dmocbench {
 /// wants the values of objective and constraints costs two, with first derivatives four. Not counted are the calls by
 /// which we judge points: in `confirm`, and in the stopping test of `sqp` and `nlopt`, which is the same judgement.
 struct EvaluationCounts {
-  int objective = 0;
-  int gradient = 0;
-  int constraints = 0;
-  int jacobian = 0;
-  int hessian = 0;
+  int objective = 0;    ///< of φ
+  int gradient = 0;     ///< of ∇φ
+  int constraints = 0;  ///< of a
+  int jacobian = 0;     ///< of ∂a/∂ξ
+  int hessian = 0;      ///< of the Hessian of the Lagrangian
 
+  /// All of them together.
   [[nodiscard]] int total() const noexcept { return objective + gradient + constraints + jacobian + hessian; }
 };
 
 /// What a solver returns, whether or not it succeeded.
 struct Solution {
-  Status status = Status::not_run;
-  std::string message;          ///< one sentence: what happened
-  std::string solver;           ///< whose answer it is: the solver that was asked, or that which it asked (`auto`)
-  Eigen::VectorXd primal;       ///< ξ, variable_count() entries; empty if the solver never started
-  Eigen::VectorXd multipliers;  ///< λ, constraint_count() entries; empty if there is no point to have them at
+  Status status = Status::not_run;  ///< how it ended, as `confirm` judges
+  std::string message;              ///< one sentence: what happened
+  std::string solver;               ///< whose answer it is: the solver that was asked, or that which it asked (`auto`)
+  Eigen::VectorXd primal;           ///< ξ, variable_count() entries; empty if the solver never started
+  Eigen::VectorXd multipliers;      ///< λ, constraint_count() entries; empty if there is no point to have them at
   /// The solver gave none, so they are the least-squares multipliers of its point (`least_squares_multipliers`).
   bool multipliers_are_estimated = false;
   double objective = 0.0;  ///< φ at `primal`, as the solver saw it (scaled)
@@ -48,11 +49,12 @@ struct Solution {
   std::optional<double> barrier_parameter;
 
   // Counts; none where a solver does not tell them.
-  std::optional<int> major_iterations;
+  std::optional<int> major_iterations;  ///< iterations of the solver, where it has them
   std::optional<int> minor_iterations;  ///< of the quadratic programs; the sum of the next two
+  /// Minor iterations until the quadratic programs were feasible, where the solver has them.
   std::optional<int> phase_one_minor_iterations;
-  std::optional<int> phase_two_minor_iterations;
-  std::optional<EvaluationCounts> evaluations;  ///< none if the solver asked for none
+  std::optional<int> phase_two_minor_iterations;  ///< minor iterations after that, where the solver has them
+  std::optional<EvaluationCounts> evaluations;    ///< none if the solver asked for none
   std::optional<int> linear_systems;  ///< factorisations, those that were repeated with a shifted Hessian included
 
   double seconds = 0.0;             ///< wall clock of the solver alone, without `confirm`

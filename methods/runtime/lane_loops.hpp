@@ -35,8 +35,11 @@ struct LaneLoops {
 [[nodiscard]] const LaneLoops& lane_loops_of(InstructionSet set);
 
 // The same source, lane_loops.cpp, compiled once per instruction set.
+/// For any processor.
 extern const LaneLoops lane_loops_baseline;
+/// For processors with AVX2.
 extern const LaneLoops lane_loops_avx2;
+/// For processors with AVX-512.
 extern const LaneLoops lane_loops_avx512;
 
 /// Entry i of one lane of an interleaved vector.

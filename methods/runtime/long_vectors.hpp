@@ -40,8 +40,11 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
 
 /// Largest magnitude, 0 of an empty vector; any number if one of them is not finite.
 [[nodiscard]] double largest_of(const Eigen::VectorXd& vector);
+/// Σ |x_i|.
 [[nodiscard]] double sum_of_magnitudes(const Eigen::VectorXd& vector);
+/// True if every entry is finite.
 [[nodiscard]] bool is_finite(const Eigen::VectorXd& vector);
+/// Aᵀb; both have the same size..
 [[nodiscard]] double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Resizes to `size` entries of any value. A vector of several MiB asks the system for large pages, which it gets as

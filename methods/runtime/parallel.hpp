@@ -24,12 +24,14 @@ inline constexpr std::size_t most_parts = 64;
 /// Refers to a function of the number of a part; allocates nothing.
 class PartWork {
  public:
+  /// The function is called in place: it must outlive this.
   template <class Function>
   // NOLINTNEXTLINE(google-explicit-constructor): made in the call of for_each_part.
   PartWork(const Function& function)
       : function_(&function),
         call_([](const void* object, std::size_t part) { (*static_cast<const Function*>(object))(part); }) {}
 
+  /// Works on one part.
   void operator()(std::size_t part) const { call_(function_, part); }
 
  private:

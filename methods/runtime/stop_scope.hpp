@@ -10,6 +10,7 @@ namespace dmocbench {
 /// A computation was ended by a `StopScope`.
 class Stopped : public Error {
  public:
+  /// As `Error`.
   using Error::Error;
 };
 
@@ -18,6 +19,7 @@ class Stopped : public Error {
 /// passed (0: no limit), and solvers take no longer than that. The innermost scope counts.
 class StopScope {
  public:
+  /// Begins now; `most_seconds`: wall clock.
   StopScope(std::function<bool()> stop_requested, double most_seconds);
   ~StopScope();
   StopScope(const StopScope&) = delete;
@@ -25,7 +27,9 @@ class StopScope {
   StopScope(StopScope&&) = delete;
   StopScope& operator=(StopScope&&) = delete;
 
+  /// True if `stop_requested` says so or the time is over.
   [[nodiscard]] bool must_stop() const;
+  /// Infinite without a limit.
   [[nodiscard]] double seconds_left() const;
 
  private:

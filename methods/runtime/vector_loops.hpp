@@ -29,8 +29,11 @@ struct VectorLoops {
 [[nodiscard]] const VectorLoops& vector_loops_of(InstructionSet set);
 
 // The same source, vector_loops.cpp, compiled once per instruction set.
+/// For any processor.
 extern const VectorLoops vector_loops_baseline;
+/// For processors with AVX2.
 extern const VectorLoops vector_loops_avx2;
+/// For processors with AVX-512.
 extern const VectorLoops vector_loops_avx512;
 
 }  // namespace dmocbench

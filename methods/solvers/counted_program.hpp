@@ -27,6 +27,7 @@ class CountedProgram final : public ForwardingProgram {
 
   /// The program itself, for judging a point: what is asked of it is not counted.
   [[nodiscard]] NonlinearProgram& uncounted() const noexcept { return original(); }
+  /// The evaluations so far.
   [[nodiscard]] const EvaluationCounts& counts() const noexcept { return counts_; }
   /// Time spent in the evaluations that are counted.
   [[nodiscard]] double evaluation_seconds() const noexcept { return seconds_; }
@@ -38,6 +39,7 @@ class CountedProgram final : public ForwardingProgram {
   void leave_out(double seconds) { left_out_ += seconds; }
   /// What is left of the time that the solve may take; infinity without a limit.
   [[nodiscard]] double seconds_left() const { return most_seconds_ - seconds_since(begin_); }
+  /// True if the time of the solve is over.
   [[nodiscard]] bool is_out_of_time() const { return seconds_left() < 0.0; }
 
   [[nodiscard]] double objective(const VectorIn& x) override {

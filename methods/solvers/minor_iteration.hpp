@@ -11,13 +11,14 @@ namespace dmocbench {
 /// slacks s_i of its constraints. It prices (only when the point is stationary on the present sets), takes a direction,
 /// tests how far it may go, and updates the sets. A step of length zero is a minor iteration too.
 struct MinorIteration {
+  /// What a minor iteration reduces.
   enum class Phase : std::uint8_t {
     feasibility = 1,  ///< lowers the sum of infeasibilities
     optimality = 2,   ///< lowers the quadratic objective
   };
 
-  int major = 0;  ///< the quadratic program it belongs to, from 1
-  Phase phase = Phase::feasibility;
+  int major = 0;                     ///< the quadratic program it belongs to, from 1
+  Phase phase = Phase::feasibility;  ///< of the quadratic program
   /// Columns: variable j is j, the slack of constraint i is (number of variables) + i.
   std::optional<Eigen::Index> entering;    ///< nonbasic so far, may move now; none if the step goes on as before
   std::optional<Eigen::Index> leaving;     ///< reached a bound and stays there; none after a whole step
@@ -26,7 +27,7 @@ struct MinorIteration {
   double infeasibility = 0.0;              ///< sum over all columns after the step
   double objective = 0.0;                  ///< gᵀd + ½ dᵀHd after the step
   Eigen::Index superbasics = 0;            ///< number of columns in the sets after the step
-  Eigen::Index basic_slacks = 0;
+  Eigen::Index basic_slacks = 0;           ///< slacks in the basis after it
 };
 
 }  // namespace dmocbench

@@ -35,6 +35,7 @@ struct NewtonCorrection {
 /// where a run counts as at least `smallest_share` of the largest unknown, and φ is scaled as the solver sees it.
 class NewtonCorrections {
  public:
+  /// How the linear systems are factorised.
   enum class Factorisation : std::uint8_t {
     by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
     sparse,        ///< with pivoting: slower, and the last digits are better
@@ -56,6 +57,7 @@ class NewtonCorrections {
   /// length where a derivative is not finite; none where the matrix is singular.
   [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
 
+  /// See above: a run of small unknowns counts as at least this share of the largest one.
   static constexpr double smallest_share = 1e-6;
 
  private:

@@ -38,6 +38,7 @@ class PreparedSolve {
   /// The program must outlive it. Throws `Error` as `make_solver` does.
   explicit PreparedSolve(NonlinearProgram& program, std::string_view solver = "interior_point",
                          const SolverOptions& options = {}, Judgement judgement = Judgement::confirmed);
+  /// The same by a solver that is there already.
   PreparedSolve(NonlinearProgram& program, std::unique_ptr<Solver> solver, Judgement judgement = Judgement::confirmed);
 
   /// As `Solver::solve`, from a start (variable_count() entries) and, unless they are empty, multipliers
@@ -49,7 +50,9 @@ class PreparedSolve {
 
   /// The last solution; "not run" before the first.
   [[nodiscard]] const Solution& solution() const noexcept { return solution_; }
+  /// Whose method it is.
   [[nodiscard]] const Solver& solver() const noexcept { return *solver_; }
+  /// What it solves.
   [[nodiscard]] NonlinearProgram& program() const noexcept { return program_; }
 
  private:

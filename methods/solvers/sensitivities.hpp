@@ -10,13 +10,13 @@ namespace dmocbench {
 
 /// What a program says at a point: its Lagrangian φ + λᵀa there, and its bounds.
 struct ProgramValues {
-  double objective = 0.0;
-  Eigen::VectorXd gradient;     ///< of the Lagrangian, one entry per variable
-  Eigen::VectorXd constraints;  ///< a, one entry per constraint
-  Eigen::VectorXd variable_lower;
-  Eigen::VectorXd variable_upper;
-  Eigen::VectorXd constraint_lower;
-  Eigen::VectorXd constraint_upper;
+  double objective = 0.0;            ///< φ
+  Eigen::VectorXd gradient;          ///< of the Lagrangian, one entry per variable
+  Eigen::VectorXd constraints;       ///< a, one entry per constraint
+  Eigen::VectorXd variable_lower;    ///< ξ⁻
+  Eigen::VectorXd variable_upper;    ///< ξ⁺
+  Eigen::VectorXd constraint_lower;  ///< a⁻
+  Eigen::VectorXd constraint_upper;  ///< a⁺
 };
 
 /// `primal` has variable_count() entries, `multipliers` constraint_count().

@@ -23,7 +23,7 @@ class CountedProgram;
 struct SolverOptions {
   /// For the KKT residual of the program as the solver sees it (scaled cost).
   double tolerance = 1e-10;
-  int most_iterations = 500;
+  int most_iterations = 500;  ///< after which a solve has failed
   /// Wall clock; 0 for no limit. The time of the innermost `StopScope` is a limit too.
   double most_seconds = 0.0;
   /// The solver's own output goes to standard output.
@@ -85,6 +85,7 @@ class Solver {
   /// `run`, judges its answer (`judge_infeasibility`, `confirm`) and says in a sentence what happened.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start) const;
 
+  /// As they were given.
   [[nodiscard]] const SolverOptions& options() const noexcept { return options_; }
 
   /// The method with memory of its own for solving one program again and again; null where a solve leaves nothing that

@@ -17,16 +17,22 @@ namespace dmocbench {
 class Cell {
  public:
   Cell() = default;
+  /// Text as it is.
   Cell(std::string text) : text_(std::move(text)) {}
+  /// Text as it is.
   Cell(std::string_view text) : text_(text) {}
+  /// Text as it is.
   Cell(const char* text) : text_(text) {}
+  /// All digits of a number; empty for one that is not finite.
   Cell(double number);
+  /// A whole number.
   template <std::integral Number>
   Cell(Number number) : text_(std::to_string(number)) {}
   /// Nothing where there is no value.
   template <class Value>
   Cell(const std::optional<Value>& value) : Cell(value ? Cell(*value) : Cell()) {}
 
+  /// The field as it is written, before it is quoted.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
@@ -39,6 +45,7 @@ class Cell {
 /// A row: fields by the names of their columns.
 class Row {
  public:
+  /// Gives the row a cell in the column of that name.
   void set(std::string_view column, Cell value) { cells_[std::string(column)] = std::move(value); }
   /// The field as it is written to a file; empty if there is none.
   [[nodiscard]] const std::string& text(std::string_view column) const;
@@ -55,6 +62,7 @@ class Row {
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
   /// Where the row stands, for errors: "objective.csv, record 2" (the header is record 1); empty if nobody said.
   [[nodiscard]] const std::string& place() const noexcept { return place_; }
+  /// Says where the row stands, for errors.
   void set_place(std::string place) { place_ = std::move(place); }
   /// The fields of these columns as a line of comma-separated values (RFC 4180 quoting, ends with \n).
   [[nodiscard]] std::string csv(const std::vector<std::string>& columns) const;
@@ -68,11 +76,16 @@ class Row {
 class Table {
  public:
   Table() = default;
+  /// Without rows.
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
+  /// Their names, in their order.
   [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
+  /// In the order in which they were added.
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
+  /// Adds a row at the end.
   void append(Row row) { rows_.push_back(std::move(row)); }
+  /// Removes all rows.
   void clear() { rows_.clear(); }
   /// Gives every row its place in a file of this name.
   void name_places(const std::string& file);

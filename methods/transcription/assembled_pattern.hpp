@@ -11,14 +11,14 @@ namespace dmocbench {
 /// Where the local entries of a part of a program stand in its matrix: entry e of interval k at (rows[e].at(k),
 /// columns[e].at(k)).
 struct LocalEntries {
-  std::vector<ColumnPlace> rows;
-  std::vector<ColumnPlace> columns;
-  std::size_t intervals = 0;
+  std::vector<ColumnPlace> rows;     ///< of every entry of an interval
+  std::vector<ColumnPlace> columns;  ///< of every entry of an interval
+  std::size_t intervals = 0;         ///< N
 };
 
 /// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
 struct AssembledPattern {
-  BlockPattern pattern;
+  BlockPattern pattern;             ///< where entries lie
   std::vector<ColumnPlace> places;  ///< per local entry, as `ColumnAssembly` wants it
 };
 

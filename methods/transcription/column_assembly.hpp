@@ -13,13 +13,16 @@ namespace dmocbench {
 /// Where a local quantity of the intervals stands in a long array: that of interval k at `first + k`; a quantity of the
 /// whole horizon, which all intervals share, at `first`.
 struct ColumnPlace {
+  /// One entry per interval from `first_entry` on, or that entry alone for all of them.
   // NOLINTNEXTLINE(google-explicit-constructor): a bare number is the usual place.
   ColumnPlace(std::size_t first_entry = 0, bool is_shared = false) : first(first_entry), shared(is_shared) {}
 
-  std::size_t first;
-  bool shared;
+  std::size_t first;  ///< of interval 0
+  bool shared;        ///< one entry for all intervals
 
+  /// The entry of an interval.
   [[nodiscard]] std::size_t at(std::size_t interval) const noexcept { return shared ? first : first + interval; }
+  /// Equal members.
   friend bool operator==(const ColumnPlace&, const ColumnPlace&) = default;
 };
 
@@ -31,10 +34,10 @@ enum class AssemblyMode : std::uint8_t {
 
 /// How columns of one value per interval make up one long array: column e stands at places[e].
 struct AssemblyPlan {
-  std::vector<ColumnPlace> places;
-  std::size_t size = 0;       ///< length of the array
-  std::size_t intervals = 0;  ///< length of a column
-  AssemblyMode mode = AssemblyMode::whole;
+  std::vector<ColumnPlace> places;          ///< a place for every column of the results
+  std::size_t size = 0;                     ///< length of the array
+  std::size_t intervals = 0;                ///< length of a column
+  AssemblyMode mode = AssemblyMode::whole;  ///< how columns become entries
 };
 
 /// Puts columns together to one long array.
@@ -53,7 +56,9 @@ class ColumnAssembly {
   /// Completes `result`, once every column has been written. Allocates nothing.
   void close(VectorOut& result) const;
 
+  /// How many columns there are.
   [[nodiscard]] std::size_t columns() const noexcept { return columns_.size(); }
+  /// N.
   [[nodiscard]] std::size_t intervals() const noexcept { return plan_.intervals; }
 
  private:

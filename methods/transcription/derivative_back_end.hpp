@@ -17,9 +17,9 @@ namespace dmocbench {
 /// Where the derivatives of a part stand in the program's arrays, entries in the order of `LocalFunctions::gradient`,
 /// `jacobian` and `hessian`. All three have the same intervals and the same mode.
 struct DerivativePlaces {
-  AssemblyPlan gradient;
-  AssemblyPlan jacobian;
-  AssemblyPlan hessian;
+  AssemblyPlan gradient;  ///< where its entries go
+  AssemblyPlan jacobian;  ///< where its entries go
+  AssemblyPlan hessian;   ///< where its entries go
 };
 
 /// A way to differentiate the formulas of a part of a program for all its intervals.

@@ -15,6 +15,7 @@ namespace dmocbench {
 /// entries), in the units of the problem as solved. `problem` is the one that was transcribed.
 [[nodiscard]] std::string describe_constraint(const Problem& problem, const Transcription& transcription,
                                               const Eigen::VectorXd& x, std::size_t row);
+/// An unknown of the program in words: what it is, of which node or interval.
 [[nodiscard]] std::string describe_unknown(const Problem& problem, const Transcription& transcription,
                                            const Eigen::VectorXd& x, std::size_t unknown);
 

@@ -25,8 +25,10 @@ namespace dmocbench {
 /// (`solve_unsymmetric`); to leading order it is -L_vv/h.
 class DmocShootingElement final : public Element {
  public:
+  /// With this many steps per interval.
   explicit DmocShootingElement(Shooting shooting) : shooting_(shooting) {}
 
+  /// Each doubles the digits of the root.
   static constexpr int newton_steps = 6;
 
   /// "multiple_shooting_dmoc_1" or "single_shooting_dmoc_1": one step per interval.

@@ -63,10 +63,12 @@ class Element {
   [[nodiscard]] virtual std::string name() const = 0;
   /// One line.
   [[nodiscard]] virtual std::string description() const = 0;
+  /// What nodes carry.
   [[nodiscard]] virtual NodeState node_state() const = 0;
   /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
   /// left node and controls (shooting).
   [[nodiscard]] virtual bool has_stage_unknowns() const { return true; }
+  /// The formulas of one interval; all vectors have the sizes that `IntervalTrace` names.
   [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
                                             const IntervalUnknowns& unknowns) const = 0;
 

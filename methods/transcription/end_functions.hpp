@@ -17,15 +17,16 @@ namespace dmocbench {
 /// Hamiltonian collocation have the velocity as a further unknown, tied to the momentum by p = L_v(q, v); nothing else
 /// changes. Tangent-space collocation has that unknown at every node.
 struct EndRules {
-  NodeState node_state = NodeState::configuration;
-  double cost_scale = 1.0;
-  bool first_clamped = true;
-  bool last_clamped = true;
-  bool mayer = false;
-  bool free_horizon = false;
+  NodeState node_state = NodeState::configuration;  ///< what nodes carry
+  double cost_scale = 1.0;                          ///< factor of the cost
+  bool first_clamped = true;                        ///< the state of the first end is given completely
+  bool last_clamped = true;                         ///< the state of the last end is given completely
+  bool mayer = false;                               ///< the cost is the last z of the Mayer form
+  bool free_horizon = false;                        ///< T is an unknown
 
   /// True if the velocity of the first (last) end is an unknown besides those of its node.
   [[nodiscard]] bool first_has_velocity() const noexcept { return !first_clamped && node_state != NodeState::velocity; }
+  /// True if the velocity of the last end is an unknown of its own.
   [[nodiscard]] bool last_has_velocity() const noexcept { return !last_clamped && node_state != NodeState::velocity; }
 };
 

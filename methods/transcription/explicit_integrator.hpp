@@ -16,6 +16,7 @@ struct ExplicitIntegrator {
   Eigen::VectorXd c;  ///< r stage times relative to the step
   int order = 0;      ///< classical order
 
+  /// How many stages a step has.
   [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
 };
 

@@ -22,6 +22,7 @@ class Grid {
   /// `narrowest` wide.
   [[nodiscard]] static Grid from_nodes(Eigen::VectorXd relative_times);
 
+  /// N.
   [[nodiscard]] std::size_t intervals() const noexcept { return static_cast<std::size_t>(nodes_.size() - 1); }
   /// τ_0 .. τ_N.
   [[nodiscard]] const Eigen::VectorXd& relative_times() const noexcept { return nodes_; }

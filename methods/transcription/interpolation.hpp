@@ -11,8 +11,8 @@ namespace dmocbench {
 
 /// A motion given for every time 0 <= t <= T; starts are sampled from it.
 struct Motion {
-  std::function<MotionPoint(double t)> at;
-  double horizon = 0.0;  ///< T > 0
+  std::function<MotionPoint(double t)> at;  ///< (q, v, u) at a time
+  double horizon = 0.0;                     ///< T > 0
 };
 
 /// The node of ascending `times` at time t, up to rounding; none if there is no such node.

@@ -11,9 +11,9 @@ namespace dmocbench {
 
 /// Properties of the problem, besides its formulas, on which the functions of an interval depend.
 struct IntervalRules {
-  double cost_scale = 1.0;  ///< `Problem::cost_scale`
-  bool mayer = false;       ///< the cost so far is a further unknown of every node, (eq:gDLOCP_mayer)
-  bool free_horizon = false;
+  double cost_scale = 1.0;    ///< `Problem::cost_scale`
+  bool mayer = false;         ///< the cost so far is a further unknown of every node, (eq:gDLOCP_mayer)
+  bool free_horizon = false;  ///< T is an unknown
   std::vector<Eigen::Index> bounded_velocities = {};  ///< the i whose q̇_i has bounds
 };
 
@@ -26,17 +26,18 @@ struct IntervalRules {
 /// equalities: per stage the bounded velocities, then h(Q_i, Q̇_i, U_i); in Mayer form z_{k+1} - z_k - cost. `adjoint`
 /// is ∂ℓ/∂(left node), then ∂ℓ/∂(right node).
 struct IntervalFunctions : LocalFunctions {
-  bool has_stage_unknowns = true;  ///< of the element
-  Eigen::Index node_rows = 0;
+  bool has_stage_unknowns = true;    ///< of the element
+  Eigen::Index node_rows = 0;        ///< equations that belong to nodes
   Eigen::Index stage_equations = 0;  ///< those of the element
-  Eigen::Index path_rows = 0;
-  bool mayer = false;
-  bool free_horizon = false;
+  Eigen::Index path_rows = 0;        ///< path constraints, at all stages
+  bool mayer = false;                ///< the cost so far is an unknown of the nodes
+  bool free_horizon = false;         ///< T is an unknown
 
   Schedule momenta;  ///< left momentum, then right momentum
   Schedule stages;   ///< per stage: Q_i, Q̇_i, t_i
 };
 
+/// Traces the formulas of one interval of an element and differentiates them.
 [[nodiscard]] IntervalFunctions trace_interval(const TracedProblem& traced, const Element& element,
                                                const Tableau& tableau, const IntervalRules& rules);
 

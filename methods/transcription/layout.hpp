@@ -14,21 +14,21 @@ namespace dmocbench {
 
 /// The sizes from which a layout follows.
 struct LayoutShape {
-  std::size_t intervals = 0;
-  Eigen::Index configuration_size = 0;
-  Eigen::Index control_size = 0;
-  NodeState node_state = NodeState::configuration;
-  Eigen::Index stages = 1;
-  bool shares_controls = false;
-  bool has_stage_unknowns = true;    ///< `Element::has_stage_unknowns`
-  Eigen::Index node_rows = 0;        ///< per node
-  Eigen::Index stage_equations = 0;  ///< per interval: the element's own
-  Eigen::Index path_rows = 0;        ///< per interval
-  bool mayer = false;                ///< nodes carry the cost so far, z_k, and intervals have a row for it
-  bool first_has_velocity = false;   ///< v_0, or v_N, is an unknown beside the nodes'
-  bool last_has_velocity = false;
-  bool free_horizon = false;    ///< T is an unknown
-  Eigen::Index conditions = 0;  ///< boundary conditions
+  std::size_t intervals = 0;                        ///< N
+  Eigen::Index configuration_size = 0;              ///< n
+  Eigen::Index control_size = 0;                    ///< m
+  NodeState node_state = NodeState::configuration;  ///< what nodes carry
+  Eigen::Index stages = 1;                          ///< s
+  bool shares_controls = false;                     ///< neighbouring intervals share the control at their node
+  bool has_stage_unknowns = true;                   ///< `Element::has_stage_unknowns`
+  Eigen::Index node_rows = 0;                       ///< per node
+  Eigen::Index stage_equations = 0;                 ///< per interval: the element's own
+  Eigen::Index path_rows = 0;                       ///< per interval
+  bool mayer = false;               ///< nodes carry the cost so far, z_k, and intervals have a row for it
+  bool first_has_velocity = false;  ///< v_0, or v_N, is an unknown beside the nodes'
+  bool last_has_velocity = false;   ///< the velocity at T is an unknown of its own
+  bool free_horizon = false;        ///< T is an unknown
+  Eigen::Index conditions = 0;      ///< boundary conditions
 
   /// Rows per interval: the element's own, path rows, that of the Mayer form.
   [[nodiscard]] Eigen::Index interval_rows() const noexcept { return stage_equations + path_rows + (mayer ? 1 : 0); }
@@ -43,10 +43,14 @@ struct LayoutShape {
 /// p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
+  /// Numbers all unknowns and rows of a program of this shape.
   explicit Layout(const LayoutShape& shape);
 
+  /// N.
   [[nodiscard]] std::size_t intervals() const noexcept { return shape_.intervals; }
+  /// How many unknowns there are.
   [[nodiscard]] std::size_t variable_count() const noexcept { return structure_.unknowns.size(); }
+  /// How many rows there are.
   [[nodiscard]] std::size_t row_count() const noexcept { return structure_.rows.size(); }
 
   /// Place of every local unknown of an interval, in the order of `IntervalFunctions`.
@@ -55,44 +59,57 @@ class Layout {
   [[nodiscard]] const std::vector<ColumnPlace>& row_places() const noexcept { return row_places_; }
   /// Place of every unknown and row of the ends, in the order of `EndFunctions`.
   [[nodiscard]] const std::vector<ColumnPlace>& end_unknown_places() const noexcept { return end_unknown_places_; }
+  /// Where the rows of the ends lie.
   [[nodiscard]] const std::vector<ColumnPlace>& end_row_places() const noexcept { return end_row_places_; }
 
   // Heads of columns. A node column has N + 1 entries, an interval column N.
+  /// The column of q_i of a node.
   [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept {
     return static_cast<std::size_t>(i) * (shape_.intervals + 1);
   }
   [[nodiscard]] std::size_t second_column(Eigen::Index i) const noexcept {  ///< of p_i or v_i
     return configuration_column(shape_.configuration_size + i);
   }
+  /// The column of component i of the stage rate Q̇_stage.
   [[nodiscard]] std::size_t rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
     return interval_column(rates_, stage * shape_.configuration_size + i);
   }
+  /// The column of component i of Ṗ_stage or V̇_stage.
   [[nodiscard]] std::size_t second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
     return rate_column(interior_stages() + stage, i);
   }
+  /// The column of component i of U_stage.
   [[nodiscard]] std::size_t control_column(Eigen::Index stage, Eigen::Index i) const noexcept;
   [[nodiscard]] std::size_t cost_column() const noexcept { return cost_column_; }  ///< of z, in Mayer form
+  /// The column of the i-th equation of a node.
   [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
+  /// The column of the i-th equation of an interval.
   [[nodiscard]] std::size_t interval_row_column(Eigen::Index i) const noexcept {
     return interval_column(interval_rows_, i);
   }
 
   // Single unknowns, in programs that have them.
+  /// The number of component i of the velocity at 0, where that is an unknown.
   [[nodiscard]] std::size_t first_velocity(Eigen::Index i) const noexcept {
     return single_unknowns_ + static_cast<std::size_t>(i);
   }
+  /// The number of component i of the velocity at T, where that is an unknown.
   [[nodiscard]] std::size_t last_velocity(Eigen::Index i) const noexcept {
     return first_velocity((shape_.first_has_velocity ? shape_.configuration_size : 0) + i);
   }
+  /// The number of T, where that is an unknown.
   [[nodiscard]] std::size_t horizon() const noexcept { return variable_count() - 1; }
 
+  /// What it was made for.
   [[nodiscard]] const LayoutShape& shape() const noexcept { return shape_; }
+  /// What nodes carry.
   [[nodiscard]] NodeState node_state() const noexcept { return shape_.node_state; }
   /// Those whose rates are unknowns.
   [[nodiscard]] Eigen::Index interior_stages() const noexcept {
     return shape_.has_stage_unknowns ? shape_.stages - 1 : 0;
   }
-  [[nodiscard]] Eigen::Index stages() const noexcept { return shape_.stages; }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return shape_.stages; }  ///< s.
+  /// To which node, interval or border every unknown and row belongs.
   [[nodiscard]] const IntervalStructure& structure() const noexcept { return structure_; }
 
  private:

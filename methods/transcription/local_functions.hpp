@@ -15,25 +15,31 @@ struct LocalInputs {
   std::size_t unknowns = 0;    ///< how many local unknowns there are
   std::size_t rows = 0;        ///< how many local rows there are
   std::size_t parameters = 0;  ///< how many parameters are kept open
+  /// The input of an unknown of the interval.
   [[nodiscard]] std::size_t unknown(std::size_t local) const noexcept { return parameters + local; }
+  /// The input of h.
   [[nodiscard]] std::size_t step() const noexcept { return unknown(unknowns); }
+  /// The input of t_k.
   [[nodiscard]] std::size_t time() const noexcept { return step() + 1; }
+  /// The input of σ, the factor of the cost in the Lagrangian.
   [[nodiscard]] std::size_t objective_factor() const noexcept { return step() + 2; }
+  /// The input of the multiplier of a row.
   [[nodiscard]] std::size_t multiplier(std::size_t row) const noexcept { return step() + 3 + row; }
+  /// How many inputs there are.
   [[nodiscard]] std::size_t count() const noexcept { return multiplier(rows); }
 };
 
 /// A sparse matrix of a part: formula e is the entry at (rows[e], columns[e]), local numbers.
 struct LocalMatrix {
-  Schedule schedule;
-  std::vector<std::size_t> rows;
-  std::vector<std::size_t> columns;
+  Schedule schedule;                 ///< a formula per entry
+  std::vector<std::size_t> rows;     ///< of every entry
+  std::vector<std::size_t> columns;  ///< of every entry
 };
 
 /// A sparse vector of a part: formula e is the entry of local unknown or row `places[e]`.
 struct LocalVector {
-  Schedule schedule;
-  std::vector<std::size_t> places;
+  Schedule schedule;                ///< a formula per entry
+  std::vector<std::size_t> places;  ///< of every entry
 };
 
 /// A part of a program: its share of the objective and its constraints (rows), traced and differentiated once. One part
@@ -42,7 +48,7 @@ struct LocalVector {
 /// ℓ = factor · cost + multipliers · rows is the part's share of the Lagrangian; the cost is the scaled one
 /// (`Problem::cost_scale`).
 struct LocalFunctions {
-  LocalInputs inputs;
+  LocalInputs inputs;    ///< how they are numbered
   Schedule cost;         ///< one output
   LocalVector gradient;  ///< ∂cost/∂unknown
   LocalVector rows;      ///< all local rows

@@ -12,6 +12,7 @@ namespace dmocbench {
 /// multipliers and back.
 class PointDerivatives {
  public:
+  /// Traces all of them.
   explicit PointDerivatives(const TracedProblem& problem)
       : n_(problem.configuration_size()),
         function_(n_, problem.control_size(),
@@ -29,11 +30,15 @@ class PointDerivatives {
   /// Everything below is that of the point evaluated last.
   void evaluate(const MotionPoint& point, double t) { function_.evaluate(point, t, values_); }
 
+  /// C_q, n entries.
   [[nodiscard]] Eigen::VectorXd cost_by_configuration() const { return values_.head(n_); }
+  /// C_v, n entries.
   [[nodiscard]] Eigen::VectorXd cost_by_velocity() const { return values_.segment(n_, n_); }
-  [[nodiscard]] Eigen::MatrixXd force_by_configuration() const { return matrix(0); }
-  [[nodiscard]] Eigen::MatrixXd force_by_velocity() const { return matrix(1); }
+  [[nodiscard]] Eigen::MatrixXd force_by_configuration() const { return matrix(0); }  ///< F_q, n × n.
+  [[nodiscard]] Eigen::MatrixXd force_by_velocity() const { return matrix(1); }       ///< F_v, n × n.
+  /// L_vv, n × n.
   [[nodiscard]] Eigen::MatrixXd mass() const { return matrix(2); }
+  /// L_vq, n × n.
   [[nodiscard]] Eigen::MatrixXd momentum_by_configuration() const { return matrix(3); }
 
  private:

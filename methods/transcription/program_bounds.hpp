@@ -21,8 +21,8 @@ namespace dmocbench {
 
 /// The bounds of a program, one entry per variable or constraint (row).
 struct ProgramBounds {
-  Bounds variables;
-  Bounds rows;
+  Bounds variables;  ///< of the unknowns
+  Bounds rows;       ///< of the rows
 };
 
 /// Bounds of all unknowns and constraints. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v. For

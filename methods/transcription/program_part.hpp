@@ -17,10 +17,10 @@ namespace dmocbench {
 /// Where the unknowns and constraints (rows) of a part stand in the program's vectors, and how its values and
 /// derivatives make up the program's arrays.
 struct PartPlaces {
-  std::vector<ColumnPlace> unknowns;
-  std::vector<ColumnPlace> rows;  ///< all local rows
-  AssemblyPlan constraints;       ///< entries in the order of `LocalFunctions::rows`
-  DerivativePlaces derivatives;
+  std::vector<ColumnPlace> unknowns;  ///< where unknowns lie in the program's vectors
+  std::vector<ColumnPlace> rows;      ///< all local rows
+  AssemblyPlan constraints;           ///< entries in the order of `LocalFunctions::rows`
+  DerivativePlaces derivatives;       ///< where derivatives go
 };
 
 /// A part of a program on numbers: the functions of an interval for all intervals, or those of the ends. Its inputs are
@@ -43,11 +43,16 @@ class ProgramPart {
   [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
                                                   double objective_factor);
 
+  /// Its share of φ.
   [[nodiscard]] double cost(const VectorIn& x);
   // These write the program's whole arrays, or add to them.
+  /// a, constraint_count() entries.
   void rows(const VectorIn& x, const VectorOut& result);
+  /// ∇φ, variable_count() entries.
   void gradient(const VectorIn& x, const VectorOut& result);
+  /// The entries of ∂a/∂ξ.
   void jacobian(const VectorIn& x, const VectorOut& values);
+  /// The entries of the Hessian of objective_factor · φ + λᵀa.
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, const VectorOut& values);
 
  private:

@@ -33,6 +33,7 @@ class ShootingElement final : public Element {
   /// Throws `Error` unless `substeps` is in [1, most_substeps].
   ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps);
 
+  /// Beyond it, formulas of an interval become too long.
   static constexpr int most_substeps = 64;
 
   /// "multiple_shooting_rk4_1" or "single_shooting_rk4_1": the integrator and the number of its steps per interval.

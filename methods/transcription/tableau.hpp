@@ -21,7 +21,7 @@ struct Tableau {
   /// c_1 = 0 and c_s = 1. Otherwise every stage has its own.
   bool shares_controls = false;
 
-  [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return b.size(); }  ///< s.
 };
 
 /// The coefficients that form a symplectic pair with the given ones: ã_ij = b_j - b_j a_ji / b_i (eq:DMOC_RK_symp), s ×

@@ -12,7 +12,7 @@ namespace dmocbench {
 /// Units are those of the problem as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
 /// stage i of interval k.
 struct Trajectory {
-  Tableau tableau;
+  Tableau tableau;  ///< of the method
 
   Eigen::VectorXd node_times;  ///< t_0 .. t_N
   Eigen::MatrixXd q;           ///< (N + 1) × n
@@ -27,11 +27,11 @@ struct Trajectory {
 
   /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
   Eigen::MatrixXd psi_q;
-  Eigen::MatrixXd psi_p;
+  Eigen::MatrixXd psi_p;  ///< see `psi_q`
   /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities or
   /// path constraints have multipliers of their own there, and of shooting, whose stages are no unknowns.
   Eigen::MatrixXd stage_psi_q;
-  Eigen::MatrixXd stage_psi_p;
+  Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
 
   double cost = 0.0;  ///< the true cost, not the scaled one
 
@@ -44,9 +44,12 @@ struct Trajectory {
     return {stage_q.row(row).transpose(), stage_v.row(row).transpose(), stage_u.row(row).transpose()};
   }
 
+  /// N.
   [[nodiscard]] Eigen::Index intervals() const noexcept { return node_times.size() - 1; }
-  [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }  ///< s.
+  /// True if there are costates at the nodes.
   [[nodiscard]] bool has_costates() const noexcept { return psi_q.size() > 0; }
+  /// True if there are costates at the stages.
   [[nodiscard]] bool has_stage_costates() const noexcept { return stage_psi_q.size() > 0; }
 };
 

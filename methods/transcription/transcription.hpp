@@ -38,7 +38,7 @@ enum class CostForm : std::uint8_t {
 /// Parameters of a problem that its formulas read by `Problem::varying` (`TracedProblem::varying_parameters`) and that
 /// `Transcription::set_parameters` shall change.
 struct OpenParameters {
-  std::vector<std::string> names;
+  std::vector<std::string> names;  ///< as in `Problem::parameters`
 };
 
 /// An optimal control problem transcribed on a grid: a nonlinear program made of one element per interval and of the
@@ -77,6 +77,7 @@ class Transcription final : public NonlinearProgram {
   void set_parameter(std::string_view name, double value);
   /// The state of the first (last) end: its fixed components take these values, the others stay free.
   void set_initial_state(const BoundaryState& state);
+  /// The state of the last end, likewise.
   void set_final_state(const BoundaryState& state);
   /// All bounds, those of the ends among them. The bounds of a fixed horizon set T.
   void set_bounds(const ProblemBounds& bounds);
@@ -88,6 +89,7 @@ class Transcription final : public NonlinearProgram {
   /// Lets this thread see the problem with these values as long as the scope exists: for its guess and for diagnostics
   /// that take the problem.
   [[nodiscard]] ParameterScope parameter_scope() const { return {*problem_, parameters_}; }
+  /// What was transcribed.
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
@@ -110,29 +112,38 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const RoundingFloors& rounding_floors() const override { return rounding_floors_; }
   [[nodiscard]] const IntervalStructure* interval_structure() const override { return &layout_.structure(); }
 
+  /// How unknowns and rows are numbered.
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
+  /// (A, b, c).
   [[nodiscard]] const Tableau& tableau() const noexcept { return tableau_; }
+  /// Relative node times.
   [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
+  /// The formulas of the problem.
   [[nodiscard]] const TracedProblem& traced_problem() const noexcept { return traced_; }
+  /// The formulas of one interval.
   [[nodiscard]] const IntervalFunctions& functions() const noexcept { return functions_; }
   /// Nothing where the ends add nothing to the program.
   [[nodiscard]] const std::optional<EndFunctions>& end_functions() const noexcept { return end_functions_; }
+  /// The factor by which the program has the cost.
   [[nodiscard]] double cost_scale() const noexcept { return cost_scale_; }
   /// The problem's bounds, checked (`problem_bounds`).
   [[nodiscard]] const ProblemBounds& bounds() const noexcept { return problem_bounds_; }
 
   /// T of the problem, or of its guess where it is free.
   [[nodiscard]] double guessed_horizon() const noexcept { return guessed_horizon_; }
+  /// True if T is an unknown.
   [[nodiscard]] bool has_free_horizon() const noexcept { return functions_.free_horizon; }
   /// T at a point.
   [[nodiscard]] double horizon(const VectorIn& x) const;
   /// t_0 .. t_N and h_0 .. h_{N-1} at a point.
   [[nodiscard]] Eigen::VectorXd node_times(const VectorIn& x) const { return horizon(x) * grid_.relative_times(); }
+  /// H_0 .. h_{N-1} at a point..
   [[nodiscard]] Eigen::VectorXd steps(const VectorIn& x) const { return horizon(x) * grid_.relative_widths(); }
 
   /// The step and the time of the left node that the interval formulas read: relative to the horizon where that is an
   /// unknown.
   [[nodiscard]] const Eigen::VectorXd& step_inputs() const noexcept { return step_inputs_; }
+  /// The times of the left nodes as interval formulas read them, likewise.
   [[nodiscard]] const Eigen::VectorXd& time_inputs() const noexcept { return time_inputs_; }
 
   /// The inputs of the interval formulas at a point (see `LocalInputs`); `multipliers` may be empty where no formula

@@ -28,8 +28,8 @@ struct BatchInstance {
 
 /// What a batch understands; the same meaning as in `SolverOptions`.
 struct BatchOptions {
-  double tolerance = 1e-10;
-  int most_iterations = 500;
+  double tolerance = 1e-10;   ///< for the KKT residual of the scaled program
+  int most_iterations = 500;  ///< of an instance
   /// Instances that the lanes cannot finish are solved one by one by `interior_point`; if false they keep the status
   /// "step failed".
   bool falls_back = true;
@@ -51,14 +51,15 @@ enum class BatchPhase : std::uint8_t {
   exchange,        ///< fetching instances and delivering answers
   rest,            ///< judging iterates
 };
+/// How many phases there are.
 inline constexpr std::size_t batch_phases = 6;
 /// By phase.
 using BatchSeconds = std::array<double, batch_phases>;
 
 /// How a batch went.
 struct BatchSummary {
-  std::size_t instances = 0;
-  std::size_t solved = 0;
+  std::size_t instances = 0;  ///< how many were asked for
+  std::size_t solved = 0;     ///< how many of them were solved
   /// Finished by `interior_point`, because lanes restore feasibility in the simplest way only, and have no sparse
   /// factorisation.
   std::size_t solved_one_by_one = 0;

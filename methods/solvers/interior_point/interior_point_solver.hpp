@@ -15,11 +15,12 @@ class KktSystem;
 
 /// The choices of a user of `InteriorPointSolver`.
 struct InteriorPointOptions {
+  /// How the linear systems are factorised.
   enum class Factorisation : std::uint8_t {
     intervals,  ///< interval by interval; a program whose structure does not allow it is refused
     sparse,     ///< by MUMPS, for any program
   };
-  Factorisation factorisation = Factorisation::intervals;
+  Factorisation factorisation = Factorisation::intervals;  ///< the factorisation that is tried first
   /// Supplies the linear systems of an experiment in place of `factorisation`, one `KktSystem` (kkt_system.hpp) per
   /// solve; it throws `Error` where it has none for the program, which outlives it. Empty for ours.
   std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system;

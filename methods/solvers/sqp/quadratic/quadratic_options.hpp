@@ -18,9 +18,10 @@ enum class PricingRule : std::uint8_t {
   random,   ///< any of them, by a seeded generator
 };
 
+/// How quadratic programs are begun and priced.
 struct QuadraticOptions {
-  double tolerance = 1e-9;  ///< for bounds and reduced gradients
-  Crash crash = Crash::none;
+  double tolerance = 1e-9;    ///< for bounds and reduced gradients
+  Crash crash = Crash::none;  ///< the basis to begin with
 };
 
 }  // namespace dmocbench::sqp

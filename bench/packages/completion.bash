@@ -1,0 +1,14 @@
+# Completion of bash for dmocbench: the experiments, and behind one of them its options, both as --help lists them.
+
+_dmocbench() {
+  local word=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} choices
+  if [[ $COMP_CWORD -eq 1 ]]; then
+    choices="figures --help --version $("$program" --help 2>/dev/null | sed -n 's/^  \([a-z_]*\)  .*/\1/p')"
+  elif [[ $word == -* ]]; then
+    choices=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | sed -n '/^Columns/q; /^  -/p' | grep -oE -- '--[a-z][a-z-]*' | sort -u)
+  else
+    return # a value: bash offers files
+  fi
+  mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")
+}
+complete -o bashdefault -o default -F _dmocbench dmocbench

@@ -1,0 +1,76 @@
+# Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, and `libdmocbench-dev`,
+# the libraries. What belongs to a package is what `cmake --install` installs of a component; man pages and what Debian asks
+# of every package are added by `complete_debian`.
+include_guard(GLOBAL)
+
+set(CPACK_PACKAGE_NAME dmocbench)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_VENDOR "the dmocbench authors")
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
+
+# Whoever builds a package maintains it: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or git's user.
+function(dmocbench_ask_who variable environment git_name otherwise)
+  set(answer "$ENV{${environment}}")
+  if(NOT answer)
+    execute_process(
+      COMMAND git config ${git_name}
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+      OUTPUT_VARIABLE answer
+      OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  endif()
+  if(NOT answer)
+    set(answer "${otherwise}")
+  endif()
+  set(${variable} "${answer}" PARENT_SCOPE)
+endfunction()
+dmocbench_ask_who(name DEBFULLNAME user.name "the dmocbench authors")
+dmocbench_ask_who(address DEBEMAIL user.email nobody@localhost)
+set(DMOCBENCH_MAINTAINER "${name} <${address}>" CACHE STRING "Whom the Debian packages name as their maintainer")
+set(CPACK_PACKAGE_CONTACT "${DMOCBENCH_MAINTAINER}")
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmocbench)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, gnuplot-nox | gnuplot")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+    "benchmark of DMOC against collocation for optimal control
+Solves optimal control problems of mechanical systems by DMOC (Discrete
+Mechanics and Optimal Control), by Hamiltonian and tangent-space collocation
+and by shooting, and compares accuracy, structure and cost of the answers in
+tables and figures. Problems of one's own come from a shared library, which
+libdmocbench-dev makes of one header each.")
+
+# The static libraries bring nothing with them: who links them needs what they were compiled with.
+set(adolc)
+get_property(with_adolc GLOBAL PROPERTY DMOCBENCH_WITH_ADOLC)
+if(with_adolc)
+  set(adolc ", libadolc-dev")
+endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdmocbench-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
+)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
+    "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+    "libraries of dmocbench: optimal control by DMOC and collocation
+Headers, static libraries and CMake files: a language for Lagrangians,
+forces and costs with exact derivatives, DMOC, collocation and shooting,
+solvers, diagnostics, and dmocbench_add_problems, which makes a library of
+problems of one's own for the program dmocbench.")
+
+set(CPACK_DMOCBENCH_SOURCE ${PROJECT_SOURCE_DIR}) # what begins with CPACK_ reaches the script
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/complete_debian.cmake)
+include(CPack)
