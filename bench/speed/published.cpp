@@ -16,6 +16,7 @@
 #include "bench/speed/measured_page.hpp"
 #include "bench/summary/ratio_interval.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -143,11 +144,20 @@ std::string order_of_beam(const std::string& method) {
       fitted->order, fitted->standard_error, fitted->points, 1.0 / fitted->coarsest, 1.0 / fitted->finest);
 }
 
-/// The published rows: lines that begin with # are words about them.
-std::vector<Row> published_rows(const std::filesystem::path& file) {
+/// The published rows of these problems, of all if none is named. Lines that begin with # are words about them. Throws
+/// `Error` if a problem has none.
+std::vector<Row> published_rows(const std::filesystem::path& file, const std::vector<std::string>& problems) {
   std::string text = read_file(file);
   while (text.starts_with('#')) text.erase(0, text.find('\n') + 1);
   std::vector<Row> rows = Table::from_csv(text).rows();
+  for (const std::string& problem : problems) {
+    if (std::ranges::none_of(rows, [&](const Row& row) { return row.text("problem") == problem; })) {
+      throw Error(fmt::format("--problem: there is no published time of {} in {}", problem, file.string()));
+    }
+  }
+  std::erase_if(rows, [&](const Row& row) {
+    return !problems.empty() && std::ranges::find(problems, row.text("problem")) == problems.end();
+  });
   for (Row& row : rows) row.set("where", row.text("machine").starts_with("GPU") ? "gpu" : "elsewhere");
   return rows;
 }
@@ -155,20 +165,27 @@ std::vector<Row> published_rows(const std::filesystem::path& file) {
 int run_published(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path published = "bench/speed/published.csv";
   std::filesystem::path out = "results";
+  std::vector<std::string> problems;
   int rounds = 11;
   int threads = static_cast<int>(thread_count());
   line.option("--published", published, "the table of published times");
   line.option("--out", out, "folder for speed_published.csv and speed_published.md");
+  line.list("--problem", problems, "problems of that table; none: all of them");
   line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
   line.number("--threads", threads, 1, 1024, "threads of a solve");
   line.parse();
   static_cast<void>(load_at_start());
-  const std::vector<Row> others = published_rows(published);
+  const std::vector<Row> others = published_rows(published, problems);
+  const auto is_asked_for = [&](const std::string& problem) {
+    return std::ranges::any_of(others, [&](const Row& other) { return other.text("problem") == problem; });
+  };
   const OutputFolder folder(out);
   set_thread_count(static_cast<std::size_t>(threads));
 
   std::vector<std::unique_ptr<Measured>> ours;
-  for (const OwnSolve& solve : own_solves()) ours.push_back(std::make_unique<Measured>(solve));
+  for (const OwnSolve& solve : own_solves()) {
+    if (is_asked_for(solve.problem)) ours.push_back(std::make_unique<Measured>(solve));
+  }
   for (int round = 0; round < rounds; ++round) {
     for (const auto& measured : ours) measured->solve();
   }
@@ -214,7 +231,9 @@ int run_published(CommandLine& line, const std::vector<std::string>& command) {
                                     {"verdict", "verdict"},
                                     {"differs", "what differs"},
                                     {"source", "source"}});
-  for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
+  if (is_asked_for("beam")) {
+    for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
+  }
   write_file(out / "speed_published.md", page);
   fmt::print("{}\n", (out / "speed_published.md").string());
   return 0;
