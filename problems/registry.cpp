@@ -23,6 +23,7 @@
 #include "problems/planar_quadrotor.hpp"
 #include "problems/planar_quadrotor_flip.hpp"
 #include "problems/problem_registry.hpp"
+#include "problems/rigid_quadrotor.hpp"
 #include "problems/robot_arm.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "problems/two_link_manipulator.hpp"
@@ -55,6 +56,7 @@ Registry problems_of_the_suite() {
   registry.add<Acrobot>();
   registry.add<PlanarQuadrotor>();
   registry.add<PlanarQuadrotorFlip>();
+  registry.add<RigidQuadrotor>();
   registry.add<SphericalPendulum>();
   registry.add<Hovercraft>();
   registry.add<RobotArm>();

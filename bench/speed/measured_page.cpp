@@ -1,0 +1,55 @@
+#include "bench/speed/measured_page.hpp"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiment/metadata.hpp"
+
+namespace dmocbench::speed {
+
+double load_at_start() {
+  static const double load = [] {
+    double minute = 0.0;
+    return ::getloadavg(&minute, 1) == 1 ? minute : 0.0;
+  }();
+  return load;
+}
+
+std::string page_head(const std::string& title, const std::vector<std::string>& command_line) {
+  const nlohmann::ordered_json run = describe_run(command_line);
+  std::string head = fmt::format("# {}\n\nWritten by `{}`, on\n", title, fmt::join(command_line, " "));
+  for (const char* key : {"utc_time", "commit", "compiler", "flags", "instruction_set", "processor"}) {
+    head += fmt::format("- {} {}\n", key, run.at(key).get<std::string>());
+  }
+  head += fmt::format("- cores {}\n- load average at the start {:.1f}\n", run.at("cores").get<long>(), load_at_start());
+  constexpr double idle = 0.5;
+  if (load_at_start() > idle) {
+    head += "\nOther work kept the machine busy: times are upper bounds. Ratios come from rounds that take turns.\n";
+  }
+  return head + "\n";
+}
+
+std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns) {
+  std::string header = "|";
+  std::string line = "|";
+  for (const PageColumn& column : columns) {
+    header += fmt::format(" {} |", column.title);
+    line += "---|";
+  }
+  std::string text = header + "\n" + line + "\n";
+  for (const Row& row : rows) {
+    text += "|";
+    for (const PageColumn& column : columns) {
+      const auto number = row.number(column.column);
+      text +=
+          number ? fmt::format(" {:.{}g} |", *number, column.digits) : fmt::format(" {} |", row.text(column.column));
+    }
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace dmocbench::speed

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/experiment/table.hpp"
+
+namespace dmocbench::speed {
+
+/// The head of a generated page: its title, the command, and commit, compiler, flags and processor of this run. Where
+/// other work kept the machine busy, it says that the times are upper bounds.
+[[nodiscard]] std::string page_head(const std::string& title, const std::vector<std::string>& command_line);
+
+/// These columns of the rows as a Markdown table: numbers with three digits, or all that a column is asked for.
+struct PageColumn {
+  std::string column;
+  std::string title;
+  int digits = 3;
+};
+[[nodiscard]] std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns);
+
+/// How many other programs wanted a processor when this one began; 0 where the system does not tell.
+[[nodiscard]] double load_at_start();
+
+}  // namespace dmocbench::speed

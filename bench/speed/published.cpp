@@ -1,0 +1,251 @@
+// Times that others have published beside ours: the same problems and numbers of intervals, on this machine.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiment/command_line.hpp"
+#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/solve_case.hpp"
+#include "bench/speed/measured_page.hpp"
+#include "bench/summary/ratio_interval.hpp"
+#include "methods/diagnostics/convergence_order.hpp"
+#include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/start.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::speed {
+
+namespace {
+
+/// A solve of ours that stands beside published ones.
+struct OwnSolve {
+  std::string problem;
+  std::string method;
+  int intervals = 0;
+  double target = 0.0;  ///< seconds that we set out to stay below; 0 for none
+  int stages = 1;
+  bool is_straight = false;  ///< starts at the straight line between the ends and not at the problem's guess
+};
+
+const std::vector<OwnSolve>& own_solves() {
+  static const std::vector<OwnSolve> solves{
+      {"double_oscillator", "dmoc", 10000, 0.025},
+      {"double_oscillator", "hamiltonian", 10000, 0.025},
+      {"hang_glider", "dmoc", 10000, 5.0},
+      {"hang_glider", "tangent", 10000, 5.0},
+      {"rigid_quadrotor", "dmoc", 200000, 13.0},
+      {"cart_pole", "dmoc", 64, 0.002, 3},
+      {"cart_pole", "dmoc", 64, 0.002, 3, true},
+      {"beam", "dmoc", 10000},
+      {"beam", "hamiltonian", 10000},
+      {"beam", "dmoc", 20000},
+      {"beam", "hamiltonian", 20000},
+  };
+  return solves;
+}
+
+/// A program of ours, made once and solved in every round.
+class Measured {
+ public:
+  explicit Measured(OwnSolve solve) : solve_(std::move(solve)), problem_(make_problem(solve_.problem)) {
+    const auto begin = Clock::now();
+    program_ = Case{.problem = problem_,
+                    .method = solve_.method,
+                    .tableau = "gauss",
+                    .stages = solve_.stages,
+                    .grid = Grid::uniform(solve_.intervals)}
+                   .transcribe();
+    setup_seconds_ = seconds_since(begin);
+    const Motion straight{.at = [this](double t) { return problem_->Problem::guess(t); },
+                          .horizon = problem_->horizon()};
+    start_ = sample(*program_, solve_.is_straight ? straight : guessed_motion(*problem_));
+  }
+
+  void solve() {
+    solution_ = make_solver("interior_point")->solve(*program_, start_);
+    seconds_.push_back(solution_.seconds);
+  }
+
+  [[nodiscard]] Row row() const {
+    const RatioInterval time = ratio_interval(seconds_);
+    Row row;
+    row.set("problem", solve_.problem);
+    row.set("intervals", solve_.intervals);
+    row.set("who",
+            fmt::format("{}, s = {}{}", solve_.method, solve_.stages, solve_.is_straight ? ", straight line" : ""));
+    row.set("where", "here");
+    row.set("machine", fmt::format("here, {} threads", thread_count()));
+    row.set("rounds", seconds_.size());
+    row.set("setup_seconds", setup_seconds_);
+    row.set("iterations", solution_.major_iterations);
+    row.set("status", std::string(name_of(solution_.status)));
+    if (!is_solved(solution_.status)) return row;
+    row.set("seconds", median(seconds_));
+    row.set("seconds_lower", time.lower);
+    row.set("seconds_upper", time.upper);
+    row.set("smallest_seconds", std::ranges::min(seconds_));
+    row.set("objective", solution_.objective / problem_->cost_scale());
+    if (solve_.target > 0.0) {
+      row.set("target", solve_.target);
+      row.set("verdict", seconds_.size() < fewest_rounds ? "too few rounds"
+                         : time.upper <= solve_.target   ? "below"
+                         : time.lower > solve_.target    ? "above"
+                                                         : "undecided");
+    }
+    return row;
+  }
+
+ private:
+  OwnSolve solve_;
+  std::shared_ptr<const Problem> problem_;
+  std::unique_ptr<Transcription> program_;
+  double setup_seconds_ = 0.0;
+  Eigen::VectorXd start_;
+  Solution solution_;
+  std::vector<double> seconds_;
+};
+
+/// How far a cost is off the problem's reference, as a share of it; empty without either.
+void set_cost_error(Row& row) {
+  const auto reference = make_problem(row.text("problem"))->card().reference;
+  const auto objective = row.number("objective");
+  if (reference && objective) row.set("cost_error", std::abs(*objective / reference->objective - 1.0));
+}
+
+/// The order of the error in the cost of the beam, of which the closed form is known, where nodes lie where its bound
+/// begins and ends to be active.
+std::string order_of_beam(const std::string& method) {
+  std::vector<GridError> errors;
+  const auto problem = std::shared_ptr<const Problem>(make_problem("beam"));
+  for (const int intervals : {160, 320, 640, 1280, 2560}) {
+    const auto program =
+        Case{.problem = problem, .method = method, .tableau = "gauss", .grid = Grid::uniform(intervals)}.transcribe();
+    const Solution solution =
+        make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(*problem)));
+    if (!is_solved(solution.status)) continue;
+    errors.push_back(
+        {1.0 / intervals, std::abs(solution.objective / problem->cost_scale() - problem->card().reference->objective)});
+  }
+  const auto fitted = fit_order(errors);
+  if (!fitted) return fmt::format("The cost of the beam by {}: too few grids are solved to fit an order.\n", method);
+  return fmt::format(
+      "The cost of the beam by {}: order {:.3f} ± {:.3f}, fitted over {} grids from N = {:.0f} to {:.0f}.\n", method,
+      fitted->order, fitted->standard_error, fitted->points, 1.0 / fitted->coarsest, 1.0 / fitted->finest);
+}
+
+/// The published rows of these problems, of all if none is named. Lines that begin with # are words about them. Throws
+/// `Error` if a problem has none.
+std::vector<Row> published_rows(const std::filesystem::path& file, const std::vector<std::string>& problems) {
+  std::string text = read_file(file);
+  while (text.starts_with('#')) text.erase(0, text.find('\n') + 1);
+  std::vector<Row> rows = Table::from_csv(text).rows();
+  for (const std::string& problem : problems) {
+    if (std::ranges::none_of(rows, [&](const Row& row) { return row.text("problem") == problem; })) {
+      throw Error(fmt::format("--problem: there is no published time of {} in {}", problem, file.string()));
+    }
+  }
+  std::erase_if(rows, [&](const Row& row) {
+    return !problems.empty() && std::ranges::find(problems, row.text("problem")) == problems.end();
+  });
+  for (Row& row : rows) row.set("where", row.text("machine").starts_with("GPU") ? "gpu" : "elsewhere");
+  return rows;
+}
+
+int run_published(CommandLine& line, const std::vector<std::string>& command) {
+  std::filesystem::path published = "bench/speed/published.csv";
+  std::filesystem::path out = "results";
+  std::vector<std::string> problems;
+  int rounds = 11;
+  int threads = static_cast<int>(thread_count());
+  line.option("--published", published, "the table of published times");
+  line.option("--out", out, "folder for speed_published.csv and speed_published.md");
+  line.list("--problem", problems, "problems of that table; none: all of them");
+  line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
+  line.number("--threads", threads, 1, 1024, "threads of a solve");
+  line.parse();
+  static_cast<void>(load_at_start());
+  const std::vector<Row> others = published_rows(published, problems);
+  const auto is_asked_for = [&](const std::string& problem) {
+    return std::ranges::any_of(others, [&](const Row& other) { return other.text("problem") == problem; });
+  };
+  const OutputFolder folder(out);
+  set_thread_count(static_cast<std::size_t>(threads));
+
+  std::vector<std::unique_ptr<Measured>> ours;
+  for (const OwnSolve& solve : own_solves()) {
+    if (is_asked_for(solve.problem)) ours.push_back(std::make_unique<Measured>(solve));
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (const auto& measured : ours) measured->solve();
+  }
+
+  Table table({"position", "problem",       "intervals",     "who",           "where",      "machine",   "rounds",
+               "seconds",  "seconds_lower", "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error",
+               "status",   "target",        "verdict",       "tolerance",     "differs",    "source"});
+  std::vector<std::string> groups;
+  for (const Row& other : others) {
+    const std::string group = other.text("problem") + " " + other.text("intervals");
+    if (!groups.empty() && groups.back() == group) continue;
+    groups.push_back(group);
+    const auto take = [&](Row row) {
+      if (row.text("problem") + " " + row.text("intervals") != group) return;
+      row.set("position", groups.size());
+      set_cost_error(row);
+      table.append(std::move(row));
+    };
+    for (const Row& row : others) take(row);
+    for (const auto& measured : ours) take(measured->row());
+  }
+  write_file(out / "speed_published.csv", table.csv());
+  std::string page = page_head("Published times beside ours", command);
+  page +=
+      "Rows that name a source were measured elsewhere, on other machines, by other discretisations and to other "
+      "tolerances; they are divided by nothing. Ours: `interior_point`, tolerance 1e-10, medians with their 99 % "
+      "intervals (bootstrap), the time of the solver without making the program, which has a column. `cost off`: from "
+      "the problem's reference, as a share of it.\n\n";
+  page += page_table(table.rows(), {{"problem", "problem"},
+                                    {"intervals", "N", 9},
+                                    {"who", "by"},
+                                    {"machine", "on"},
+                                    {"seconds", "seconds"},
+                                    {"seconds_lower", "from"},
+                                    {"seconds_upper", "to"},
+                                    {"smallest_seconds", "smallest"},
+                                    {"setup_seconds", "making"},
+                                    {"iterations", "iterations", 9},
+                                    {"objective", "cost", 10},
+                                    {"cost_error", "cost off", 2},
+                                    {"status", "status"},
+                                    {"target", "target"},
+                                    {"verdict", "verdict"},
+                                    {"differs", "what differs"},
+                                    {"source", "source"}});
+  if (is_asked_for("beam")) {
+    for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
+  }
+  write_file(out / "speed_published.md", page);
+  fmt::print("{}\n", (out / "speed_published.md").string());
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> command(argv, argv + argc);
+  return dmocbench::run_program(
+      "published", "Times that others have published beside ours on this machine.", argc, argv,
+      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_published(line, command); });
+}
