@@ -27,8 +27,10 @@ void FilterLineSearch::begin(double theta, double rounding_of_theta, Eigen::Inde
   forget();
 }
 
-void FilterLineSearch::forget() {
-  filter_.reset(theta_max_);
+void FilterLineSearch::forget() { restart(theta_max_); }
+
+void FilterLineSearch::restart(double theta_max) {
+  filter_.reset(theta_max);
   is_blocked_ = false;
   blocked_searches_ = 0;
 }
@@ -59,7 +61,7 @@ bool FilterLineSearch::accept(const PointValues& from, const PointValues& to, do
     is_blocked_ = is_usable && !passes;
     return false;
   }
-  end_search();
+  end_search(from.theta);
   return true;
 }
 
@@ -81,13 +83,14 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
   return true;
 }
 
-/// Empties the filter where search after search was shortened by it to the end.
-void FilterLineSearch::end_search() {
+/// Empties the filter where search after search from points like this was shortened by it to the end. Without its pairs
+/// nothing keeps the violation from growing as the cost falls, step by step, but θ_max: that of the start, or of here.
+void FilterLineSearch::end_search(double theta) {
   blocked_searches_ = is_blocked_ ? blocked_searches_ + 1 : 0;
   is_blocked_ = false;
   if (blocked_searches_ < constants::filter_reset_trigger || emptied_ == constants::max_filter_resets) return;
   ++emptied_;
-  forget();
+  restart(std::max(theta_at_start_, theta));
 }
 
 }  // namespace dmocbench::interior_point

@@ -39,7 +39,8 @@ class FilterLineSearch {
  private:
   [[nodiscard]] bool decreases(const PointValues& from, const PointValues& to, double derivative, double length,
                                double rounding);
-  void end_search();
+  void restart(double theta_max);
+  void end_search(double theta);
 
   Filter filter_;
   bool is_blocked_ = false;      // the last point that was refused was so by the filter

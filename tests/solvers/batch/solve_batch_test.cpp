@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,26 @@ struct Case {
   Eigen::VectorXd start;
   BatchSummary summary;
 };
+
+/// A motion with random curves added, of up to half of the way that each coordinate goes.
+Motion bent(const Motion& motion, tests::RandomPoints& random) {
+  constexpr Eigen::Index modes = 3;
+  const Eigen::VectorXd way = (motion.at(motion.horizon).q - motion.at(0.0).q).cwiseAbs();
+  Eigen::MatrixXd amplitudes(way.size(), modes);
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    amplitudes.col(k) = random.vector(way.size(), -0.5, 0.5).cwiseProduct(way) / static_cast<double>(k + 1);
+  }
+  const auto at = [motion, amplitudes](double t) {
+    MotionPoint point = motion.at(t);
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
+      point.q += amplitudes.col(k) * std::sin(frequency * t);
+      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
+    }
+    return point;
+  };
+  return {at, motion.horizon};
+}
 
 /// Instances that must hurt no other: numbers and sizes that are wrong, a formula without a value, ends out of reach.
 void poison(BatchInstance& instance, std::size_t kind) {
@@ -287,6 +308,23 @@ TEST(SolveBatch, SolvesOneByOneWhatTheLanesCannotAndCountsIt) {
   }
   EXPECT_EQ(solutions[4].solver, "interior_point");
   EXPECT_EQ(motion.summary.solved_one_by_one, 1U);
+}
+
+/// Half of such starts lead nowhere. The lanes follow them to the last iteration, as a single solve does, instead of
+/// leaving that to it.
+TEST(SolveBatch, KeepsHopelessStartsInTheirLanes) {
+  constexpr std::size_t count = 128;
+  Case orbit("orbital_transfer", "dmoc", 1, 48);
+  tests::RandomPoints random;
+  std::vector<BatchInstance> instances(count);
+  for (BatchInstance& instance : instances) {
+    instance.start = sample(*orbit.program, bent(guessed_motion(*orbit.problem), random));
+    instance.rows = orbit.program->constraint_lower();
+  }
+  const std::vector<Solution> solutions = orbit.solve(instances, {.most_iterations = 200, .falls_back = false});
+  const auto ended = [&](Status status) { return std::ranges::count(solutions, status, &Solution::status); };
+  EXPECT_GT(ended(Status::iteration_limit), 30);
+  EXPECT_LE(ended(Status::step_failed), 6) << "leave their lanes";
 }
 
 TEST(SolveBatch, FillsTheLaneOfAnInstanceThatHasConverged) {

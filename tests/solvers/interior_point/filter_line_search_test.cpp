@@ -81,6 +81,26 @@ TEST(FilterLineSearch, EmptiesAFilterThatShortensSearchAfterSearch) {
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(search_once()) << i;
 }
 
+/// Were it not so, every step could raise the violation tenfold where the cost falls.
+TEST(FilterLineSearch, KeepsTheViolationBelowThatOfTheStartOnceItIsEmptied) {
+  const auto emptied_at = [](double theta) {
+    FilterLineSearch search = search_from(1.0);
+    search.leave(point(0.5 * theta, 0.0));
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_FALSE(search.accept(point(theta, 1.0), point(theta, 0.5), -1e-9, 1.0));
+      EXPECT_TRUE(search.accept(point(theta, 1.0), point(0.4 * theta, 1.0), -1e-9, 0.5));
+    }
+    return search;
+  };
+  EXPECT_TRUE(emptied_at(0.8).accept(point(0.8, 1.0), point(0.99, 0.5), -1e-9, 1.0));
+  EXPECT_FALSE(emptied_at(0.8).accept(point(0.8, 1.0), point(1.01, -1e6), -1e-9, 1.0));
+  EXPECT_TRUE(emptied_at(40.0).accept(point(30.0, 1.0), point(39.0, 0.5), -1e-9, 1.0));
+  EXPECT_FALSE(emptied_at(40.0).accept(point(30.0, 1.0), point(41.0, -1e6), -1e-9, 1.0));
+  FilterLineSearch search = emptied_at(0.8);
+  search.forget();
+  EXPECT_TRUE(search.accept(point(0.8, 1.0), point(1.01, -1e6), -1e-9, 1.0)) << "of another barrier problem";
+}
+
 TEST(FilterLineSearch, RefusesWhatIsNotANumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(search_from(1.0).accept(point(1.0, 1.0), point(nan, 0.0), -1.0, 1.0));
