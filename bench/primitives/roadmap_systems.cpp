@@ -14,6 +14,9 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
       {"spherical_pendulum", "steady cones", rotating_roadmap},
       {"hovercraft", "rest, gliding, turning on the spot", hovercraft_roadmap},
       {"planar_quadrotor", "level flight", quadrotor_roadmap},
+      {"two_link_manipulator", "lattice of states", two_link_roadmap},
+      {"cart_pole", "lattice of states", cart_pole_roadmap},
+      {"acrobot", "lattice of states", acrobot_roadmap, 256},
   };
   return systems;
 }
