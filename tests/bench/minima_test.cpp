@@ -72,15 +72,17 @@ TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
 }
 
 TEST(Basins, TellOfEveryStartTheMinimumThatItEndsIn) {
+  const Table given = answers();
   Table starts({"problem"});
-  for (Row row : answers().rows()) {
+  for (Row row : given.rows()) {
     row.set("bulge_1", 0.1 * static_cast<double>(starts.rows().size()));
     row.set("bulge_2", -0.5);
     starts.append(std::move(row));
   }
   const Table table = basins(starts, 0.01);
   ASSERT_EQ(table.rows().size(), starts.rows().size());
-  const Selection minima(distinct_minima(answers(), 0.01));
+  const Table distinct = distinct_minima(given, 0.01);
+  const Selection minima(distinct);
   for (const Row& row : table.rows()) {
     const auto place = static_cast<std::size_t>(std::lround(row.number("bulge_1", -1.0) / 0.1));
     const Row& start = starts.rows().at(place);
