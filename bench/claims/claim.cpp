@@ -21,7 +21,7 @@ std::vector<Claims> chapters() {
           joined({energy_claims(), coercivity_claims()}),
           joined({consistency_order_claims(), order_theorem_claims()}),
           order_claims(),
-          joined({minima_claims(), cold_start_claims(), warm_start_claims()}),
+          joined({minima_claims(), cold_start_claims(), warm_start_claims(), primitives_claims()}),
           shooting_claims(),
           joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
                   rotation_claims(), step_control_claims()}),

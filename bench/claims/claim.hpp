@@ -145,6 +145,7 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims low_thrust_claims();         ///< many revolutions with few steps in each
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
+[[nodiscard]] Claims primitives_claims();         ///< roadmaps of DMOC primitives
 [[nodiscard]] Claims shooting_claims();           ///< direct shooting beside DMOC
 [[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers
 [[nodiscard]] Claims adaptive_claims();           ///< grids that an estimate of the error chooses

@@ -144,6 +144,7 @@ const std::vector<DeclaredTable>& declared_tables() {
        {"is_motion"}},
       {"local_minima_shares", "local_minima", solve},
       {"cold_start_shares", "cold_start", solve},
+      {"primitives", "primitives", {"problem"}, {"status"}},
       {"sequence", "sequence", columns(scheme, {"intervals", "sequence", "step"}), {"status"}},
       {"adaptive", "adaptive", columns(scheme, {"grid"}), {"status"}},
       {"adaptive_effectivity", "adaptive", columns(scheme, {"grid", "intervals", "quantity"}), {"status", "verdict"}},

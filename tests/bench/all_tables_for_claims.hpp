@@ -319,6 +319,7 @@ inline std::map<std::string, Rows> all_rows() {
   rows["consistency_order_transforms"] = transform_rows();
   rows["smoothness_slopes"] = smoothness_rows();
   rows["low_thrust"] = low_thrust_rows();
+  rows["primitives"] = primitives_rows();
   rows["step_control_symplecticity"] = step_control_rows(
       {"defect", "rounding"},
       {{"variational", {"2e-15", "1e-15"}}, {"imposed", {"1e-3", "1e-15"}}, {"from_left", {"1e-2", "1e-15"}}});
