@@ -339,4 +339,22 @@ Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std
   return {at, motion.horizon};
 }
 
+Motion bulged(const Motion& motion, const Eigen::Vector2d& bulges) {
+  const Eigen::VectorXd range = ranges(motion);
+  const bool is_plane = range.size() > 1;
+  const std::array<Eigen::Index, 2> coordinates{0, is_plane ? 1 : 0};
+  const std::array<double, 2> frequencies{std::numbers::pi / motion.horizon,
+                                          (is_plane ? 1.0 : 2.0) * std::numbers::pi / motion.horizon};
+  const auto at = [=](double t) {
+    MotionPoint point = motion.at(t);
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const double amplitude = bulges[static_cast<Eigen::Index>(k)] * range[coordinates[k]];
+      point.q[coordinates[k]] += amplitude * std::sin(frequencies[k] * t);
+      point.v[coordinates[k]] += amplitude * frequencies[k] * std::cos(frequencies[k] * t);
+    }
+    return point;
+  };
+  return {at, motion.horizon};
+}
+
 }  // namespace dmocbench

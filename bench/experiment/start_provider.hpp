@@ -92,4 +92,9 @@ class StartProvider {
 /// the same curves on every machine; number 0 is the motion itself.
 [[nodiscard]] Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std::uint64_t number);
 
+/// A motion with two curves added, which vanish at both ends: a_1 sin(πt/T) to q_1 and a_2 sin(πt/T) to q_2, or
+/// a_2 sin(2πt/T) to q_1 where there is no q_2, in units of the range of that coordinate as in `perturbed`, with their
+/// derivatives added to the velocity. The control stays.
+[[nodiscard]] Motion bulged(const Motion& motion, const Eigen::Vector2d& bulges);
+
 }  // namespace dmocbench

@@ -13,6 +13,9 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
       {"orbital_transfer", "circular orbits", rotating_roadmap},
       {"spherical_pendulum", "steady cones", rotating_roadmap},
       {"planar_quadrotor", "level flight", quadrotor_roadmap},
+      {"two_link_manipulator", "lattice of states", two_link_roadmap},
+      {"cart_pole", "lattice of states", cart_pole_roadmap},
+      {"acrobot", "lattice of states", acrobot_roadmap, 256},
   };
   return systems;
 }

@@ -35,4 +35,9 @@ struct RoadmapSystem {
 /// The planar quadrotor: level flight in all directions, moved by translations.
 [[nodiscard]] StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& options);
 
+/// Systems without a symmetry, on lattices of states: the two-link manipulator, the cart with a pole, the acrobot.
+[[nodiscard]] StoredRoadmap two_link_roadmap(const Problem& problem, const PrimitiveOptions& options);
+[[nodiscard]] StoredRoadmap cart_pole_roadmap(const Problem& problem, const PrimitiveOptions& options);
+[[nodiscard]] StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options);
+
 }  // namespace dmocbench

@@ -76,6 +76,29 @@ Table distinct_minima(const Selection& rows, double separation) {
   return table;
 }
 
+Table basins(const Selection& rows, double separation) {
+  const ColumnNames columns{"problem", "method",  "tableau", "stages",  "solver",    "derivatives", "intervals",
+                            "bulge_1", "bulge_2", "status",  "minimum", "objective", "is_motion"};
+  const ColumnNames copied(columns.begin(), columns.end() - 3);
+  Table table(columns);
+  for (const Selection& group : rows.group_by(group_columns)) {
+    const std::vector<Selection> minima = minima_of(group, separation);
+    for (std::size_t i = 0; i < minima.size(); ++i) {
+      for (const Row& answer : minima[i]) {
+        Row row = fields_of(answer, copied);
+        row.set("minimum", i + 1);
+        row.set("objective", minima[i].front().number("objective"));
+        row.set("is_motion", is_motion(minima[i]) ? "yes" : "no");
+        table.append(std::move(row));
+      }
+    }
+    for (const Row& answer : group) {
+      if (answer.text("status") != "solved") table.append(fields_of(answer, copied));
+    }
+  }
+  return table;
+}
+
 Table best_minimum_shares(const Selection& rows, double separation) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "starts", "solved",
                "unsolved", "unconfirmed", "best", "share", "share_lower", "share_upper"});

@@ -20,6 +20,11 @@ namespace dmocbench {
 /// motion. The interval is Wilson's, 95 %.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation);
 
+/// What each start of a plane of them ended in:
+/// problem,method,tableau,stages,solver,derivatives,intervals,bulge_1,bulge_2 of the row, its status, and where it was
+/// solved the number and the lowest objective of its minimum in `distinct_minima`, and whether that is a motion.
+[[nodiscard]] Table basins(const Selection& rows, double separation);
+
 /// The largest error of a replay of the whole horizon that ends near the final state.
 inline constexpr double confirmed_replay = 0.3;
 

@@ -1,5 +1,9 @@
 #include "bench/summary/minima.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "bench/experiment/start_provider.hpp"
@@ -65,6 +69,58 @@ TEST(BestMinimumShares, CountEveryStartOfAMethodSolvedOrNot) {
   EXPECT_EQ(shares.rows()[1].number("unconfirmed"), 1.0);
   EXPECT_LT(shares.rows()[0].number("share_lower").value_or(1.0), 1.0 / 3.0);
   EXPECT_GT(shares.rows()[0].number("share_upper").value_or(0.0), 1.0 / 3.0);
+}
+
+TEST(Basins, TellOfEveryStartTheMinimumThatItEndsIn) {
+  const Table given = answers();
+  Table starts({"problem"});
+  for (Row row : given.rows()) {
+    row.set("bulge_1", 0.1 * static_cast<double>(starts.rows().size()));
+    row.set("bulge_2", -0.5);
+    starts.append(std::move(row));
+  }
+  const Table table = basins(starts, 0.01);
+  ASSERT_EQ(table.rows().size(), starts.rows().size());
+  const Table distinct = distinct_minima(given, 0.01);
+  const Selection minima(distinct);
+  for (const Row& row : table.rows()) {
+    const auto place = static_cast<std::size_t>(std::lround(row.number("bulge_1", -1.0) / 0.1));
+    const Row& start = starts.rows().at(place);
+    EXPECT_EQ(row.text("method"), start.text("method"));
+    EXPECT_EQ(row.text("status"), start.text("status"));
+    if (start.text("status") != "solved") {
+      EXPECT_EQ(row.text("minimum"), "");
+      continue;
+    }
+    EXPECT_NEAR(row.number("objective", 0.0), start.number("objective", 0.0), 0.4);
+    const Selection minimum = minima.where("minimum", row.text("minimum"));
+    ASSERT_EQ(minimum.size(), 1U);
+    EXPECT_EQ(row.number("objective"), minimum.front().number("objective"));
+    EXPECT_EQ(row.text("is_motion"), minimum.front().text("is_motion"));
+  }
+}
+
+TEST(BulgedGuess, IsAsWideAsItSaysInTheMiddleAndKeepsTheEnds) {
+  const auto problem = make_problem("two_link_manipulator");
+  const Motion guess{[&](double t) { return problem->guess(t); }, problem->horizon()};
+  const Motion moved = bulged(guess, {0.5, -0.25});
+  for (const double t : {0.0, problem->horizon()}) EXPECT_LT((moved.at(t).q - guess.at(t).q).norm(), 1e-14);
+  const double middle = 0.5 * problem->horizon();
+  const double range = std::numbers::pi;  // of both angles
+  EXPECT_LT((moved.at(middle).q - guess.at(middle).q - range * Eigen::Vector2d(0.5, -0.25)).norm(), 1e-12);
+  constexpr double step = 1e-6;
+  const Eigen::VectorXd slope = (moved.at(0.3 + step).q - moved.at(0.3 - step).q) / (2.0 * step);
+  EXPECT_LT((slope - moved.at(0.3).v).norm(), 1e-6);
+}
+
+TEST(BulgedGuess, HasASecondBulgeWhereThereIsOneCoordinate) {
+  const auto problem = make_problem("double_integrator");
+  const Motion guess{[&](double t) { return problem->guess(t); }, problem->horizon()};
+  const Motion moved = bulged(guess, {0.0, 1.0});
+  const double quarter = 0.25 * problem->horizon();
+  EXPECT_NEAR(moved.at(2.0 * quarter).q[0], guess.at(2.0 * quarter).q[0], 1e-14);
+  EXPECT_GT(moved.at(quarter).q[0] - guess.at(quarter).q[0], 0.5);
+  EXPECT_LT(moved.at(3.0 * quarter).q[0] - guess.at(3.0 * quarter).q[0], -0.5);
 }
 
 TEST(PerturbedGuess, KeepsTheEndsAndTheSeedTellsItApart) {
