@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiment/table.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
 
