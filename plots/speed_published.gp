@@ -9,7 +9,7 @@ eval require("speed_published", "position,problem,intervals,where,seconds,second
 groups = distinct("speed_published", "position,problem,intervals", "", "")
 if (words(groups) == 0) { exit }
 places = "elsewhere gpu here"
-place_label(p) = word("'measured elsewhere, CPU' 'measured elsewhere, GPU' 'here, interior\\_point, two threads at most'", p)
+place_label(p) = word("'measured elsewhere, CPU' 'measured elsewhere, GPU' 'measured here'", p)
 place_shift(p) = 0.22 * (p - 2)
 here(p) = strlen(distinct("speed_published", "where", "where=".word(places, p), "seconds")) > 0
 drawn = ""
@@ -17,7 +17,7 @@ do for [p = 1:3] { if (here(p)) { drawn = drawn.sprintf(" %d", p) } }
 
 do for [kind in kinds] {
   eval begin_figure(kind, "speed_published", 1000, 560)
-  set title title_text("Seconds of a solve, published and here", "",\
+  set title title_text("Seconds of a solve, published and here", "The published quadrotor has nine states, ours twelve.",\
       "Hollow: on other machines, by other discretisations, to other tolerances. What was not solved is left out.")
   eval power_axis("y")
   set ylabel "time of the solver [s]"
@@ -28,7 +28,7 @@ do for [kind in kinds] {
     group = word(groups, g)
     set xtics add (problem_label(entry(group, "problem"))."\nN = ".entry(group, "intervals") entry(group, "position") + 0)
   }
-  set key at screen 0.5, screen 0.015 center bottom vertical maxrows 1 width 2
+  set key at screen 0.5, screen 0.015 center bottom horizontal samplen 1 width 0
   set bmargin 6
   plot for [p in drawn] rows("speed_published", "where=".word(places, int(p)), "seconds")\
            using (column("position") + place_shift(int(p))):(column("seconds"))\

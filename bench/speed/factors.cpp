@@ -207,7 +207,8 @@ void append_step(Table& table, const Program& of, const TimesByWay& times, const
     row.set("of_time_per_iteration", factor.ratio / of_iterations);
     row.set("of_time_lower", factor.lower / of_iterations);
     row.set("of_time_upper", factor.upper / of_iterations);
-    row.set("verdict", ratios.size() < fewest_rounds              ? "too few rounds"
+    row.set("verdict", is_busy()                                  ? "not judged on a busy machine"
+                       : ratios.size() < fewest_rounds            ? "too few rounds"
                        : factor.lower > 1.0 || factor.upper < 1.0 ? "apart from 1"
                                                                   : "not apart from 1");
   }
@@ -246,7 +247,7 @@ int run_factors(CommandLine& line, const std::vector<std::string>& command) {
   line.option("--out", out, "folder for speed_factors.csv, speed_factors_steps.csv and speed_factors.md");
   line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
   line.parse();
-  static_cast<void>(load_at_start());
+  static_cast<void>(is_busy());
   if (preferred_instruction_set() == InstructionSet::baseline)
     throw Error("one lane is compiled for processors with AVX2");
   const OutputFolder folder(out);

@@ -10,12 +10,22 @@
 
 namespace dmocbench::speed {
 
+namespace {
+
+/// How many programs wanted a processor in the minute before this was first called; 0 where the system does not tell.
 double load_at_start() {
   static const double load = [] {
     double minute = 0.0;
     return ::getloadavg(&minute, 1) == 1 ? minute : 0.0;
   }();
   return load;
+}
+
+}  // namespace
+
+bool is_busy() {
+  constexpr double idle = 0.5;
+  return load_at_start() > idle;
 }
 
 std::string page_head(const std::string& title, const std::vector<std::string>& command_line) {
@@ -25,9 +35,13 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
     head += fmt::format("- {} {}\n", key, run.at(key).get<std::string>());
   }
   head += fmt::format("- cores {}\n- load average at the start {:.1f}\n", run.at("cores").get<long>(), load_at_start());
-  constexpr double idle = 0.5;
-  if (load_at_start() > idle) {
-    head += "\nOther work kept the machine busy: times are upper bounds. Ratios come from rounds that take turns.\n";
+  if (is_busy()) {
+    head +=
+        "\nOther work kept the machine busy: times are upper bounds, and ratios are those of this load, because a "
+        "solve of "
+        "a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged but that "
+        "a "
+        "time is below a target.\n";
   }
   return head + "\n";
 }

@@ -19,7 +19,7 @@ struct PageColumn {
 };
 [[nodiscard]] std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns);
 
-/// How many other programs wanted a processor when this one began; 0 where the system does not tell.
-[[nodiscard]] double load_at_start();
+/// Whether other programs wanted a processor when this was first asked, which a program does before it measures.
+[[nodiscard]] bool is_busy();
 
 }  // namespace dmocbench::speed
