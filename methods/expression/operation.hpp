@@ -33,7 +33,9 @@ enum class Operation : std::uint8_t {
   hyperbolic_cosine,
   hyperbolic_tangent,
   power,
+  /// log(x + √(x² + 1)), exact enough by that formula for x >= 0; odd.
   inverse_hyperbolic_sine,
+  /// 2/√π ∫₀ˣ exp(-t²) dt, which has no elementary form; odd.
   error_function,
   /// 1 where the operand is positive, else 0; its derivative counts as 0. Where a spline passes from one cubic to the
   /// next.

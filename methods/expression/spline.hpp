@@ -21,6 +21,7 @@ class Spline {
 
   /// s(x).
   [[nodiscard]] double operator()(double x) const;
+  /// s(x) of a traced number, as a formula with exact first and second derivatives.
   [[nodiscard]] Expression operator()(const Expression& x) const;
 
  private:

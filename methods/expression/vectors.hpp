@@ -90,12 +90,15 @@ template <class Left, class Right>
 template <char name>
 class NamedVector : public ExpressionVector {
  public:
+  /// No entries.
   NamedVector() = default;
+  /// Whatever has entries: vectors, and Eigen's formulas of vectors.
   NamedVector(const ExpressionVector& entries) : ExpressionVector(entries) {}                 // NOLINT(*-explicit-*)
   NamedVector(ExpressionVector&& entries) noexcept : ExpressionVector(std::move(entries)) {}  // NOLINT(*-explicit-*)
   template <class Derived>
   NamedVector(const Eigen::MatrixBase<Derived>& entries) : ExpressionVector(entries) {}  // NOLINT(*-explicit-*)
 
+  /// The entry of that number, from 0. Throws `Error` that names the vector, the entry and the size if there is none.
   [[nodiscard]] const Expression& operator[](Eigen::Index entry) const { return coeffRef(checked(entry)); }
   [[nodiscard]] Expression& operator[](Eigen::Index entry) { return coeffRef(checked(entry)); }
   [[nodiscard]] const Expression& operator()(Eigen::Index entry) const { return coeffRef(checked(entry)); }

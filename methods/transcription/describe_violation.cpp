@@ -215,6 +215,14 @@ std::string idle_controls(const Problem& problem) {
   return is_read ? "" : " No entry of force reads a control, so that nothing steers this motion.";
 }
 
+/// A sentence if the cost is so far below 0 that it may have no lower bound: scaled costs are of order 1.
+std::string endless_descent(Transcription& transcription, const Eigen::VectorXd& x) {
+  constexpr double far_below = -1e6;
+  const double cost = transcription.objective(x);
+  if (!(cost < far_below)) return "";
+  return fmt::format(" The scaled cost is {:.2g} there: running_cost or final_cost may have no lower bound.", cost);
+}
+
 /// The functions of the problem that contradict each other.
 std::string contradiction(const Transcription& transcription) {
   std::vector<std::string> parts;
@@ -277,7 +285,7 @@ std::string describe_violation(const Problem& problem, Transcription& transcript
                                              worst.amount);
   if (std::isnan(worst.amount)) return text;
   text += held_controls(problem, transcription, x) + held_horizon(problem, transcription, x);
-  text += idle_controls(problem);
+  text += idle_controls(problem) + endless_descent(transcription, x);
   if (solution.status == Status::infeasible) text += contradiction(transcription);
   return text;
 }

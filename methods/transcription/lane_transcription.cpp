@@ -26,8 +26,7 @@ class LaneTranscription::Part {
  public:
   Part(const Transcription& program, const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
        const std::vector<ColumnPlace>& rows, bool has_ends_only)
-      : program_(program),
-        intervals_(has_ends_only ? 1 : program.layout().intervals()),
+      : intervals_(has_ends_only ? 1 : program.layout().intervals()),
         mode_(has_ends_only ? AssemblyMode::part : AssemblyMode::whole),
         numbers_(functions.inputs),
         unknowns_(heads(unknowns)),
@@ -114,7 +113,6 @@ class LaneTranscription::Part {
     return inputs_;
   }
 
-  const Transcription& program_;
   std::size_t intervals_;
   AssemblyMode mode_;
   LocalInputs numbers_;

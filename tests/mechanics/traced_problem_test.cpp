@@ -160,7 +160,7 @@ class Wrong final : public tests::SmallProblem {
     return kind_ == Kind::lagrangian ? first + x.v[1] * x.q[0] : first + 0.5 * x.v[1] * x.v[1];
   }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override {
-    return kind_ == Kind::force ? ExpressionVector(x.u.head(1)) : x.u;
+    return kind_ == Kind::force ? ExpressionVector(x.u.head(1)) : ExpressionVector(x.u);
   }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector&) const override {

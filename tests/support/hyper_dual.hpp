@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace dmocbench::tests {
 
@@ -64,6 +65,15 @@ inline HyperDual asin(const HyperDual& a) {
   return HyperDual::chain(a, std::asin(a.x), d, a.x * d * d * d);
 }
 inline HyperDual acos(const HyperDual& a) { return HyperDual(std::acos(0.0)) - asin(a); }
+inline HyperDual asinh(const HyperDual& a) {
+  const double d = 1.0 / std::sqrt(1.0 + a.x * a.x);
+  return HyperDual::chain(a, std::asinh(a.x), d, -a.x * d * d * d);
+}
+inline HyperDual erf(const HyperDual& a) {
+  const double d = 2.0 * std::numbers::inv_sqrtpi * std::exp(-a.x * a.x);
+  return HyperDual::chain(a, std::erf(a.x), d, -2.0 * a.x * d);
+}
+inline HyperDual unit_step(const HyperDual& a) { return a.x > 0.0 ? 1.0 : 0.0; }
 /// Right of the y axis, where the formulas of these tests stay.
 inline HyperDual atan2(const HyperDual& y, const HyperDual& x) { return atan(y / x); }
 inline HyperDual pow(const HyperDual& a, double e) {

@@ -210,6 +210,23 @@ TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) 
             "boundary_conditions[0] (gate)");
 }
 
+/// Its cost falls without end as the control grows.
+class Endless final : public tests::SmallProblem {
+ public:
+  Endless() : SmallProblem("endless", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return -x.u[0] * x.u[0]; }
+};
+
+TEST_P(ViolationInWords, TellsThatACostMayHaveNoLowerBound) {
+  const Endless problem;
+  Ended ended(problem, GetParam());
+  EXPECT_FALSE(says(ended.words(), "lower bound")) << ended.words();
+  for (Eigen::Index k = 0; k < violation_intervals; ++k) ended.control(0, k) = 1e5;
+  EXPECT_PRED2(says, ended.words(), "running_cost or final_cost may have no lower bound.");
+}
+
 TEST_P(ViolationInWords, NamesWhatIsNotANumber) {
   const tests::MovingFrame problem;
   Ended ended(problem, GetParam(), Status::evaluation_failed);
