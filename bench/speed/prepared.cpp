@@ -16,7 +16,10 @@
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/solvers/prepared_solve.hpp"
+#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -32,8 +35,8 @@ struct RepeatedSolve {
 
 constexpr double microseconds = 1e6;  // of a second
 
-/// A program with a start. A cold one is the problem's guess; a warm one is the solution, with its multipliers, for an
-/// end state of which every entry that is not zero is by one percent smaller.
+/// A program with a start. A cold one is the problem's guess; a warm one is the motion, with its multipliers, that is
+/// optimal for an end state of which every entry that is not zero is by one percent smaller, moved to the ends.
 struct StartedProgram {
   std::unique_ptr<Problem> problem;
   std::unique_ptr<Transcription> program;
@@ -52,9 +55,10 @@ struct StartedProgram {
     program->set_final_state(end);
     const Solution neighbour = make_solver("interior_point")->solve(*program, start);
     if (!is_solved(neighbour.status)) throw Error("the neighbour of the warm start is not solved");
-    start = neighbour.primal;
     multipliers = neighbour.multipliers;
+    const Motion motion = smooth_motion(read_trajectory(*program, neighbour.primal, multipliers));
     program->set_final_state(problem->final_state());
+    start = sample(*program, moved_to_ends(motion, program->bounds()));
   }
 };
 

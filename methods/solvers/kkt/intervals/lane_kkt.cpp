@@ -13,6 +13,9 @@ namespace {
 
 static_assert(lane_count == instance_lanes);
 
+/// Every so many refusals in a row the other multiples of the weights are tried.
+constexpr int most_believed = 4;
+
 /// The reason why the ends of a program do not fit; null if they do.
 const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
   if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
@@ -80,6 +83,8 @@ LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelCho
 
 void LaneKkt::forget(std::size_t lane) {
   weights_[lane] = fresh_weights_;
+  refusals_[lane] = 0;
+  tries_others_[lane] = false;
   has_other_weights_[lane] = false;
 }
 
@@ -171,11 +176,18 @@ LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
       reachability_(i, i) = group.reachability[(X + i + i * X) * lane_count + static_cast<Eigen::Index>(lane)];
     }
     weights_[lane].observe(reachability_);
-    if (is_definite_[lane]) return Outcome::solved;
+    if (is_definite_[lane]) {
+      refusals_[lane] = 0;
+      tries_others_[lane] = false;
+      return Outcome::solved;
+    }
   }
   // The usual multiple tells the inertia of DMOC, and of the midpoint rule; collocation with several stages needs more.
-  const bool is_doubtful = entries_.shape.node_sums == 0 && !plan_.shape.is_plain;
-  has_other_weights_[lane] = is_doubtful && weights_[lane].next_multiple();
+  // Where refusal follows on refusal, its digits may be lost on the way from one end to the other: no shift helps then.
+  const bool needs_more = entries_.shape.node_sums == 0 && !plan_.shape.is_plain;
+  const bool is_doubtful = needs_more || tries_others_[lane] || ++refusals_[lane] % most_believed == 0;
+  tries_others_[lane] = is_doubtful && weights_[lane].next_multiple();
+  has_other_weights_[lane] = tries_others_[lane];
   if (has_other_weights_[lane]) return Outcome::again;
   return pivots_hold ? Outcome::failed : Outcome::wrong_inertia;
 }

@@ -76,8 +76,10 @@ class LaneKkt {
   EliminationPlan plan_;
   SegmentKernel kernel_;
   TerminalWeights fresh_weights_;
-  std::vector<TerminalWeights> weights_;  // one per lane
-  Mask has_other_weights_{};              // than its matrix began with
+  std::vector<TerminalWeights> weights_;    // one per lane
+  Mask has_other_weights_{};                // than its matrix began with
+  Mask tries_others_{};                     // one after the other, until one tells or none is left
+  std::array<int, lane_count> refusals_{};  // in a row
   std::vector<TerminalWeights::Diagonal> free_diagonals_;
   std::vector<double> compliances_;   // by diagonal and lane
   std::vector<double> lane_weights_;  // by entry of the state and lane
