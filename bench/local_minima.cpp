@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
 
@@ -56,8 +56,8 @@ class LocalMinima final : public Experiment {
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     const Table minima = distinct_minima(table, separation);
     const Table shares = best_minimum_shares(table, separation);
-    write_file(prefix.string() + "_minima.csv", minima.csv());
-    write_file(prefix.string() + "_shares.csv", shares.csv());
+    write_table(prefix.string() + "_minima.csv", minima, metadata);
+    write_table(prefix.string() + "_shares.csv", shares, metadata);
     metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
     for (const Row& row : shares.rows()) {
       fmt::print("{} {}: best minimum in {} of {} ({:.0f} to {:.0f} %)\n", row.text("problem"), row.text("method"),
