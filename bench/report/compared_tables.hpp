@@ -38,10 +38,10 @@ struct ChangedField {
 struct ChangedTime {
   std::string about;
   RatioInterval ratio;
-  /// True if there are rounds enough and the interval does not contain 1.
-  [[nodiscard]] bool is_changed() const {
-    return ratio.rounds >= fewest_rounds && (ratio.lower > 1.0 || ratio.upper < 1.0);
-  }
+  /// True if there are rounds enough for a verdict.
+  [[nodiscard]] bool is_judged() const { return ratio.rounds >= fewest_rounds; }
+  /// True if the interval does not contain 1 either.
+  [[nodiscard]] bool is_changed() const { return is_judged() && (ratio.lower > 1.0 || ratio.upper < 1.0); }
 };
 /// Of rows that were timed in rounds in both runs.
 [[nodiscard]] std::vector<ChangedTime> changed_times(const PairedRows& rows);

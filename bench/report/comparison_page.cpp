@@ -20,8 +20,9 @@ namespace {
 /// A table of HTML with the same cells in each row.
 std::string cells(const std::string& label, const std::vector<std::string>& heads,
                   const std::vector<std::vector<std::string>>& rows) {
-  std::string html = fmt::format(
-      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table><thead><tr>", escaped(label));
+  std::string html =
+      fmt::format("<div class=\"scroll wrapped\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table><thead><tr>",
+                  escaped(label));
   for (const std::string& head : heads) html += fmt::format("<th scope=\"col\">{}", escaped(head));
   html += "</thead><tbody>\n";
   for (const std::vector<std::string>& row : rows) {
@@ -47,7 +48,7 @@ std::string claims_section_of(const ComparedRun& first, const ComparedRun& secon
   for (const auto& [name, claim] : before) {
     const auto other = after.find(name);
     if (other == after.end()) {
-      alone.push_back(fmt::format("{} (in {} only)", name, first.name));
+      alone.push_back(name + " (A)");
     } else if (claim->text("verdict") == other->second->text("verdict")) {
       ++same;
     } else {
@@ -56,7 +57,7 @@ std::string claims_section_of(const ComparedRun& first, const ComparedRun& secon
     }
   }
   for (const auto& [name, claim] : after) {
-    if (!before.contains(name)) alone.push_back(fmt::format("{} (in {} only)", name, second.name));
+    if (!before.contains(name)) alone.push_back(name + " (B)");
   }
   std::string html = fmt::format(
       "<section id=\"claims\"><h2>Claims</h2>\n<p>{} claims have another verdict, {} have the same one, {} are in one "
@@ -84,36 +85,35 @@ std::vector<std::pair<const ReportedTable*, const ReportedTable*>> common_tables
 
 std::string times_section(const ComparedRun& first, const ComparedRun& second) {
   std::string html;
+  std::size_t unjudged = 0;
   for (const auto& [before, after] : common_tables(first.results, second.results)) {
     std::vector<ChangedTime> times = changed_times(paired_rows(before->table, after->table));
+    unjudged += std::erase_if(times, [](const ChangedTime& time) { return !time.is_judged(); });
     if (times.empty()) continue;
     const auto changed = std::ranges::count_if(times, &ChangedTime::is_changed);
-    const auto judged =
-        std::ranges::count_if(times, [](const ChangedTime& time) { return time.ratio.rounds >= fewest_rounds; });
     std::ranges::stable_sort(times, std::greater{}, &ChangedTime::is_changed);
     std::vector<std::vector<std::string>> rows;
     for (const ChangedTime& time : times) {
       const RatioInterval& ratio = time.ratio;
-      const std::string verdict = ratio.rounds < fewest_rounds ? "too few rounds"
-                                  : !time.is_changed()         ? "the same within its interval"
-                                  : ratio.ratio > 1.0          ? "slower in B"
-                                                               : "faster in B";
+      const std::string verdict = !time.is_changed()  ? "the same within its interval"
+                                  : ratio.ratio > 1.0 ? "slower in B"
+                                                      : "faster in B";
       rows.push_back({time.about, fmt::format("{:.3f}", ratio.ratio), fmt::format("{:.3f}", ratio.lower),
                       fmt::format("{:.3f}", ratio.upper), std::to_string(ratio.rounds), verdict});
     }
     html += fmt::format(
-        "<details><summary><b>{}</b> {} solves were timed in both, {} with rounds enough; {} of those differ beyond "
-        "their interval</summary>\n{}</details>\n",
-        escaped(before->file), times.size(), judged, changed,
+        "<details><summary><b>{}</b> {} solves were timed in both; {} differ beyond their "
+        "interval</summary>\n{}</details>\n",
+        escaped(before->file), times.size(), changed,
         cells("times in " + before->file, {"solve", "B by A", "lower", "upper", "rounds", "verdict"}, rows));
   }
-  if (html.empty()) return "";
+  if (html.empty() && unjudged == 0) return "";
   return fmt::format(
              "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by that in A, with an interval of 99 % "
              "from "
-             "the rounds of both, at least {} of them for a verdict. The runs were not made in turn: what else the "
-             "machine did during one of them is in the ratio.</p>\n",
-             fewest_rounds) +
+             "the rounds of both. The runs were not made in turn: what else the machine did during one of them is in "
+             "the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
+             unjudged, fewest_rounds) +
          html + "</section>\n";
 }
 
@@ -166,7 +166,7 @@ std::string told_by(const ResultsFolder& results, const std::string& key) {
 std::string overview(const ComparedRun& first, const ComparedRun& second) {
   std::string html =
       fmt::format("<section id=\"overview\"><h1>Two runs: {} and {}</h1>\n", escaped(first.name), escaped(second.name));
-  html += cells("the two runs", {"", "A", "B"},
+  html += cells("the two runs", {"what", "A", "B"},
                 {{"folder", first.name, second.name},
                  {"began at", told_by(first.results, "utc_time"), told_by(second.results, "utc_time")},
                  {"commit", told_by(first.results, "commit"), told_by(second.results, "commit")},

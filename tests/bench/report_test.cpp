@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/report/compared_tables.hpp"
+#include "bench/report/comparison_page.hpp"
 #include "bench/report/figure_markup.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/page.hpp"
@@ -97,6 +99,53 @@ TEST(Report, LeavesOutOfFiguresWhatDoesNotShow) {
   EXPECT_TRUE(has(svg, "slope 12.34"));
   EXPECT_TRUE(has(svg, "id='fgpPt0'") && has(svg, "href='#fgpPt1'"));
   EXPECT_FALSE(has(svg, "gpDot") || has(svg, "<g"));
+}
+
+TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffer) {
+  const Table first = Table::from_csv(
+      "problem,method,intervals,status,major_iterations,objective,seconds\n"
+      "arm,dmoc,16,solved,5,0.25,1\narm,dmoc,16,solved,7,0.5,1\narm,dmoc,32,solved,6,0.125,1\n");
+  const Table second = Table::from_csv(
+      "problem,method,intervals,status,major_iterations,objective,seconds\n"
+      "arm,dmoc,64,solved,9,1,2\narm,dmoc,16,solved,5,0.75,2\narm,dmoc,16,time limit,8,0.5,2\n");
+  const PairedRows rows = paired_rows(first, second);
+  EXPECT_EQ(rows.pairs.size(), 2U);
+  EXPECT_EQ(rows.alone, 2U);
+  const std::vector<ChangedField> changes = changed_fields(first, second, rows);
+  ASSERT_EQ(changes.size(), 2U);  // no objective, no time
+  EXPECT_EQ(changes[0].column, "status");
+  EXPECT_EQ(changes[0].second, "time limit");
+  EXPECT_EQ(changes[1].first + " " + changes[1].second, "7 8");
+  EXPECT_EQ(changes[1].about, "arm dmoc 16");
+}
+
+TEST(ComparedTables, JudgeTimesByRoundsAlone) {
+  const auto table = [](const std::string& times) {
+    return Table::from_csv("problem,round_seconds\narm," + times + "\nleg,1 1\nfoot,\n");
+  };
+  const Table calm = table("1 1.1 0.9 1 1.05 0.95 1 1.02 0.98 1 1.01");
+  const Table slow = table("2 2.1 1.9 2 2.05 1.95 2 2.02 1.98 2 2.01");
+  const std::vector<ChangedTime> times = changed_times(paired_rows(calm, slow));
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_TRUE(times[0].is_changed());
+  EXPECT_NEAR(times[0].ratio.ratio, 2.0, 1e-9);
+  EXPECT_FALSE(times[1].is_judged());
+  EXPECT_FALSE(changed_times(paired_rows(calm, calm)).front().is_changed());
+}
+
+TEST(Comparison, TellsClaimsWhoseVerdictChangedAndWhatOneRunLacks) {
+  const ComparedRun first{"before", folder_with(two_solves())};
+  ComparedRun second = first;
+  second.name = "after";
+  second.results.tables.clear();
+  ComparedRun third = first;
+  third.results.claims =
+      Table::from_csv("claim,states,verdict,measured\narm/order,two,reproduced,2.0\narm/cost,less,differs,3\n");
+  second.results.claims = Table::from_csv("claim,states,verdict,measured\narm/order,two,differs,1.0\n");
+  const std::string page = comparison_page(third, second);
+  EXPECT_TRUE(has(page, "1 claims have another verdict, 0 have the same one, 1 are in one of the runs only"));
+  EXPECT_TRUE(has(page, "<td>arm/order<td>two<td>reproduced<td>differs<td>2.0<td>1.0"));
+  EXPECT_TRUE(has(page, "Only in A: objective.csv."));
 }
 
 TEST(Report, MotionsHaveRodsWhereDistancesStay) {
