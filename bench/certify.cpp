@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/summary/agreement_of_routes.hpp"
 #include "bench/summary/selection.hpp"
 #include "methods/error.hpp"
@@ -225,14 +225,15 @@ class Certify final : public Experiment {
   }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_references.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     std::vector<Certificate> certificates;
     for (const CertifiedProblem& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
       fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, agreeing_digits(c).text(),
                  c.agreement.confirmed);
     }
-    write_file(prefix.string() + "_references.csv", table_of(certificate_columns(route_names_), certificates).csv());
+    write_table(prefix.string() + "_references.csv", table_of(certificate_columns(route_names_), certificates),
+                metadata);
   }
 
  private:

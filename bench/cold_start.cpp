@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/cold_starts.hpp"
 
@@ -76,8 +76,8 @@ class ColdStart final : public Experiment {
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_shares.csv", "_profiles.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     const Table shares = cold_start_shares(table, objective_tolerance_);
-    write_file(prefix.string() + "_shares.csv", shares.csv());
-    write_file(prefix.string() + "_profiles.csv", cold_start_profiles(table).csv());
+    write_table(prefix.string() + "_shares.csv", shares, metadata);
+    write_table(prefix.string() + "_profiles.csv", cold_start_profiles(table), metadata);
     metadata["start"] = "cold";
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;

@@ -8,7 +8,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/indirect_reference.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/summary/fitted_orders.hpp"
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
@@ -133,14 +133,14 @@ class Convergence final : public Experiment {
   }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     FittedOrders orders = fit_orders(table, fit_range_, reference_);
-    write_file(prefix.string() + "_slopes.csv", orders.table.csv());
-    write_file(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table).csv());
+    write_table(prefix.string() + "_slopes.csv", orders.table, metadata);
+    write_table(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table), metadata);
     metadata["reference"] = reference_ == exact_reference ? "the indirect solution"
                             : reference_ > 0              ? fmt::format("N = {} of the same method", reference_)
                                                           : "the finest grid of the same method";
     if (indirect_) {
-      write_file(prefix.string() + "_reference.csv", indirect_->table().csv());
-      write_file(prefix.string() + "_jumps.csv", fit_jumps(table).csv());
+      write_table(prefix.string() + "_reference.csv", indirect_->table(), metadata);
+      write_table(prefix.string() + "_jumps.csv", fit_jumps(table), metadata);
       metadata["references"] = indirect_->metadata();
       const std::vector<std::string> notes = indirect_->notes();
       orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/summary/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
 #include "methods/error.hpp"
@@ -132,8 +132,8 @@ class Equivalence final : public Experiment {
   }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_slopes.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
-    write_file(prefix.string() + "_slopes.csv", fit_differences(table, "configuration_difference").csv());
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    write_table(prefix.string() + "_slopes.csv", fit_differences(table, "configuration_difference"), metadata);
   }
 
  private:

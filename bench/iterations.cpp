@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
 #include "methods/error.hpp"
@@ -67,8 +67,8 @@ class Iterations final : public Experiment {
   }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& /*metadata*/) override {
-    write_file(prefix.string() + "_ratios.csv", currency_ratios(table).csv());
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    write_table(prefix.string() + "_ratios.csv", currency_ratios(table), metadata);
   }
 
  private:

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/summary/minima.hpp"
 #include "bench/summary/selection.hpp"
@@ -72,10 +72,10 @@ class LocalMinima final : public Experiment {
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     const Table minima = distinct_minima(table, separation);
     const Table shares = best_minimum_shares(table, separation);
-    write_file(prefix.string() + "_minima.csv", minima.csv());
-    write_file(prefix.string() + "_shares.csv", shares.csv());
+    write_table(prefix.string() + "_minima.csv", minima, metadata);
+    write_table(prefix.string() + "_shares.csv", shares, metadata);
     if (plane_ > 0) {
-      write_file(prefix.string() + "_basins.csv", basins(table, separation).csv());
+      write_table(prefix.string() + "_basins.csv", basins(table, separation), metadata);
       metadata["starts"] = {{"plane", plane_}, {"amplitude", amplitude_}};
     } else {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/summary/profile_tables.hpp"
 
@@ -69,11 +70,11 @@ class Profile final : public Experiment {
     return {"_profiles.csv", "_summary.csv", "_library.csv", "_library.md"};
   }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_file(prefix.string() + "_profiles.csv", performance_profiles(table).csv());
+    write_table(prefix.string() + "_profiles.csv", performance_profiles(table), metadata);
     const Table summary = profile_summary(table);
-    write_file(prefix.string() + "_summary.csv", summary.csv());
+    write_table(prefix.string() + "_summary.csv", summary, metadata);
     const Table library = library_table(table);
-    write_file(prefix.string() + "_library.csv", library.csv());
+    write_table(prefix.string() + "_library.csv", library, metadata);
     write_file(prefix.string() + "_library.md", library_table_in_markdown(library));
     metadata["success"] = {{"objective_tolerance", objective_tolerance_}, {"most_seconds", options().most_seconds}};
     for (const Row& row : summary.rows()) {

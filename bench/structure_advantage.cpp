@@ -10,7 +10,7 @@
 
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/indirect_reference.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/structure_advantage/advantage_ratios.hpp"
 #include "bench/structure_advantage/banded_kkt.hpp"
 #include "bench/structure_advantage/operation_count.hpp"
@@ -117,7 +117,7 @@ class StructureAdvantage final : public Experiment {
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_file(prefix.string() + "_ratios.csv", advantage_ratios(table).csv());
+    write_table(prefix.string() + "_ratios.csv", advantage_ratios(table), metadata);
     metadata["references"] = reference_->metadata();
   }
 

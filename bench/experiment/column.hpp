@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,10 +43,20 @@ template <class Record>
   return names;
 }
 
+/// What columns mean by their names: "[UNIT] MEANING".
+template <class Record>
+[[nodiscard]] std::map<std::string, std::string> meanings_of(const Columns<Record>& columns) {
+  std::map<std::string, std::string> meanings;
+  for (const Column<Record>& column : columns)
+    meanings[column.name] = (column.unit.empty() ? "" : "[" + column.unit + "] ") + column.meaning;
+  return meanings;
+}
+
 /// The table of records: a row for each.
 template <class Record>
 [[nodiscard]] Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
   Table table(names_of(columns));
+  table.explain(meanings_of(columns));
   for (const Record& record : records) table.append(row_of(columns, record));
   return table;
 }

@@ -97,8 +97,7 @@ class Run {
     metadata_["not_solved"] = outcome.failures;
     metadata_["too_coarse"] = outcome.too_coarse;
     metadata_["on_another_branch"] = outcome.other_branch;
-    metadata_["tables"] = describe_tables(files_of_run());
-    add_meanings(metadata_["tables"], table_file(), columns_);
+    describe_tables_of_run(files_of_run(), meanings_of(columns_), metadata_);
     write_metadata(prefix_.string() + ".json", metadata_);
     fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
                complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),

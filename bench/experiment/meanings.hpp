@@ -1,24 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "bench/experiment/column.hpp"
+#include "methods/tables/table.hpp"
 
 namespace dmocbench {
 
-/// Adds what the columns of a table mean, "[s] median time of a solve", to what a run's metadata tell of its file
-/// (`describe_tables`); nothing where they tell nothing.
-template <class Record>
-void add_meanings(nlohmann::ordered_json& tables, const std::filesystem::path& file, const Columns<Record>& columns) {
-  const std::string name = file.filename().string();
-  if (!tables.contains(name)) return;
-  for (const Column<Record>& column : columns) {
-    const std::string unit = column.unit.empty() ? "" : "[" + column.unit + "] ";
-    tables[name]["meanings"][column.name] = unit + column.meaning;
-  }
-}
+/// Adds what the columns of a table mean, "[s] median time of a solve", to what a run's metadata tell of its file, as
+/// `metadata["tables"][FILE]["meanings"]`. Columns that the table lacks are left out.
+void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table);
+
+/// Writes a table as a file, and what its columns mean to the metadata of its run. Throws `Error` as `write_file`.
+void write_table(const std::filesystem::path& file, const Table& table, nlohmann::ordered_json& metadata);
+
+/// `metadata["tables"]` becomes what `describe_tables` tells of the files, with the meanings of their columns: those
+/// that `write_table` noted, or else `of_rows`, of the columns of the run's own rows.
+void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
+                            const std::map<std::string, std::string>& of_rows, nlohmann::ordered_json& metadata);
 
 }  // namespace dmocbench

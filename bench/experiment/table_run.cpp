@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/written_tables.hpp"
@@ -44,7 +45,7 @@ void TableRun::show(const std::string& activity) const {
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
   const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), table.csv(), fmt::format("{} rows{}", table.rows().size(), gaps)});
+  tables_.push_back({out_ / (file + ".csv"), table, fmt::format("{} rows{}", table.rows().size(), gaps)});
   not_measured_ += not_measured;
 }
 
@@ -57,8 +58,9 @@ int TableRun::write() const {
   };
   write_as(false);
   std::vector<std::filesystem::path> files;
-  for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.csv);
+  for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.table.csv());
   metadata["tables"] = describe_tables(files);
+  for (const NamedTable& table : tables_) add_meanings(metadata, table.file, table.table);
   write_as(true);
   for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
   return not_measured_ > 0 ? 1 : 0;

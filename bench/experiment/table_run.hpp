@@ -41,7 +41,7 @@ class TableRun {
  private:
   struct NamedTable {
     std::filesystem::path file;
-    std::string csv;
+    Table table;
     std::string rows;  ///< how many, in words
   };
   std::string name_;

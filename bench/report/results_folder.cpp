@@ -1,6 +1,7 @@
 #include "bench/report/results_folder.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -25,17 +26,49 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
   return files;
 }
 
-/// "cart_pole" of "motion_cart_pole_picture"; empty of other names. `part` is "picture", "nodes" or "stages".
-std::string problem_of_motion(const std::string& name, std::string_view part) {
-  constexpr std::string_view begin = "motion_";
-  const std::string end = fmt::format("_{}", part);
-  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() <= begin.size() + end.size()) return "";
-  return name.substr(begin.size(), name.size() - begin.size() - end.size());
+/// The motions that a run has written, by what its metadata tell; nothing where they tell nothing.
+Json motions_of(const ReportedRun& run) {
+  Json motions = run.metadata.value("motions", Json::array());
+  if (!motions.is_array()) return Json::array();
+  std::erase_if(motions.get_ref<Json::array_t&>(), [](const Json& motion) {
+    const auto has_text = [&motion](const char* key) { return motion.contains(key) && motion.at(key).is_string(); };
+    return !motion.is_object() || !has_text("nodes") || !has_text("problem") || !has_text("method");
+  });
+  return motions;
 }
 
-bool is_part_of_motion(const std::string& name) {
-  return std::ranges::any_of(std::initializer_list<std::string_view>{"picture", "nodes", "stages"},
-                             [&name](std::string_view part) { return !problem_of_motion(name, part).empty(); });
+/// "motion_arm" of "motion_arm_nodes.csv", the table of a motion's nodes.
+std::string stem_of_motion(const Json& motion) {
+  constexpr std::string_view ending = "_nodes.csv";
+  const std::string nodes = motion.at("nodes").get<std::string>();
+  return nodes.ends_with(ending) ? nodes.substr(0, nodes.size() - ending.size()) : nodes;
+}
+
+/// The files of all motions.
+std::set<std::string> files_of_motions(const std::vector<ReportedRun>& runs) {
+  std::set<std::string> files;
+  for (const ReportedRun& run : runs) {
+    for (const Json& motion : motions_of(run)) {
+      for (const char* const part : {"_nodes.csv", "_stages.csv", "_picture.csv"})
+        files.insert(stem_of_motion(motion) + part);
+    }
+  }
+  return files;
+}
+
+void read_motions(const std::filesystem::path& folder, ResultsFolder& results) {
+  for (const ReportedRun& run : results.runs) {
+    for (const Json& motion : motions_of(run)) {
+      const std::string file = stem_of_motion(motion) + "_picture.csv";
+      if (std::filesystem::path(file).has_parent_path()) continue;  // all that a report shows is in its folder
+      try {
+        results.motions.push_back({motion.at("problem").get<std::string>(), motion.at("method").get<std::string>(),
+                                   Table::from_csv(read_file(folder / file))});
+      } catch (const Error& error) {
+        results.faults.push_back(fmt::format("{}: {}", file, error.what()));
+      }
+    }
+  }
 }
 
 void read_runs(const std::filesystem::path& folder, ResultsFolder& results) {
@@ -55,25 +88,18 @@ std::string run_of(const std::string& file, const std::vector<ReportedRun>& runs
 }
 
 void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
+  const std::set<std::string> of_motions = files_of_motions(results.runs);
   for (const std::filesystem::path& file : files_in(folder, ".csv")) {
     const std::string name = file.filename().string();
     try {
       Table table = Table::from_csv(read_file(file));
       if (name == "claims.csv") {
         results.claims = std::move(table);
-      } else if (const std::string problem = problem_of_motion(file.stem().string(), "picture"); !problem.empty()) {
-        results.motions.push_back({problem, "", std::move(table)});
-      } else if (!is_part_of_motion(file.stem().string())) {
+      } else if (!of_motions.contains(name)) {
         results.tables.push_back({name, run_of(name, results.runs), std::move(table)});
       }
     } catch (const Error& error) {
       results.faults.push_back(fmt::format("{}: {}", name, error.what()));
-    }
-  }
-  for (ReportedMotion& motion : results.motions) {
-    for (const ReportedTable& table : results.tables) {
-      if (table.file == "motion_" + motion.problem + ".csv" && !table.table.rows().empty())
-        motion.method = table.table.rows().front().text("method");
     }
   }
 }
@@ -103,6 +129,7 @@ ResultsFolder read_results_folder(const std::filesystem::path& folder) {
   ResultsFolder results;
   read_runs(folder, results);
   read_tables(folder, results);
+  read_motions(folder, results);
   read_figures(folder, results);
   if (results.tables.empty() && results.figures.empty()) {
     throw Error(fmt::format("there is no table and no figure in {}; run an experiment with --out {} first",

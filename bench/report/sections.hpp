@@ -11,8 +11,9 @@ namespace dmocbench {
 [[nodiscard]] std::string overview_section(const ResultsFolder& results);
 /// The claims that answer five questions, then all of them with their verdicts.
 [[nodiscard]] std::string claims_section(const ResultsFolder& results);
-/// Motions that a slider moves through time.
-[[nodiscard]] std::string motions_section(const ResultsFolder& results);
+/// Every problem that the program knows: its motions, its statement, its optimum and who reaches it; nothing where no
+/// motion was written.
+[[nodiscard]] std::string gallery_section(const ResultsFolder& results);
 /// Every figure, its own markup in the page.
 [[nodiscard]] std::string figures_section(const ResultsFolder& results);
 /// Every table: columns that differ between rows, as many rows as `most_rows`; `folder` as `report_page`.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +20,35 @@ std::string meaning_of(const Json* metadata, const std::string& file, const std:
   if (metadata == nullptr) return "";
   const Json::json_pointer place = Json::json_pointer() / "tables" / file / "meanings" / column;
   return metadata->contains(place) && metadata->at(place).is_string() ? metadata->at(place).get<std::string>() : "";
+}
+
+/// "s" and "median time of a solve" of "[s] median time of a solve".
+std::pair<std::string, std::string> unit_and_words(const std::string& meaning) {
+  const std::size_t end = meaning.find("] ");
+  if (!meaning.starts_with('[') || end == std::string::npos) return {"", meaning};
+  return {meaning.substr(1, end - 1), meaning.substr(end + 2)};
+}
+
+/// What the columns mean, to be opened; nothing where nobody tells.
+std::string meanings_html(const std::vector<std::string>& columns, const Json* metadata, const std::string& file) {
+  std::string html;
+  for (const std::string& column : columns) {
+    const std::string words = unit_and_words(meaning_of(metadata, file, column)).second;
+    if (!words.empty()) html += fmt::format("<dt>{}<dd>{}\n", escaped(column), escaped(words));
+  }
+  return html.empty()
+             ? ""
+             : "<details class=\"columns\"><summary>What the columns mean</summary><dl>\n" + html + "</dl></details>\n";
+}
+
+std::string heads_html(const std::vector<std::string>& columns, const Json* metadata, const std::string& file) {
+  std::string html;
+  for (const std::string& column : columns) {
+    const std::string unit = unit_and_words(meaning_of(metadata, file, column)).first;
+    html += "<th scope=\"col\">" + escaped(column) +
+            (unit.empty() ? "" : fmt::format(" <small>[{}]</small>", escaped(unit)));
+  }
+  return html;
 }
 
 std::string command_of(const Json* metadata) {
@@ -53,10 +83,11 @@ Split split(const Table& table) {
   return result;
 }
 
+bool is_unsolved(const Row& row) { return !is_solved(status_named(row.text("status"))); }
+
 /// Rows whose solve ended otherwise than solved are marked.
 std::string row_html(const Row& row, const std::vector<std::string>& columns, bool has_status) {
-  const bool is_unsolved = has_status && !is_solved(status_named(row.text("status")));
-  std::string html = is_unsolved ? "<tr class=\"unsolved\">" : "<tr>";
+  std::string html = has_status && is_unsolved(row) ? "<tr class=\"unsolved\">" : "<tr>";
   for (const std::string& column : columns) html += fmt::format("<td>{}", escaped(shortened(row.text(column))));
   return html + "\n";
 }
@@ -66,8 +97,10 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
   const Split columns = split(table);
   const bool has_status = std::ranges::count(table.columns(), "status") > 0;
   const bool is_whole = table.rows().size() <= most_rows;
-  std::string html = fmt::format("<details class=\"table\" id=\"{}\"><summary><b>{}</b> {} rows{}</summary>\n",
+  const auto unsolved = has_status ? std::ranges::count_if(table.rows(), is_unsolved) : 0;
+  std::string html = fmt::format("<details class=\"table\" id=\"{}\"><summary><b>{}</b> {} rows{}{}</summary>\n",
                                  anchor("table", reported.file), escaped(reported.file), table.rows().size(),
+                                 unsolved > 0 ? fmt::format(", {} of them not solved", unsolved) : "",
                                  is_whole ? "" : fmt::format(", the first {} here", most_rows));
   if (metadata != nullptr && !metadata->value("complete", true))
     html += "<p class=\"warning\">The run is not complete.</p>\n";
@@ -77,12 +110,11 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
   html += "</p>\n";
   if (const std::string command = command_of(metadata); !command.empty())
     html += fmt::format("<p>Made by <code>{}</code></p>\n", escaped(command));
-  html += "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
-  for (const std::string& column : columns.differing) {
-    html += fmt::format("<th scope=\"col\" title=\"{}\">{}", escaped(meaning_of(metadata, reported.file, column)),
-                        escaped(column));
-  }
-  html += "</thead><tbody>\n";
+  html += meanings_html(columns.differing, metadata, reported.file);
+  html += fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"rows of "
+      "{}\"><table><thead><tr>{}</thead><tbody>\n",
+      escaped(reported.file), heads_html(columns.differing, metadata, reported.file));
   for (std::size_t i = 0; i < std::min(table.rows().size(), most_rows); ++i)
     html += row_html(table.rows()[i], columns.differing, has_status);
   return html + "</tbody></table></div></details>\n";
@@ -95,7 +127,7 @@ std::string tables_section(const ResultsFolder& results, const std::string& fold
   std::string html =
       "<section id=\"tables\"><h2>Tables</h2>\n<p>A row is one solve where there is a status; rows that were not "
       "solved are "
-      "marked. A column's unit and meaning appear on its head.</p>\n";
+      "marked. A column's unit stands in its head, its meaning above the table.</p>\n";
   for (const ReportedTable& table : results.tables) html += table_html(table, results.metadata_of(table.run), folder);
   return html + "</section>\n";
 }

@@ -171,6 +171,30 @@ Table step_table(const std::vector<Step>& steps) {
   return table_of(columns, steps);
 }
 
+namespace {
+
+/// What the columns of the summary mean.
+std::map<std::string, std::string> meanings_in_summary() {
+  std::map<std::string, std::string> meanings = meanings_of(scheme_columns<Step>());
+  meanings["intervals"] = "number of intervals N";
+  meanings["sequence"] = "receding_horizon or homotopy";
+  meanings["steps"] = "number of steps";
+  meanings["solved"] = "how many of them were solved";
+  meanings["compared_with_cold"] = "how many were solved from the guess too";
+  meanings["warm_is_worse"] = "share of those that cost more than the answer from the guess";
+  for (const auto& [what, meaning] : {std::pair{"iterations", "iterations of a warm solve"},
+                                      {"microseconds", "[us] time of a warm solve"},
+                                      {"cold_iterations", "iterations of a solve from the guess"},
+                                      {"cold_microseconds", "[us] time of a solve from the guess"}}) {
+    meanings[fmt::format("median_{}", what)] = meaning;
+    meanings[fmt::format("p99_{}", what)] = fmt::format("{}, 99th percentile", meaning);
+    meanings[fmt::format("largest_{}", what)] = fmt::format("{}, the largest", meaning);
+  }
+  return meanings;
+}
+
+}  // namespace
+
 Table sequence_summary(const std::vector<Step>& steps) {
   std::map<std::tuple<std::string, std::string, std::string>, std::vector<const Step*>> groups;
   std::vector<std::tuple<std::string, std::string, std::string>> order;
@@ -186,6 +210,7 @@ Table sequence_summary(const std::vector<Step>& steps) {
   }
   names.insert(names.end(), {"compared_with_cold", "warm_is_worse"});
   Table table(names);
+  table.explain(meanings_in_summary());
   for (const auto& key : order) table.append(summary_of(groups.at(key)));
   return table;
 }

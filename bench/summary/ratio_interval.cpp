@@ -11,25 +11,57 @@
 
 namespace dmocbench {
 
-RatioInterval ratio_interval(std::span<const double> ratios) {
-  if (ratios.empty()) throw Error("an interval of a ratio needs a round");
-  for (const double ratio : ratios) {
-    if (!std::isfinite(ratio) || ratio <= 0.0) throw Error(fmt::format("{} is no ratio of two times", ratio));
+namespace {
+
+void require_times(std::span<const double> times) {
+  if (times.empty()) throw Error("an interval of a ratio needs a round");
+  for (const double time : times) {
+    if (!std::isfinite(time) || time <= 0.0) throw Error(fmt::format("{} is no ratio of two times", time));
   }
-  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size(), .resampled = {}};
-  std::mt19937 engine(20090101U);  // NOLINT(cert-msc51-cpp): the same draws each time
-  for (std::size_t b = 0; b < resamples; ++b) {
-    std::vector<double> drawn;
-    drawn.reserve(ratios.size());
-    // The remainder is not exactly even, but the same on every machine, unlike the library's distributions.
-    for (std::size_t i = 0; i < ratios.size(); ++i) drawn.push_back(ratios[engine() % ratios.size()]);
-    interval.resampled.push_back(median(std::move(drawn)));
-  }
+}
+
+/// The median of as many values, drawn from them with replacement.
+double median_of_drawn(std::span<const double> values, std::mt19937& engine) {
+  std::vector<double> drawn;
+  drawn.reserve(values.size());
+  // The remainder is not exactly even, but the same on every machine, unlike the library's distributions.
+  for (std::size_t i = 0; i < values.size(); ++i) drawn.push_back(values[engine() % values.size()]);
+  return median(std::move(drawn));
+}
+
+void set_bounds(RatioInterval& interval) {
   std::vector<double> sorted = interval.resampled;
   std::ranges::sort(sorted);
   constexpr std::size_t outside = resamples / 200;  // half a percent on each side
   interval.lower = sorted[outside];
   interval.upper = sorted[resamples - 1 - outside];
+}
+
+constexpr unsigned seed = 20090101U;  // the same draws each time
+
+}  // namespace
+
+RatioInterval ratio_interval(std::span<const double> ratios) {
+  require_times(ratios);
+  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size(), .resampled = {}};
+  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
+  for (std::size_t b = 0; b < resamples; ++b) interval.resampled.push_back(median_of_drawn(ratios, engine));
+  set_bounds(interval);
+  return interval;
+}
+
+RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others) {
+  require_times(times);
+  require_times(others);
+  RatioInterval interval{.ratio = median({times.begin(), times.end()}) / median({others.begin(), others.end()}),
+                         .rounds = std::min(times.size(), others.size()),
+                         .resampled = {}};
+  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
+  for (std::size_t b = 0; b < resamples; ++b) {
+    const double drawn = median_of_drawn(times, engine);
+    interval.resampled.push_back(drawn / median_of_drawn(others, engine));
+  }
+  set_bounds(interval);
   return interval;
 }
 

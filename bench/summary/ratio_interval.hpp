@@ -30,6 +30,12 @@ struct RatioInterval {
 /// number above zero.
 [[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
 
+/// The ratio of the medians of two times that were not measured in turn, such as those of two runs. Its interval comes
+/// from the bootstrap, which draws the rounds of either anew by itself; `rounds` is the smaller number of rounds. What
+/// else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is not a
+/// finite number above zero.
+[[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
+
 /// Sets ratio_lower and ratio_upper, the interval, and round_ratios, from which it comes; nothing without rounds.
 void set_rounds(Row& result, std::span<const double> ratios);
 

@@ -85,6 +85,12 @@ class Table {
   [[nodiscard]] const std::vector<Row>& rows() const noexcept { return rows_; }
   /// Adds a row at the end.
   void append(Row row) { rows_.push_back(std::move(row)); }
+  /// What columns mean, for readers, their units in brackets: "[s] median time of a solve". It is not part of `csv`.
+  [[nodiscard]] const std::map<std::string, std::string>& meanings() const noexcept { return meanings_; }
+  /// Says what columns mean; what was said before stays.
+  void explain(const std::map<std::string, std::string>& meanings) {
+    meanings_.insert(meanings.begin(), meanings.end());
+  }
   /// Removes all rows.
   void clear() { rows_.clear(); }
   /// Gives every row its place in a file of this name.
@@ -98,6 +104,7 @@ class Table {
  private:
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
+  std::map<std::string, std::string> meanings_;  ///< by the names of columns, which need not have one
 };
 
 }  // namespace dmocbench

@@ -48,6 +48,13 @@ function sort_by(head) {
   });
   body.append(...rows);
 }
+for (const list of document.querySelectorAll(".columns dl")) {
+  const meanings = new Map([...list.querySelectorAll("dt")].map((name) => [name.textContent.trim(), name.nextElementSibling.textContent.trim()]));
+  for (const head of list.closest(".table").querySelectorAll("thead th")) {
+    const meaning = meanings.get(head.firstChild.textContent.trim());
+    if (meaning) head.title = meaning;
+  }
+}
 for (const head of document.querySelectorAll("thead th")) {
   const button = document.createElement("button");
   button.type = "button";
@@ -71,46 +78,46 @@ function between(times, values, t) {
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 function start_motion(figure) {
-  const data = JSON.parse(figure.querySelector("script").textContent);
-  const svg = figure.querySelector("svg");
-  const all_x = [0, ...data.points.flatMap((point) => point.x)], all_y = [0, ...data.points.flatMap((point) => point.y)];
-  const low_x = Math.min(...all_x), low_y = Math.min(...all_y);
-  const size = Math.max(Math.max(...all_x) - low_x, Math.max(...all_y) - low_y);
-  const margin = 0.06 * size;
-  const width = Math.max(...all_x) - low_x + 2 * margin, height = Math.max(...all_y) - low_y + 2 * margin;
-  svg.setAttribute("viewBox", [low_x - margin, -Math.max(...all_y) - margin, width, height].join(" "));
-  const radius = 0.015 * size;
-  element("circle", { class: "origin", cx: 0, cy: 0, r: 0.6 * radius }, svg);
-  for (const point of data.points) {
-    element("polyline", { class: "path", points: point.x.map((x, k) => x + "," + -point.y[k]).join(" ") }, svg);
-  }
-  const rods = data.points.map((point) => (point.rod ? element("line", { class: "rod" }, svg) : null));
-  const marks = data.points.map((point) => {
-    const mark = element("circle", { class: "point", r: radius }, svg);
-    element("title", {}, mark).textContent = point.name;
-    return mark;
-  });
-
+  const script = figure.querySelector("script");
+  if (!script) return;
+  const data = JSON.parse(script.textContent);
+  const svg = figure.querySelector("svg"), radius = Number(svg.dataset.radius);
+  const moving = data.motions.map((motion, i) => ({
+    ...motion,
+    rods: motion.points.map((point) => (point.rod ? element("line", { class: "rod method-" + i }, svg) : null)),
+    marks: motion.points.map((point) => {
+      const mark = element("circle", { class: "point method-" + i, r: radius }, svg);
+      element("title", {}, mark).textContent = motion.method + " " + point.name;
+      return mark;
+    }),
+  }));
   const slider = figure.querySelector("input"), button = figure.querySelector("button"), output = figure.querySelector("output");
-  const first = data.t[0], duration = data.t[data.t.length - 1] - first;
-  const show = () => {
-    const t = first + (duration * slider.value) / slider.max;
+  const of_what = button.getAttribute("aria-label").replace(/^Play/, "");
+  const first = Math.min(...moving.map((motion) => motion.t[0]));
+  const duration = Math.max(...moving.map((motion) => motion.t[motion.t.length - 1])) - first;
+  const place = (motion, t) => {
     let from = [0, 0];
-    data.points.forEach((point, i) => {
-      const at = [between(data.t, point.x, t), -between(data.t, point.y, t)];
-      marks[i].setAttribute("cx", at[0]);
-      marks[i].setAttribute("cy", at[1]);
-      if (rods[i]) {
-        for (const [key, value] of [["x1", from[0]], ["y1", from[1]], ["x2", at[0]], ["y2", at[1]]]) rods[i].setAttribute(key, value);
+    motion.points.forEach((point, i) => {
+      const at = [between(motion.t, point.x, t), -between(motion.t, point.y, t)];
+      motion.marks[i].setAttribute("cx", at[0]);
+      motion.marks[i].setAttribute("cy", at[1]);
+      if (motion.rods[i]) {
+        for (const [key, value] of [["x1", from[0]], ["y1", from[1]], ["x2", at[0]], ["y2", at[1]]]) motion.rods[i].setAttribute(key, value);
       }
       from = at;
     });
+  };
+  const show = () => {
+    const t = first + (duration * slider.value) / slider.max;
+    for (const motion of moving) place(motion, t);
     output.value = "t = " + t.toPrecision(3) + " " + data.unit;
+    slider.setAttribute("aria-valuetext", output.value);
   };
   // Nothing moves unless it is asked to; where motion is not wanted, Play goes to the end in steps.
   const seconds = 5, calm = matchMedia("(prefers-reduced-motion: reduce)");
   let begun = null;
-  const stop = () => { begun = null; button.textContent = "Play"; };
+  const say = (word) => { button.textContent = word; button.setAttribute("aria-label", word + of_what); };
+  const stop = () => { begun = null; say("Play"); };
   const frame = (now) => {
     if (begun === null) return;
     const share = Math.min(1, (now - begun) / (1000 * seconds));
@@ -120,18 +127,17 @@ function start_motion(figure) {
   };
   button.addEventListener("click", () => {
     if (begun !== null) return stop();
-    button.textContent = "Pause";
+    say("Pause");
     const share = Number(slider.value) < Number(slider.max) ? slider.value / slider.max : 0;
     begun = performance.now() - 1000 * seconds * share;
     requestAnimationFrame(frame);
   });
   slider.addEventListener("input", () => { stop(); show(); });
+  figure.querySelector(".controls").hidden = false;
+  figure.classList.add("moves");
   show();
 }
-for (const section of document.querySelectorAll("#motions")) {
-  section.querySelectorAll(".motion").forEach(start_motion);
-  section.hidden = false;
-}
+document.querySelectorAll(".motion").forEach(start_motion);
 
 // --- Print shows what is closed on the screen.
 addEventListener("beforeprint", () => document.querySelectorAll(".claim").forEach((claim) => { claim.open = true; }));

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/report/compared_tables.hpp"
+#include "bench/report/comparison_page.hpp"
+#include "bench/report/figure_markup.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/page.hpp"
+#include "bench/report/reached_optima.hpp"
+#include "problems/registry.hpp"
 
 namespace dmocbench {
 namespace {
@@ -48,7 +53,8 @@ TEST(Report, MarksRowsThatWereNotSolvedAndTellsWhatAllRowsShare) {
   EXPECT_TRUE(has(page, "<tr class=\"unsolved\"><td>iteration limit"));
   EXPECT_TRUE(has(page, "<tr><td>solved<td>16<td>0.123457"));
   EXPECT_TRUE(has(page, "In all rows problem = arm, method = dmoc, note = same</p>"));
-  EXPECT_TRUE(has(page, "title=\"[cost] of the trajectory\">objective"));
+  EXPECT_TRUE(has(page, "<th scope=\"col\">objective <small>[cost]</small>"));
+  EXPECT_TRUE(has(page, "<dt>objective<dd>of the trajectory"));
   EXPECT_TRUE(has(page, "<code>objective --out x</code>"));
 }
 
@@ -62,7 +68,7 @@ TEST(Report, SaysOfARunThatItIsNotComplete) {
 TEST(Report, RunsNothingThatStandsInATable) {
   ResultsFolder results = folder_with(Table::from_csv("problem,<img>\n<script>alert(1)</script>,</table>\nb,c\n"));
   results.claims = Table::from_csv("claim,verdict,whose,states\n<b>/x,</summary>,\"\"\"><i>\",<script>\n");
-  results.motions.push_back({"</script>", "dmoc", Table::from_csv("t,</script>_x,</script>_y\n0,1,0\n1,0,1\n")});
+  results.motions.push_back({"</script>", "<dmoc>", Table::from_csv("t,</script>_x,</script>_y\n0,1,0\n1,0,1\n")});
   const std::string page = report_page(results, "");
   EXPECT_FALSE(has(page, "<script>alert"));
   EXPECT_FALSE(has(page, "<img>"));
@@ -77,10 +83,69 @@ TEST(Report, FiguresShareNoNames) {
       "id='gpPt0'/><use xlink:href='#gpPt0'/></svg>\n";
   results.figures = {{"one", svg}, {"two", svg}};
   const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "id='s-one-gpPt0'") && has(page, "href='#s-one-gpPt0'"));
-  EXPECT_TRUE(has(page, "id='s-two-gpPt0'") && has(page, "href='#s-two-gpPt0'"));
-  EXPECT_TRUE(has(page, "<g ></g><path "));
+  EXPECT_TRUE(has(page, "id='f0-gpPt0'") && has(page, "href='#f0-gpPt0'"));
+  EXPECT_TRUE(has(page, "id='f1-gpPt0'") && has(page, "href='#f1-gpPt0'"));
+  EXPECT_FALSE(has(page, "<g"));
   EXPECT_FALSE(has(page, "<?xml") || has(page, "Gnuplot"));
+}
+
+TEST(Report, LeavesOutOfFiguresWhatDoesNotShow) {
+  const std::string svg = figure_markup(
+      "<svg ><defs><path id='gpPt0' d='M-1,0 h2'/><use id='gpPt1' href='#gpPt0'/><circle id='gpDot' r='0.5'/></defs>\n"
+      "<g id=\"a\"><g fill=\"none\">\n</g>\n</g>\n<path d='M93.47,455.01 L9.25,0.178'/><use href='#gpPt1'/>"
+      "<text>slope 12.34</text></svg>",
+      "f", "a figure");
+  EXPECT_TRUE(has(svg, "d='M93.5,455 L9.25,0.178'"));
+  EXPECT_TRUE(has(svg, "slope 12.34"));
+  EXPECT_TRUE(has(svg, "id='fgpPt0'") && has(svg, "href='#fgpPt1'"));
+  EXPECT_FALSE(has(svg, "gpDot") || has(svg, "<g"));
+}
+
+TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffer) {
+  const Table first = Table::from_csv(
+      "problem,method,intervals,status,major_iterations,objective,seconds\n"
+      "arm,dmoc,16,solved,5,0.25,1\narm,dmoc,16,solved,7,0.5,1\narm,dmoc,32,solved,6,0.125,1\n");
+  const Table second = Table::from_csv(
+      "problem,method,intervals,status,major_iterations,objective,seconds\n"
+      "arm,dmoc,64,solved,9,1,2\narm,dmoc,16,solved,5,0.75,2\narm,dmoc,16,time limit,8,0.5,2\n");
+  const PairedRows rows = paired_rows(first, second);
+  EXPECT_EQ(rows.pairs.size(), 2U);
+  EXPECT_EQ(rows.alone, 2U);
+  const std::vector<ChangedField> changes = changed_fields(first, second, rows);
+  ASSERT_EQ(changes.size(), 2U);  // no objective, no time
+  EXPECT_EQ(changes[0].column, "status");
+  EXPECT_EQ(changes[0].second, "time limit");
+  EXPECT_EQ(changes[1].first + " " + changes[1].second, "7 8");
+  EXPECT_EQ(changes[1].about, "arm dmoc 16");
+}
+
+TEST(ComparedTables, JudgeTimesByRoundsAlone) {
+  const auto table = [](const std::string& times) {
+    return Table::from_csv("problem,round_seconds\narm," + times + "\nleg,1 1\nfoot,\n");
+  };
+  const Table calm = table("1 1.1 0.9 1 1.05 0.95 1 1.02 0.98 1 1.01");
+  const Table slow = table("2 2.1 1.9 2 2.05 1.95 2 2.02 1.98 2 2.01");
+  const std::vector<ChangedTime> times = changed_times(paired_rows(calm, slow));
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_TRUE(times[0].is_changed());
+  EXPECT_NEAR(times[0].ratio.ratio, 2.0, 1e-9);
+  EXPECT_FALSE(times[1].is_judged());
+  EXPECT_FALSE(changed_times(paired_rows(calm, calm)).front().is_changed());
+}
+
+TEST(Comparison, TellsClaimsWhoseVerdictChangedAndWhatOneRunLacks) {
+  const ComparedRun first{"before", folder_with(two_solves())};
+  ComparedRun second = first;
+  second.name = "after";
+  second.results.tables.clear();
+  ComparedRun third = first;
+  third.results.claims =
+      Table::from_csv("claim,states,verdict,measured\narm/order,two,reproduced,2.0\narm/cost,less,differs,3\n");
+  second.results.claims = Table::from_csv("claim,states,verdict,measured\narm/order,two,differs,1.0\n");
+  const std::string page = comparison_page(third, second);
+  EXPECT_TRUE(has(page, "1 claims have another verdict, 0 have the same one, 1 are in one of the runs only"));
+  EXPECT_TRUE(has(page, "<td>arm/order<td>two<td>reproduced<td>differs<td>2.0<td>1.0"));
+  EXPECT_TRUE(has(page, "Only in A: objective.csv."));
 }
 
 TEST(Report, MotionsHaveRodsWhereDistancesStay) {
@@ -90,6 +155,44 @@ TEST(Report, MotionsHaveRodsWhereDistancesStay) {
   const std::string page = report_page(results, "");
   EXPECT_TRUE(has(page, R"("name":"tip","x":[1.0,0.0],"y":[0.0,1.0],"rod":true)"));
   EXPECT_TRUE(has(page, R"("name":"load","x":[2.0,0.0],"y":[0.0,5.0],"rod":false)"));
+}
+
+TEST(Report, DrawsOneMotionOfEachMethodAndQuantitiesWhereNothingMovesInThePlane) {
+  ResultsFolder results;
+  const Table plane = Table::from_csv("t_[s],x,y\n0,0,0\n1,1,1\n");
+  for (const char* const method : {"dmoc", "tangent", "dmoc"}) results.motions.push_back({"arm", method, plane});
+  results.motions.push_back({"spring", "dmoc", Table::from_csv("t_[s],q_[m]\n0,1\n1,3\n")});
+  const std::string page = report_page(results, "");
+  EXPECT_TRUE(has(page, "<polyline class=\"path method-1\""));
+  EXPECT_FALSE(has(page, "<polyline class=\"path method-2\""));
+  EXPECT_TRUE(has(page, "q_[m] from 1 to 3</text>"));
+}
+
+TEST(Report, TellsWhichMethodsReachTheOptimumOfAProblemAsItIsStated) {
+  ResultsFolder results = folder_with(Table::from_csv(
+      "problem,method,status,objective\narm,dmoc,solved,1.001\narm,dmoc,solved,2\narm,dmoc,iteration limit,1\n"
+      "arm,tangent,solved,3\nleg,dmoc,solved,1\n"));
+  const std::vector<ReachedOptimum> methods = reached_optima(results, "arm", 1.0);
+  ASSERT_EQ(methods.size(), 2U);
+  EXPECT_EQ(methods[0].rows, 3U);
+  EXPECT_EQ(methods[0].solved, 2U);
+  EXPECT_EQ(methods[0].near, 1U);
+  EXPECT_NEAR(methods[0].smallest_difference.value(), 0.001, 1e-12);
+  EXPECT_EQ(methods[1].near, 0U);
+  EXPECT_EQ(lowest_cost(results, "arm").value(), 1.001);
+  results.runs.front().metadata["command_line"] = {"objective", "--set", "mass=2"};
+  EXPECT_TRUE(reached_optima(results, "arm", 1.0).empty());
+}
+
+TEST(Report, StatesEveryProblemOfTheLibraryBesideItsMotion) {
+  ResultsFolder results;
+  results.motions.push_back({"hang_glider", "dmoc", Table::from_csv("t_[s],x_[m],y_[m]\n0,0,9\n1,1,8\n")});
+  const std::string page = report_page(results, "");
+  for (const std::string& name : problem_names()) {
+    EXPECT_TRUE(has(page, "<article id=\"" + anchor("problem", name) + "\">")) << name;
+  }
+  EXPECT_TRUE(has(page, "-1247.987601, 10 digits"));
+  EXPECT_TRUE(has(page, "<p>Minimise <math><mrow><mi>Φ</mi></mrow></math></p>"));
 }
 
 }  // namespace

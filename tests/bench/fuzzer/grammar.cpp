@@ -22,6 +22,7 @@ using Values = std::map<std::string, std::vector<std::string>>;
 const Values& known_values() {
   static const Values values = {
       {"--controls", {"stage", "shared"}},
+      {"--compare", {"results", "folder", "none", "file"}},
       {"--counter", {"cpu_time", "real_time"}},
       {"--crash", {"none", "all", "boundary"}},
       {"--csv", {"table.csv", "folder", "file/inner", "file"}},

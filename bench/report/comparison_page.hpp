@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "bench/report/results_folder.hpp"
+
+namespace dmocbench {
+
+/// A results folder and what the page calls it.
+struct ComparedRun {
+  std::string name;
+  ResultsFolder results;
+};
+
+/// Two results folders side by side as one page of HTML that needs nothing else: claims whose verdict changed, times
+/// with their intervals, counts and statuses that differ, and what only one of them has.
+[[nodiscard]] std::string comparison_page(const ComparedRun& first, const ComparedRun& second);
+
+}  // namespace dmocbench

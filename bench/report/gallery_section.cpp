@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "bench/report/html.hpp"
+#include "bench/report/motion_picture.hpp"
+#include "bench/report/reached_optima.hpp"
+#include "bench/report/sections.hpp"
+#include "bench/report/statement.hpp"
+#include "problems/problem_registry.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// One motion per method.
+std::vector<const ReportedMotion*> motions_of(const ResultsFolder& results, const std::string& problem) {
+  std::vector<const ReportedMotion*> motions;
+  for (const ReportedMotion& motion : results.motions) {
+    const auto has_method = [&motion](const ReportedMotion* other) { return other->method == motion.method; };
+    if (motion.problem == problem && std::ranges::none_of(motions, has_method)) motions.push_back(&motion);
+  }
+  return motions;
+}
+
+std::string optimum_html(const ProblemCard& card, const std::optional<double>& lowest) {
+  if (card.reference) {
+    const ReferenceOptimum& reference = *card.reference;
+    std::string html = fmt::format("<dt>Optimum<dd>{:#.{}g}, {} digits: {}\n", reference.objective, reference.digits,
+                                   reference.digits, escaped(reference.certificate));
+    for (const PublishedOptimum& published : reference.published)
+      html += fmt::format("<dt>Published<dd>{:.12g}, {}\n", published.objective, escaped(published.source));
+    return html;
+  }
+  if (lowest) return fmt::format("<dt>Optimum<dd>not known; best found by any method here: {:.8g}\n", *lowest);
+  return "<dt>Optimum<dd>not known\n";
+}
+
+std::string reached_html(const std::vector<ReachedOptimum>& methods, const std::string& problem) {
+  if (methods.empty()) return "<p>No run in this folder solves it as it is stated here.</p>\n";
+  std::string html = fmt::format(
+      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"methods on {}\"><table><thead><tr><th "
+      "scope=\"col\">method<th scope=\"col\">solves<th scope=\"col\">solved<th scope=\"col\">within 1 %<th "
+      "scope=\"col\">smallest difference</thead><tbody>\n",
+      escaped(in_words(problem)));
+  for (const ReachedOptimum& reached : methods) {
+    html += fmt::format("<tr{}><td>{}<td>{}<td>{}<td>{}<td>{}\n", reached.near == 0 ? " class=\"unsolved\"" : "",
+                        escaped(in_words(reached.method)), reached.rows, reached.solved, reached.near,
+                        reached.smallest_difference ? fmt::format("{:.2g}", *reached.smallest_difference) : "");
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string problem_html(const Problem& problem, const ResultsFolder& results) {
+  const std::string name = problem.name();
+  const ProblemCard card = problem.card();
+  const auto lowest = lowest_cost(results, name);
+  std::string html = fmt::format("<article id=\"{}\"><h3>{}</h3>\n<p>{}</p>\n", anchor("problem", name),
+                                 escaped(in_words(name)), escaped(card.description));
+  html += motion_picture_html(name, motions_of(results, name));
+  html += statement_html(problem) + "<dl>\n" + optimum_html(card, lowest);
+  if (!card.source.empty()) html += fmt::format("<dt>Source<dd>{}\n", escaped(card.source));
+  html += "</dl>\n";
+  const std::optional<double> optimum = card.reference ? card.reference->objective : lowest;
+  return html + reached_html(optimum ? reached_optima(results, name, *optimum) : std::vector<ReachedOptimum>(), name) +
+         "</article>\n";
+}
+
+/// The motions of problems that this program does not know, such as those of a library.
+std::string unknown_motions(const ResultsFolder& results, const std::vector<std::string>& known) {
+  std::set<std::string> names;
+  for (const ReportedMotion& motion : results.motions) names.insert(motion.problem);
+  std::string html;
+  for (const std::string& name : names) {
+    if (std::ranges::count(known, name) == 0) html += motion_picture_html(name, motions_of(results, name));
+  }
+  return html;
+}
+
+}  // namespace
+
+std::string gallery_section(const ResultsFolder& results) {
+  if (results.motions.empty()) return "";
+  std::string html =
+      "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Every problem of the library as it is stated, in the units in "
+      "which it is solved, with the motions that were found. A method reaches an optimum where its cost comes within 1 "
+      "%; other minima and coarse grids are farther away.</p>\n";
+  const std::vector<std::string> names = problem_names();
+  for (const std::string& name : names) html += problem_html(*make_problem(name), results);
+  return html + unknown_motions(results, names) + "</section>\n";
+}
+
+}  // namespace dmocbench

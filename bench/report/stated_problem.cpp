@@ -1,0 +1,163 @@
+#include "bench/report/stated_problem.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/report/mathml.hpp"
+#include "methods/mechanics/parameter_scope.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Letters that parameters usually have.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> usual_letters{{{"mass", "m"},
+                                                                                       {"length", "l"},
+                                                                                       {"gravity", "g"},
+                                                                                       {"inertia", "J"},
+                                                                                       {"stiffness", "k"},
+                                                                                       {"damping", "d"},
+                                                                                       {"friction", "b"},
+                                                                                       {"arm", "r"},
+                                                                                       {"lever", "r"},
+                                                                                       {"thrust", "a"},
+                                                                                       {"width", "w"},
+                                                                                       {"horizon", "T"}}};
+
+/// "m_1" of "mass_1", "m_cart" of "cart_mass"; the name itself where no letter is usual.
+std::string letter_of(const std::string& name) {
+  for (const auto& [word, letter] : usual_letters) {
+    if (name == word) return std::string(letter);
+    if (name.starts_with(std::string(word) + "_")) return std::string(letter) + name.substr(word.size());
+    const std::string ending = "_" + std::string(word);
+    if (name.ends_with(ending)) return fmt::format("{}_{}", letter, name.substr(0, name.size() - ending.size()));
+  }
+  return name;
+}
+
+ExpressionVector inputs_from(std::size_t first, Eigen::Index count) {
+  ExpressionVector inputs(count);
+  for (Eigen::Index i = 0; i < count; ++i) inputs[i] = Expression::input(first + static_cast<std::size_t>(i));
+  return inputs;
+}
+
+std::string indexed(std::string_view name, std::string_view index) {
+  return fmt::format("<msub><mi>{}</mi>{}</msub>", name, index);
+}
+
+/// "x(0)".
+std::string at(const std::string& name, const std::string& time) {
+  return fmt::format("<mrow>{}<mo stretchy=\"false\">(</mo>{}<mo stretchy=\"false\">)</mo></mrow>", name, time);
+}
+
+/// A letter for every parameter that varies: the usual one if nothing else has it.
+std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std::vector<std::string>& varying,
+                                              std::vector<std::string> taken) {
+  std::vector<StatedProblem::Letter> letters;
+  for (const std::string& name : varying) {
+    const auto parameter = std::ranges::find(problem.parameters(), name, &Parameter::name);
+    std::string letter = mathml_of_name(letter_of(name));
+    if (std::ranges::count(taken, letter) > 0) letter = mathml_of_name(name);
+    taken.push_back(letter);
+    letters.push_back({letter, &*parameter});
+  }
+  return letters;
+}
+
+void trace_along(const Problem& problem, StatedProblem& result) {
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index m = problem.control_size();
+  std::size_t next = result.letters.size();
+  const auto take = [&next](Eigen::Index count) {
+    const ExpressionVector inputs = inputs_from(next, count);
+    next += static_cast<std::size_t>(count);
+    return inputs;
+  };
+  ControlledState x;
+  x.q = take(n);
+  x.v = take(n);
+  x.u = take(m);
+  x.t = take(1)[0];
+  result.along.push_back({"<mi>C</mi>", problem.running_cost(x), ""});
+  result.along.push_back({"<mi>L</mi>", problem.lagrangian(x.state()), ""});
+  const ExpressionVector force = problem.force(x);
+  const std::vector<std::string> names = problem.configuration_names();
+  for (Eigen::Index i = 0; i < force.size(); ++i)
+    result.along.push_back({indexed("f", mathml_of_name(names.at(static_cast<std::size_t>(i)))), force[i], ""});
+  const ExpressionVector constraints = problem.path_constraints(x);
+  for (Eigen::Index i = 0; i < constraints.size(); ++i)
+    result.along.push_back({indexed("h", fmt::format("<mn>{}</mn>", i + 1)), constraints[i], "<mo>≥</mo><mn>0</mn>"});
+}
+
+void trace_ends(const Problem& problem, StatedProblem& result) {
+  const Eigen::Index n = problem.configuration_size();
+  std::size_t next = result.letters.size();
+  const auto take = [&next](Eigen::Index count) {
+    const ExpressionVector inputs = inputs_from(next, count);
+    next += static_cast<std::size_t>(count);
+    return inputs;
+  };
+  State first;
+  first.q = take(n);
+  first.v = take(n);
+  State last;
+  last.q = take(n);
+  last.v = take(n);
+  last.t = take(1)[0];
+  const Expression final_cost = problem.final_cost(last);
+  result.has_final_cost = !final_cost.is_zero();
+  if (result.has_final_cost) result.at_ends.push_back({"<mi>Φ</mi>", final_cost, ""});
+  const ExpressionVector conditions = problem.boundary_conditions(first, last);
+  for (Eigen::Index i = 0; i < conditions.size(); ++i)
+    result.at_ends.push_back({indexed("r", fmt::format("<mn>{}</mn>", i + 1)), conditions[i], "<mo>=</mo><mn>0</mn>"});
+}
+
+}  // namespace
+
+StatedProblem stated(const Problem& problem) {
+  StatedProblem result;
+  const std::vector<std::string> varying = TracedProblem(problem).varying_parameters();
+  std::vector<std::string> q;
+  std::vector<std::string> v;
+  for (const std::string& name : problem.configuration_names()) {
+    q.push_back(mathml_of_name(name));
+    v.push_back(mathml_of_rate(name));
+  }
+  std::vector<std::string> taken{"<mi>t</mi>", "<mi>C</mi>", "<mi>L</mi>"};
+  taken.insert(taken.end(), q.begin(), q.end());
+  for (const std::string& name : problem.control_names()) taken.push_back(mathml_of_name(name));
+  result.letters = letters_of(problem, varying, taken);
+  for (const StatedProblem::Letter& letter : result.letters) {
+    result.inputs.push_back(letter.mathml);
+    taken.push_back(letter.mathml);
+  }
+  result.end_inputs = result.inputs;
+  result.inputs.insert(result.inputs.end(), q.begin(), q.end());
+  result.inputs.insert(result.inputs.end(), v.begin(), v.end());
+  for (const std::string& name : problem.control_names()) result.inputs.push_back(mathml_of_name(name));
+  result.inputs.emplace_back("<mi>t</mi>");
+  for (const std::string time : {"<mn>0</mn>", "<mi>T</mi>"}) {
+    for (const std::string& name : q) result.end_inputs.push_back(at(name, time));
+    for (const std::string& name : v) result.end_inputs.push_back(at(name, time));
+  }
+  result.end_inputs.emplace_back("<mi>T</mi>");
+  for (const std::string letter : {"w", "z", "s", "b", "a"}) {
+    const bool is_free = std::ranges::none_of(taken, [&letter](const std::string& name) {
+      return name.find("<mi>" + letter + "</mi>") != std::string::npos;
+    });
+    if (is_free && result.free_letter.empty()) result.free_letter = letter;
+  }
+  if (result.free_letter.empty()) result.free_letter = "part";
+
+  const ParameterTrace open(problem, varying);
+  trace_along(problem, result);
+  trace_ends(problem, result);
+  return result;
+}
+
+}  // namespace dmocbench

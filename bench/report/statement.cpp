@@ -1,0 +1,155 @@
+#include "bench/report/statement.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "bench/report/html.hpp"
+#include "bench/report/mathml.hpp"
+#include "bench/report/stated_problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+std::string math(const std::string& content) { return "<math><mrow>" + content + "</mrow></math>"; }
+
+/// A formula on a line of its own that may be broken between terms.
+std::string line_of(const std::string& name, const MathTerms& terms, const std::string& ending) {
+  std::string html = "<div class=\"formula\">";
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const std::string begin = i == 0 ? name + "<mo>=</mo>" : "";
+    html += math(begin + terms[i] + (i + 1 == terms.size() ? ending : "")) + "\n";
+  }
+  return html + "</div>\n";
+}
+
+/// True if a number is written with all its digits: as a fraction, a multiple of π, or because it has few.
+bool is_exact(double value) {
+  constexpr std::size_t most_letters = 10;
+  const std::string markup = mathml_of_number(value);
+  return fmt::format("{}", value).size() <= most_letters || markup.find("<mfrac>") != std::string::npos ||
+         markup.find("<mi>") != std::string::npos;
+}
+
+/// A number as it is, or else with eight digits.
+std::string number_html(double value) {
+  return mathml_of_number(is_exact(value) ? value : std::stod(fmt::format("{:.8g}", value)));
+}
+
+/// What is said of a component: that it is given, or what bounds it; nothing if it is free.
+std::string condition_of(const std::string& name, double lower, double upper) {
+  const std::string least = number_html(lower);
+  if (lower == upper) return math(name + (is_exact(lower) ? "<mo>=</mo>" : "<mo>≈</mo>") + least);
+  const bool has_lower = std::isfinite(lower);
+  const bool has_upper = std::isfinite(upper);
+  if (!has_lower && !has_upper) return "";
+  if (!has_upper) return math(name + "<mo>≥</mo>" + least);
+  const std::string most = "<mo>≤</mo>" + number_html(upper);
+  return math(has_lower ? least + "<mo>≤</mo>" + name + most : name + most);
+}
+
+/// Conditions in a row, with commas between them.
+class Conditions {
+ public:
+  void add(const std::string& name, double lower, double upper) {
+    const std::string condition = condition_of(name, lower, upper);
+    if (!condition.empty()) row_ += (row_.empty() ? "" : ", ") + condition;
+  }
+  void add(const std::vector<std::string>& names, const Bounds& bounds) {
+    for (Eigen::Index i = 0; i < bounds.lower.size(); ++i)
+      add(names.at(static_cast<std::size_t>(i)), bounds.lower[i], bounds.upper[i]);
+  }
+  [[nodiscard]] const std::string& row() const { return row_; }
+
+ private:
+  std::string row_;
+};
+
+std::vector<std::string> part(const std::vector<std::string>& names, std::size_t first, std::size_t count) {
+  const auto begin = names.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// Formulas by their names, and the parts that they share.
+struct WrittenFormulas {
+  std::vector<std::string> lines;
+  std::string shared;
+};
+
+WrittenFormulas written(const std::vector<StatedFormula>& formulas, const std::vector<std::string>& inputs,
+                        const StatedProblem& stated) {
+  std::vector<Expression> values;
+  for (const StatedFormula& formula : formulas) values.push_back(formula.value);
+  const TypesetFormulas typeset_formulas = typeset(values, inputs, stated.letters.size(), stated.free_letter);
+  WrittenFormulas result;
+  for (std::size_t i = 0; i < formulas.size(); ++i) {
+    result.lines.push_back(line_of(formulas[i].name, typeset_formulas.formulas[i], formulas[i].relation));
+  }
+  for (const auto& [name, terms] : typeset_formulas.shared) result.shared += line_of(name, terms, "");
+  return result;
+}
+
+std::string letters_html(const StatedProblem& stated) {
+  std::string html;
+  for (const StatedProblem::Letter& letter : stated.letters) {
+    const Parameter& parameter = *letter.parameter;
+    html += fmt::format("<li>{} {}, {}</li>\n", math(letter.mathml + "<mo>=</mo>" + mathml_of_number(parameter.value)),
+                        escaped(parameter.unit), escaped(parameter.meaning));
+  }
+  return html.empty() ? "" : "<ul class=\"letters\">\n" + html + "</ul>\n";
+}
+
+/// The integral of the cost, or the final cost, or both.
+std::string objective_html(const StatedProblem& stated) {
+  const bool has_integral = !stated.along.front().value.is_zero() || !stated.has_final_cost;
+  std::string sum;
+  if (has_integral)
+    sum = "<msubsup><mo>∫</mo><mn>0</mn><mi>T</mi></msubsup><mi>C</mi><mspace width=\"0.2em\"/><mi>d</mi><mi>t</mi>";
+  if (stated.has_final_cost) sum += (has_integral ? "<mo>+</mo>" : std::string()) + "<mi>Φ</mi>";
+  return "<p>Minimise " + math(sum) + "</p>\n";
+}
+
+}  // namespace
+
+std::string statement_html(const Problem& problem) {
+  const StatedProblem stated_problem = stated(problem);
+  const auto n = static_cast<std::size_t>(problem.configuration_size());
+  const auto m = static_cast<std::size_t>(problem.control_size());
+  const std::size_t letters = stated_problem.letters.size();
+  const WrittenFormulas along = written(stated_problem.along, stated_problem.inputs, stated_problem);
+  const WrittenFormulas at_ends = written(stated_problem.at_ends, stated_problem.end_inputs, stated_problem);
+
+  std::string html = objective_html(stated_problem);
+  const bool has_cost = !stated_problem.along.front().value.is_zero();
+  for (std::size_t i = has_cost ? 0 : 1; i < along.lines.size(); ++i) html += along.lines[i];
+  for (const std::string& line : at_ends.lines) html += line;
+  if (!along.shared.empty() || !at_ends.shared.empty()) html += "<p>with</p>\n" + along.shared + at_ends.shared;
+
+  const ProblemBounds bounds = problem.bounds();
+  const auto add = [&html](std::string_view term, const Conditions& conditions) {
+    if (!conditions.row().empty()) html += fmt::format("<dt>{}<dd>{}\n", term, conditions.row());
+  };
+  html += "<dl>\n";
+  Conditions begin;
+  begin.add(part(stated_problem.end_inputs, letters, n), bounds.first.q);
+  begin.add(part(stated_problem.end_inputs, letters + n, n), bounds.first.v);
+  add("Begin", begin);
+  Conditions end;
+  end.add(part(stated_problem.end_inputs, letters + 2 * n, n), bounds.last.q);
+  end.add(part(stated_problem.end_inputs, letters + 3 * n, n), bounds.last.v);
+  add("End", end);
+  Conditions horizon;
+  horizon.add("<mi>T</mi>", bounds.horizon.lower, bounds.horizon.upper);
+  add("Duration", horizon);
+  Conditions on_motion;
+  on_motion.add(part(stated_problem.inputs, letters, n), bounds.q);
+  on_motion.add(part(stated_problem.inputs, letters + n, n), bounds.v);
+  on_motion.add(part(stated_problem.inputs, letters + 2 * n, m), bounds.u);
+  add("Bounds", on_motion);
+  return html + "</dl>\n" + letters_html(stated_problem);
+}
+
+}  // namespace dmocbench
