@@ -97,7 +97,7 @@ class Run {
     metadata_["too_coarse"] = outcome.too_coarse;
     metadata_["on_another_branch"] = outcome.other_branch;
     metadata_["tables"] = describe_tables(files_of_run());
-    add_meanings(metadata_["tables"], table_file(), columns_);
+    add_meanings(metadata_["tables"], table_file(), declarations_of(columns_));
     write_metadata(prefix_.string() + ".json", metadata_);
     fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
                complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),

@@ -44,7 +44,9 @@ void TableRun::show(const std::string& activity) const {
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
   const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), table.csv(), fmt::format("{} rows{}", table.rows().size(), gaps)});
+  tables_.push_back({.file = out_ / (file + ".csv"),
+                     .csv = table.csv(),
+                     .rows = fmt::format("{} rows{}", table.rows().size(), gaps)});
   not_measured_ += not_measured;
 }
 
@@ -59,6 +61,9 @@ int TableRun::write() const {
   std::vector<std::filesystem::path> files;
   for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.csv);
   metadata["tables"] = describe_tables(files);
+  for (const NamedTable& table : tables_) {
+    if (!table.columns.empty()) add_meanings(metadata["tables"], table.file, table.columns);
+  }
   write_as(true);
   for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
   return not_measured_ > 0 ? 1 : 0;

@@ -7,6 +7,7 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/command_line.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/runtime/stop_scope.hpp"
@@ -28,10 +29,12 @@ class TableRun {
   void show(const std::string& activity) const;
   /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
   void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
+  /// The same with what its columns mean, for the metadata.
   template <class Record>
   void add(const std::string& file, const Columns<Record>& columns, const std::vector<Record>& records,
            std::ptrdiff_t not_measured = 0) {
     add(file, table_of(columns, records), not_measured);
+    tables_.back().columns = declarations_of(columns);
   }
   /// Writes all tables and their metadata, NAME.json, which say `"complete": false` meanwhile. Returns the exit code: 1
   /// if a row was not measured. Throws `Error` if a file cannot be written.
@@ -41,7 +44,8 @@ class TableRun {
   struct NamedTable {
     std::filesystem::path file;
     std::string csv;
-    std::string rows;  ///< how many, in words
+    std::string rows;                          ///< how many, in words
+    std::vector<DeclaredColumn> columns = {};  ///< none if they are not declared
   };
   std::string name_;
   std::filesystem::path out_ = "results";
