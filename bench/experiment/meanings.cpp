@@ -1,7 +1,10 @@
 #include "bench/experiment/meanings.hpp"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/solve_case.hpp"
 #include "methods/program/status.hpp"
 
 namespace dmocbench {
@@ -19,6 +22,13 @@ Json status_names() {
     names.push_back(name_of(static_cast<Status>(status)));
   }
   return names;
+}
+
+/// True of the column of solved cases, which holds nothing else; other tables say more in theirs.
+bool is_status_of_solve(const DeclaredColumn& column) {
+  return column.name == "status" && std::ranges::any_of(core_columns(), [&](const Column<SolvedCase>& core) {
+           return core.name == column.name && core.meaning == column.meaning;
+         });
 }
 
 Json of_type(const char* type) { return {{"type", type}}; }
@@ -41,9 +51,9 @@ nlohmann::ordered_json row_schema(const std::string& title, const std::vector<De
   Json names = Json::array();
   for (const DeclaredColumn& column : columns) {
     Json& property = properties[column.name];
-    property["description"] = column.meaning;
+    if (!column.meaning.empty()) property["description"] = column.meaning;
     if (!column.unit.empty()) property["unit"] = column.unit;
-    if (column.name == "status") {
+    if (is_status_of_solve(column)) {
       property["enum"] = status_names();
     } else {
       property["type"] = {"number", "string", "null"};
@@ -71,7 +81,7 @@ nlohmann::ordered_json metadata_schema() {
                         {"crc32", {{"type", "string"}, {"pattern", "^[0-9a-f]{8}$"}}},
                         {"meanings", by_name},
                         {"schema", of_type("object")}}},
-                      {"required", {"columns", "rows", "crc32"}},
+                      {"required", {"columns", "rows", "crc32", "schema"}},
                       {"additionalProperties", false}};
   const Json properties = {{"command_line", texts},
                            {"utc_time", {{"type", "string"}, {"pattern", "^[0-9-]+T[0-9:]+Z$"}}},

@@ -30,7 +30,8 @@ void add_meanings(nlohmann::ordered_json& tables, const std::filesystem::path& f
                   const std::vector<DeclaredColumn>& columns);
 
 /// The JSON Schema (draft 2020-12) of a row as an object: a property per column with its meaning and, as "unit", its
-/// unit; all are required, others are not allowed. Fields that read as numbers are numbers, empty ones null.
+/// unit, where they are known; all are required, others are not allowed. Fields that read as numbers are numbers, empty
+/// ones null.
 [[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns);
 
 /// The JSON Schema of a run's metadata, NAME.json: what every run tells, and the schema of what it tells of its tables.
