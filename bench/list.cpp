@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/meanings.hpp"
+#include "bench/experiment/metadata.hpp"
+#include "bench/experiment/problem_card_json.hpp"
 #include "bench/experiment/problem_libraries.hpp"
+#include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
 #include "methods/transcription/element.hpp"
@@ -127,14 +132,37 @@ void print_problem(const Problem& problem) {
   }
 }
 
+int print_json(const nlohmann::ordered_json& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  return 0;
+}
+
+int print_schema(const std::string& name) {
+  if (name == "problems") return print_json(problem_cards_schema());
+  if (name == "metadata") return print_json(metadata_schema());
+  throw Error(fmt::format("--schema {}: there are the schemas problems (of --json) and metadata (of NAME.json)", name));
+}
+
+int print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
+  nlohmann::ordered_json cards = nlohmann::ordered_json::array();
+  for (const auto& problem : problems) cards.push_back(problem_card_json(*problem));
+  return print_json({{"dmocbench", describe_run({})["dmocbench"]}, {"problems", cards}});
+}
+
 int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
   line.list("--problem", names, "only these problems");
   line.option("--set", settings, "parameter=value of a problem; may be repeated");
+  bool as_json = false;
+  std::string schema;
+  line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
+  line.option("--schema", schema, "a JSON Schema instead: problems (of --json) or metadata (NAME.json beside results)");
   parse_with_libraries(line);
+  if (!schema.empty()) return print_schema(schema);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed
+  if (as_json) return print_cards(problems);
   fmt::print("Problems (--problem)\n\n");
   for (const auto& problem : problems) {
     print_problem(*problem);

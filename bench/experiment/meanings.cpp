@@ -1,13 +1,49 @@
 #include "bench/experiment/meanings.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/solve_case.hpp"
 #include "bench/experiment/written_tables.hpp"
+#include "methods/program/status.hpp"
 
 namespace dmocbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* draft = "https://json-schema.org/draft/2020-12/schema";
+
+/// The statuses that a solve may end with, by their names in tables.
+Json status_names() {
+  Json names = Json::array();
+  for (int status = 0; status <= static_cast<int>(Status::not_confirmed); ++status) {
+    names.push_back(name_of(static_cast<Status>(status)));
+  }
+  return names;
+}
+
+/// True of the column of solved cases, which holds nothing else; other tables say more in theirs.
+bool is_status_of_solve(const DeclaredColumn& column) {
+  return column.name == "status" && std::ranges::any_of(core_columns(), [&](const Column<SolvedCase>& core) {
+           return core.name == column.name && core.meaning == column.meaning;
+         });
+}
+
+Json of_type(const char* type) { return {{"type", type}}; }
+
+/// A column from its meaning as tables have it, "[s] median time of a solve".
+DeclaredColumn declared(const std::string& name, const std::string& meaning) {
+  const std::size_t end = meaning.starts_with('[') ? meaning.find("] ") : std::string::npos;
+  if (end == std::string::npos) return {name, "", meaning};
+  return {name, meaning.substr(1, end - 1), meaning.substr(end + 2)};
+}
+
+}  // namespace
 
 void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table) {
   for (const std::string& column : table.columns()) {
@@ -24,12 +60,12 @@ void write_table(const std::filesystem::path& file, const Table& table, nlohmann
 
 void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
                             const std::map<std::string, std::string>& of_rows, nlohmann::ordered_json& metadata) {
-  using Json = nlohmann::ordered_json;
   const Json noted = metadata.value("tables", Json::object());
   Json tables = describe_tables(files);
   for (auto& [file, told] : tables.items()) {
     const Json own = noted.contains(file) ? noted.at(file).at("meanings") : Json::object();
     const auto columns = told.at("columns").get<std::vector<std::string>>();  // an entry more may move the others
+    std::vector<DeclaredColumn> declarations;
     for (const std::string& column : columns) {
       const auto of_row = of_rows.find(column);
       if (own.contains(column)) {
@@ -37,9 +73,79 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
       } else if (of_row != of_rows.end()) {
         told["meanings"][column] = of_row->second;
       }
+      const Json meanings = told.value("meanings", Json::object());
+      declarations.push_back(declared(column, meanings.value(column, std::string())));
     }
+    told["schema"] = row_schema(file, declarations);
   }
   metadata["tables"] = std::move(tables);
+}
+
+nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns) {
+  Json properties = Json::object();
+  Json names = Json::array();
+  for (const DeclaredColumn& column : columns) {
+    Json& property = properties[column.name];
+    if (!column.meaning.empty()) property["description"] = column.meaning;
+    if (!column.unit.empty()) property["unit"] = column.unit;
+    if (is_status_of_solve(column)) {
+      property["enum"] = status_names();
+    } else {
+      property["type"] = {"number", "string", "null"};
+    }
+    names.push_back(column.name);
+  }
+  return {{"$schema", draft},
+          {"title", title},
+          {"description", "a row; fields that read as numbers are numbers, empty ones null"},
+          {"type", "object"},
+          {"properties", properties},
+          {"required", names},
+          {"additionalProperties", false}};
+}
+
+nlohmann::ordered_json metadata_schema() {
+  const Json text = of_type("string");
+  const Json count = {{"type", "integer"}, {"minimum", 0}};
+  const Json texts = {{"type", "array"}, {"items", text}};
+  const Json by_name = {{"type", "object"}, {"additionalProperties", text}};
+  const Json table = {{"type", "object"},
+                      {"properties",
+                       {{"columns", texts},
+                        {"rows", count},
+                        {"crc32", {{"type", "string"}, {"pattern", "^[0-9a-f]{8}$"}}},
+                        {"meanings", by_name},
+                        {"schema", of_type("object")}}},
+                      {"required", {"columns", "rows", "crc32", "schema"}},
+                      {"additionalProperties", false}};
+  const Json properties = {{"command_line", texts},
+                           {"utc_time", {{"type", "string"}, {"pattern", "^[0-9-]+T[0-9:]+Z$"}}},
+                           {"commit", text},
+                           {"dmocbench", text},
+                           {"compiler", text},
+                           {"flags", text},
+                           {"instruction_set", text},
+                           {"processor", text},
+                           {"cores", {{"type", "integer"}, {"minimum", 1}}},
+                           {"memory_gib", of_type("number")},
+                           {"operating_system", text},
+                           {"libraries", of_type("object")},
+                           {"solvers", by_name},
+                           {"complete", of_type("boolean")},
+                           {"cases", count},
+                           {"rows", count},
+                           {"not_solved", count},
+                           {"too_coarse", count},
+                           {"on_another_branch", count},
+                           {"tables", {{"type", "object"}, {"additionalProperties", table}}}};
+  return {
+      {"$schema", draft},
+      {"title", "metadata of a run"},
+      {"description", "NAME.json beside the tables of a run; experiments add properties of their own"},
+      {"type", "object"},
+      {"properties", properties},
+      {"required",
+       {"command_line", "utc_time", "commit", "dmocbench", "compiler", "flags", "processor", "complete", "tables"}}};
 }
 
 }  // namespace dmocbench

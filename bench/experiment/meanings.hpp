@@ -19,8 +19,24 @@ void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path&
 void write_table(const std::filesystem::path& file, const Table& table, nlohmann::ordered_json& metadata);
 
 /// `metadata["tables"]` becomes what `describe_tables` tells of the files, with the meanings of their columns: those
-/// that `write_table` noted, or else `of_rows`, of the columns of the run's own rows.
+/// that `write_table` noted, or else `of_rows`, of the columns of the run's own rows; and with the JSON Schema of their
+/// rows (`row_schema`).
 void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
                             const std::map<std::string, std::string>& of_rows, nlohmann::ordered_json& metadata);
+
+/// A column of a table without its values.
+struct DeclaredColumn {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+};
+
+/// The JSON Schema (draft 2020-12) of a row as an object: a property per column with its meaning and, as "unit", its
+/// unit, where they are known; all are required, others are not allowed. Fields that read as numbers are numbers, empty
+/// ones null.
+[[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns);
+
+/// The JSON Schema of a run's metadata, NAME.json: what every run tells, and the schema of what it tells of its tables.
+[[nodiscard]] nlohmann::ordered_json metadata_schema();
 
 }  // namespace dmocbench

@@ -59,8 +59,8 @@ int TableRun::write() const {
   write_as(false);
   std::vector<std::filesystem::path> files;
   for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.table.csv());
-  metadata["tables"] = describe_tables(files);
   for (const NamedTable& table : tables_) add_meanings(metadata, table.file, table.table);
+  describe_tables_of_run(files, {}, metadata);
   write_as(true);
   for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
   return not_measured_ > 0 ? 1 : 0;

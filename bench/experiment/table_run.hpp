@@ -28,7 +28,7 @@ class TableRun {
   void show(const std::string& activity) const;
   /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
   void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
-  /// Adds a table that is written to `file`: a row for each record.
+  /// The same with what its columns mean, for the metadata.
   template <class Record>
   void add(const std::string& file, const Columns<Record>& columns, const std::vector<Record>& records,
            std::ptrdiff_t not_measured = 0) {

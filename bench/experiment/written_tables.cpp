@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/tables/table.hpp"
@@ -53,8 +54,13 @@ nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>&
     if (file.extension() != ".csv" || !std::filesystem::is_regular_file(file, none)) continue;
     const std::string content = read_file(file);
     const Table table = Table::from_csv(content);
-    tables[file.filename().string()] = {
-        {"columns", table.columns()}, {"rows", table.rows().size()}, {"crc32", checksum_in_words(content)}};
+    const std::string name = file.filename().string();
+    std::vector<DeclaredColumn> columns;
+    for (const std::string& column : table.columns()) columns.push_back({.name = column, .unit = {}, .meaning = {}});
+    tables[name] = {{"columns", table.columns()},
+                    {"rows", table.rows().size()},
+                    {"crc32", checksum_in_words(content)},
+                    {"schema", row_schema(name, columns)}};
   }
   return tables;
 }

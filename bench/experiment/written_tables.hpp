@@ -14,9 +14,9 @@ namespace dmocbench {
 [[nodiscard]] std::uint32_t crc_32(std::string_view text);
 
 /// What a run's metadata tell of the tables that it has written, as `metadata["tables"]`: an object per file by its
-/// name without folder, with its columns, the number of its rows and its checksum ("crc32", eight hexadecimal digits).
-/// Files that are not there, are no tables (.csv) or no regular files are left out. Throws `Error` if one cannot be
-/// read.
+/// name without folder, with its columns, the number of its rows, its checksum ("crc32", eight hexadecimal digits) and
+/// the JSON Schema of its rows. Files that are not there, are no tables (.csv) or no regular files are left out. Throws
+/// `Error` if one cannot be read.
 [[nodiscard]] nlohmann::ordered_json describe_tables(const std::vector<std::filesystem::path>& files);
 
 /// Throws `Error` unless a table's content is what the metadata tell of it: columns, number of rows, checksum.

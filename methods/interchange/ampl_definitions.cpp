@@ -68,22 +68,22 @@ struct Uses {
 
   explicit Uses(const Schedule& schedule) : readers(schedule.steps().size()), kinds(schedule.steps().size()) {
     const std::vector<Step>& steps = schedule.steps();
-    std::vector<char> by_rows(steps.size());
-    std::vector<char> by_objective(steps.size());
+    std::vector<bool> by_rows(steps.size());
+    std::vector<bool> by_objective(steps.size());
     for (std::size_t i = 0; i < schedule.outputs().size(); ++i) {
       const std::uint32_t output = schedule.outputs()[i];
       ++readers[output];
-      (i == 0 ? by_objective : by_rows)[output] = 1;
+      (i == 0 ? by_objective : by_rows)[output] = true;
     }
     for (std::size_t i = steps.size(); i-- > 0;) {
-      kinds[i] = by_rows[i] == 0        ? AmplReaders::objective
-                 : by_objective[i] == 0 ? AmplReaders::rows
-                                        : AmplReaders::rows_and_objective;
+      kinds[i] = !by_rows[i]        ? AmplReaders::objective
+                 : !by_objective[i] ? AmplReaders::rows
+                                    : AmplReaders::rows_and_objective;
       const std::size_t operands = operand_count(steps[i].operation);
       const auto read = [&](std::uint32_t operand) {
         ++readers[operand];
-        by_rows[operand] |= by_rows[i];
-        by_objective[operand] |= by_objective[i];
+        by_rows[operand] = by_rows[operand] || by_rows[i];
+        by_objective[operand] = by_objective[operand] || by_objective[i];
       };
       if (operands > 0) read(steps[i].left);
       if (operands > 1) read(steps[i].right);

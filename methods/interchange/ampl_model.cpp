@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,9 +57,8 @@ void for_each_part(const Transcription& program, const Visit& visit) {
   for (std::size_t k = 0; k < layout.intervals(); ++k) {
     visit(placed(program.functions(), layout.unknown_places(), layout.row_places(), program, k));
   }
-  if (program.end_functions()) {
-    visit(placed(*program.end_functions(), layout.end_unknown_places(), layout.end_row_places(), program, 0));
-  }
+  const std::optional<EndFunctions>& ends = program.end_functions();
+  if (ends) visit(placed(*ends, layout.end_unknown_places(), layout.end_row_places(), program, 0));
 }
 
 /// A line per entry.
@@ -125,7 +125,8 @@ class AmplWriter {
     };
     const Layout& layout = program_.layout();
     note(program_.functions(), layout.unknown_places(), layout.intervals());
-    if (program_.end_functions()) note(*program_.end_functions(), layout.end_unknown_places(), 1);
+    const std::optional<EndFunctions>& ends = program_.end_functions();
+    if (ends) note(*ends, layout.end_unknown_places(), 1);
     for (std::size_t i = 0; i < variables_; ++i) {
       if (is_read[i] != 0) objective_variables_.push_back(i);
     }

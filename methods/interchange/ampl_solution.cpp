@@ -112,7 +112,7 @@ int code_of(std::string_view line) {
   const auto code = parsed<int>(line.substr(last == std::string_view::npos ? 0 : last + 1));
   if (!line.starts_with(begin) || last < begin.size() || !code) {
     throw Error(
-        fmt::format("its last line should be \"objno 0 CODE\", but reads \"{}\"", SolutionLines::shortened(line)));
+        fmt::format(R"(its last line should be "objno 0 CODE", but reads "{}")", SolutionLines::shortened(line)));
   }
   return *code;
 }

@@ -115,8 +115,8 @@ Magnitudes magnitudes(const Transcription& program, const ProgramPoint& point) {
   for (std::size_t k = 0; k < layout.intervals(); ++k) {
     add_part(program, program.functions(), layout.unknown_places(), layout.row_places(), k, point, sums);
   }
-  if (program.end_functions()) {
-    add_part(program, *program.end_functions(), layout.end_unknown_places(), layout.end_row_places(), 0, point, sums);
+  if (const std::optional<EndFunctions>& ends = program.end_functions()) {
+    add_part(program, *ends, layout.end_unknown_places(), layout.end_row_places(), 0, point, sums);
   }
   return sums;
 }

@@ -12,6 +12,8 @@
 #include <IpTNLP.hpp>
 #endif
 
+#include <fmt/format.h>
+
 #include "tests/interchange/asl_program.hpp"
 
 namespace dmocbench::tests {
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
   try {
     return dmocbench::tests::solve_file(argv[1]);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ampl_ipopt: %s\n", error.what());
+    fmt::print(stderr, "ampl_ipopt: {}\n", error.what());
     return 2;
   }
 }

@@ -15,6 +15,8 @@ extern "C" {
 }
 #undef filename
 
+// The macros of the library cast, and its functions take what they only read as if they wrote it.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-*,google-readability-casting,readability-*,modernize-*,bugprone-*,cppcoreguidelines-*,misc-*)
 namespace dmocbench::tests {
 
 struct AslProgram::Library {
@@ -164,3 +166,4 @@ void AslProgram::write_solution(const std::string& message, int code, Eigen::Vec
 }
 
 }  // namespace dmocbench::tests
+// NOLINTEND(cppcoreguidelines-pro-type-*,google-readability-casting,readability-*,modernize-*,bugprone-*,cppcoreguidelines-*,misc-*)

@@ -1,0 +1,65 @@
+"""Validates problems.json, and all metadata and tables of results/, by their schemas; spoilt ones have to be refused."""
+import csv
+import json
+import pathlib
+import sys
+
+import jsonschema
+
+folder = pathlib.Path(sys.argv[1])
+Validator = jsonschema.Draft202012Validator
+
+
+def validator_of(schema):
+    Validator.check_schema(schema)
+    return Validator(schema)
+
+
+def read(name):
+    return json.loads((folder / name).read_text())
+
+
+def number_or_text(field):
+    """A field of a table as JSON has it."""
+    if field == "":
+        return None
+    try:
+        return float(field)
+    except ValueError:
+        return field
+
+
+def refuses(validator, spoilt):
+    assert not validator.is_valid(spoilt), "a spoilt one is valid"
+
+
+cards = read("problems.json")
+of_cards = validator_of(read("problems.schema.json"))
+of_cards.validate(cards)
+assert len(cards["problems"]) > 15
+certified = [card for card in cards["problems"] if card["optimum"]]
+assert len(certified) > 10 and all(card["optimum"]["digits"] > 2 for card in certified)
+for spoil in (lambda c: c.pop("horizon"), lambda c: c.update(colour=1), lambda c: c["start"]["q"].append("far")):
+    spoilt = json.loads(json.dumps(cards))
+    spoil(spoilt["problems"][0])
+    refuses(of_cards, spoilt)
+
+of_metadata = validator_of(read("metadata.schema.json"))
+validated = 0
+for file in sorted((folder / "results").glob("*.json")):
+    metadata = json.loads(file.read_text())
+    of_metadata.validate(metadata)
+    refuses(of_metadata, {**metadata, "complete": "yes"})
+    for name, told in metadata["tables"].items():
+        of_row = validator_of(told["schema"])
+        with open(folder / "results" / name, newline="") as table:
+            for row in csv.DictReader(table):
+                row = {column: number_or_text(field) for column, field in row.items()}
+                of_row.validate(row)
+                validated += 1
+        refuses(of_row, {**row, "colour": 1})
+        refuses(of_row, {column: row[column] for column in list(row)[1:]})
+        if name in ("solve.csv", "convergence.csv"):
+            refuses(of_row, {**row, "status": "splendid"})
+            assert told["schema"]["properties"]["seconds"]["unit"] == "s"
+assert validated > 5, validated
