@@ -43,6 +43,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmocbench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS libdmocbench-dev)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "benchmark of DMOC against collocation for optimal control
 Solves optimal control problems of mechanical systems by DMOC (Discrete
