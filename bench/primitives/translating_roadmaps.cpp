@@ -1,5 +1,4 @@
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -161,10 +160,13 @@ StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions&
     lattice.add_trim(speed, Eigen::Vector2d::Zero());
   }
   PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 3);
+  // Without thrust the linearised hovercraft moves sideways only as far as it turns: starts need some.
+  PrimitiveOptions with_thrust = options;
+  with_thrust.start_control = Eigen::Vector2d(0.3, 0.0);
   // The stern pushes sideways where it turns: how far that leads, the mean velocity does not tell.
   const std::vector<ManeuverRange> ranges{{.quarters = 0, .durations = {3, 4, 5}, .offsets = {-1, 0, 1}},
                                           {.quarters = 1, .durations = {5, 6, 7}, .offsets = {-6, -4, -2, 0, 2, 4, 6}}};
-  solve_primitives(problem, plane_requests(lattice, ranges), library, options);
+  solve_cheapest(problem, plane_requests(lattice, ranges), 16, library, with_thrust);
   return grown_on(lattice, std::move(library), goal, 1, steps);
 }
 
