@@ -1,8 +1,6 @@
 #include "bench/primitives/roadmap_picture.hpp"
 
-#include <algorithm>
-#include <set>
-#include <utility>
+#include <cstddef>
 
 #include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/interpolation.hpp"

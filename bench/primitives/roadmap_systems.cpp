@@ -12,6 +12,7 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
   static const std::vector<RoadmapSystem> systems{
       {"orbital_transfer", "circular orbits", rotating_roadmap},
       {"spherical_pendulum", "steady cones", rotating_roadmap},
+      {"hovercraft", "rest and gliding", hovercraft_roadmap},
       {"planar_quadrotor", "level flight", quadrotor_roadmap},
       {"two_link_manipulator", "lattice of states", two_link_roadmap},
       {"cart_pole", "lattice of states", cart_pole_roadmap},

@@ -30,7 +30,7 @@ struct RoadmapSystem {
 /// Problems whose trims turn about an axis (`Problem::symmetry`) at any rate: circular orbits, the cones of a spherical
 /// pendulum.
 [[nodiscard]] StoredRoadmap rotating_roadmap(const Problem& problem, const PrimitiveOptions& options);
-/// The hovercraft: rest, gliding and turning on the spot, moved by translations and rotations of the plane.
+/// The hovercraft: rest and gliding, moved by translations and rotations of the plane.
 [[nodiscard]] StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions& options);
 /// The planar quadrotor: level flight in all directions, moved by translations.
 [[nodiscard]] StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& options);
