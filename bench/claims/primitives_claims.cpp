@@ -43,7 +43,8 @@ ClaimVerdict verdict_on_time(const Selection& rows) {
 /// Whether the full solve ends at the best cost that is known, and multi-start at none that is less.
 bool is_best(const Row& row) {
   const auto after = row.number("excess_after");
-  const double of_starts = row.number("excess_of_starts").value_or(std::numeric_limits<double>::infinity());
+  const double of_starts =
+      row.needed("start_motions") > 0.0 ? row.needed("excess_of_starts") : std::numeric_limits<double>::infinity();
   return row.text("status") == "solved" && after && *after < same_cost && *after < of_starts + same_cost;
 }
 
