@@ -40,12 +40,13 @@ ClaimVerdict verdict_on_time(const Selection& rows) {
   return largest < real_time ? ClaimVerdict::reproduced : ClaimVerdict::undecided;
 }
 
-/// Whether the full solve ends at the best cost that is known, and multi-start at none that is less.
+/// Whether there is a path whose full solve ends at the best cost that is known, and multi-start at none that is less.
 bool is_best(const Row& row) {
   const auto after = row.number("excess_after");
   const double of_starts =
       row.needed("start_motions") > 0.0 ? row.needed("excess_of_starts") : std::numeric_limits<double>::infinity();
-  return row.text("status") == "solved" && after && *after < same_cost && *after < of_starts + same_cost;
+  return row.text("status") == "solved" && row.number("excess_before") && after && *after < same_cost &&
+         *after < of_starts + same_cost;
 }
 
 Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*problem*/) {
