@@ -64,6 +64,8 @@ const Columns<PlannedMotion> columns{
     {"total_seconds", "s", "roadmap, search, concatenation and full solve", &PlannedMotion::seconds},
     {"starts", "", "of multi-start in the same time", from(&PlannedMotion::multi_start, &MultiStart::starts)},
     {"solved_starts", "", "of them", from(&PlannedMotion::multi_start, &MultiStart::solved)},
+    {"start_motions", "", "1 if they have a best one, 0 if none of the cheapest is a motion",
+     [](const PlannedMotion& p) { return p.multi_start.best ? 1 : 0; }},
     {"best_of_starts", "cost", "least cost of those that are motions",
      from(&PlannedMotion::multi_start, &MultiStart::best)},
     {"excess_of_starts", "", "best_of_starts / reference_cost - 1",

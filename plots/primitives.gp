@@ -2,18 +2,16 @@
 #   gnuplot -e "results='results'" plots/primitives.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-eval require("primitives", "problem,nodes,edges,cost_before,cost_after,reference_cost,best_of_starts,starts,plan_milliseconds")
+eval require("primitives", "problem,states,nodes,edges,cost_before,cost_after,reference_cost,starts,best_of_starts,plan_milliseconds")
 eval require("primitives_picture", "problem,part,t,x,y,u")
 
-# Names of the two quantities of a picture, and of the first control.
-place_label(problem, axis) = problem eq "orbital_transfer" || problem eq "spherical_pendulum" || problem eq "hovercraft"\
-    || problem eq "planar_quadrotor" ? axis : "picture ".axis
 cost_text(label, text) = strlen(text) == 0 ? label.": not solved" : sprintf("%s: J = %.5g", label, number(text))
 
 do for [problem_word in problems_of("primitives", "cost_before")] {
   problem = entry(problem_word, "problem")
-  told_of = distinct("primitives", "nodes,edges,cost_before,cost_after,reference_cost,best_of_starts,starts,plan_milliseconds",\
+  told_of = distinct("primitives", "nodes,edges,cost_before,cost_after,reference_cost,starts,best_of_starts,plan_milliseconds",\
                      problem_word, "cost_before")
+  is_lattice = strstrt(distinct("primitives", "states", problem_word, "cost_before"), "lattice") > 0
   points(part) = rows("primitives_picture", problem_word.",part=".part, "")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_primitives", 1080, 620)
@@ -27,8 +25,8 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
         offset 0, -0.4 margins 0.075, 0.985, 0.24, 0.79 spacing 0.09, 0.1
     set autoscale
     set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
-    set xlabel place_label(problem, "first quantity")
-    set ylabel place_label(problem, "second quantity")
+    set xlabel is_lattice ? "q_1" : "first quantity of the problem’s picture"
+    set ylabel is_lattice ? "q_2" : "second quantity of the problem’s picture"
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\

@@ -1,6 +1,6 @@
 // Roadmaps of DMOC primitives: whether what they lead to is the global minimum, and how long a plan takes.
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ std::string shares_of(const Selection& rows, const char* column) {
   for (const Row& row : rows) {
     const auto share = row.number(column);
     words.push_back(
-        fmt::format("{} {}", row.text("problem"), share ? fmt::format("{:.2g} %", 100.0 * *share) : "none"));
+        fmt::format("{} {}", row.text("problem"), share ? fmt::format("{:.3g} %", 100.0 * *share) : "none"));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -40,11 +40,13 @@ ClaimVerdict verdict_on_time(const Selection& rows) {
   return largest < real_time ? ClaimVerdict::reproduced : ClaimVerdict::undecided;
 }
 
-/// Whether the full solve ends at the best cost that is known, and multi-start at none that is less.
+/// Whether there is a path whose full solve ends at the best cost that is known, and multi-start at none that is less.
 bool is_best(const Row& row) {
   const auto after = row.number("excess_after");
-  const double of_starts = row.number("excess_of_starts").value_or(std::numeric_limits<double>::infinity());
-  return row.text("status") == "solved" && after && *after < same_cost && *after < of_starts + same_cost;
+  const double of_starts =
+      row.needed("start_motions") > 0.0 ? row.needed("excess_of_starts") : std::numeric_limits<double>::infinity();
+  return row.text("status") == "solved" && row.number("excess_before") && after && *after < same_cost &&
+         *after < of_starts + same_cost;
 }
 
 Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*problem*/) {
@@ -65,7 +67,8 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
                "among those that the same time allows in a lesser one; the path itself costs more than that by {}; "
                "the slowest plan takes at most {:.2g} ms",
                best, rows.size(), 100.0 * same_cost, shares_of(rows, "excess_before"), slowest)
-      .because(others.empty() ? "" : fmt::format("not on {}", fmt::join(others, ", ")));
+      .because(others.empty() ? "" : fmt::format("not on {}", fmt::join(others, ", ")))
+      .as_sure_as("99 % of the times of searches");
 }
 
 }  // namespace

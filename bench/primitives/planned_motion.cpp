@@ -1,6 +1,8 @@
 #include "bench/primitives/planned_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <ranges>
 #include <utility>
 #include <vector>
 

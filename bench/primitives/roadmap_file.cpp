@@ -1,5 +1,6 @@
 #include "bench/primitives/roadmap_file.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -1,8 +1,6 @@
 #include "bench/primitives/roadmap_picture.hpp"
 
-#include <algorithm>
-#include <set>
-#include <utility>
+#include <cstddef>
 
 #include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/interpolation.hpp"
@@ -14,9 +12,10 @@ namespace {
 /// Where states are in the plane.
 class PicturePlane {
  public:
-  explicit PicturePlane(const Problem& problem)
+  PicturePlane(const Problem& problem, bool shows_configurations)
       : name_(problem.name()),
         function_(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
+          if (shows_configurations) return ExpressionVector(x.q.head(2));
           const std::vector<PictureQuantity> all = problem.picture(x);
           return ExpressionVector{{all.at(0).value, all.at(1).value}};
         }) {}
@@ -49,14 +48,14 @@ Columns<PicturePoint> picture_columns() {
           {"part", "", "node of the roadmap, joint of the path, or the motion before or after the full solve",
            &PicturePoint::part},
           {"t", "", "time in the problem's unit; empty for nodes", &PicturePoint::t},
-          {"x", "", "first quantity of the problem's picture", &PicturePoint::x},
-          {"y", "", "second quantity", &PicturePoint::y},
+          {"x", "", "first quantity of the problem's picture, or q_1 where states lie on a lattice", &PicturePoint::x},
+          {"y", "", "second quantity, or q_2", &PicturePoint::y},
           {"u", "", "first control; empty for nodes", &PicturePoint::u}};
 }
 
 std::vector<PicturePoint> picture_of(const PlannedMotion& planned) {
   const auto& [library, roadmap, start, goal] = planned.roadmap.stored;
-  PicturePlane plane(*planned.problem);
+  PicturePlane plane(*planned.problem, planned.system->shows_configurations);
   std::vector<PicturePoint> points;
   const auto state_of = [&](std::size_t node) {
     const RoadmapNode& at = roadmap.nodes()[node];

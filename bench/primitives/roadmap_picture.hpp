@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace dmocbench {
 
-/// A point of the picture of a plan: where in the plane of the first two quantities of `Problem::picture`.
+/// A point of the picture of a plan: where in the plane of the first two quantities of `Problem::picture`, or of q_1
+/// and q_2 (`RoadmapSystem::shows_configurations`).
 struct PicturePoint {
   std::string problem;
   std::string part;  ///< "node" of the roadmap, "joint" of the path, or the motion "before" or "after" the full solve

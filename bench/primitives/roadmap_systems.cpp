@@ -12,10 +12,11 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
   static const std::vector<RoadmapSystem> systems{
       {"orbital_transfer", "circular orbits", rotating_roadmap},
       {"spherical_pendulum", "steady cones", rotating_roadmap},
+      {"hovercraft", "rest and gliding", hovercraft_roadmap},
       {"planar_quadrotor", "level flight", quadrotor_roadmap},
-      {"two_link_manipulator", "lattice of states", two_link_roadmap},
-      {"cart_pole", "lattice of states", cart_pole_roadmap},
-      {"acrobot", "lattice of states", acrobot_roadmap, 256},
+      {"two_link_manipulator", "lattice of states", two_link_roadmap, 64, 2, true},
+      {"cart_pole", "lattice of states", cart_pole_roadmap, 64, 2, true},
+      {"acrobot", "lattice of states", acrobot_roadmap, 256, 2, true},
   };
   return systems;
 }

@@ -20,6 +20,8 @@ struct RoadmapSystem {
   BuildRoadmap build;
   int intervals = 64;  ///< of the full solve
   int stages = 2;      ///< of its Gauss tableau
+  /// Its picture is the plane of q_1 and q_2, not that of the first two quantities of `Problem::picture`.
+  bool shows_configurations = false;
 };
 
 /// All problems that have primitives. To add one, write its function below and a line into the list.
@@ -30,7 +32,7 @@ struct RoadmapSystem {
 /// Problems whose trims turn about an axis (`Problem::symmetry`) at any rate: circular orbits, the cones of a spherical
 /// pendulum.
 [[nodiscard]] StoredRoadmap rotating_roadmap(const Problem& problem, const PrimitiveOptions& options);
-/// The hovercraft: rest, gliding and turning on the spot, moved by translations and rotations of the plane.
+/// The hovercraft: rest and gliding, moved by translations and rotations of the plane.
 [[nodiscard]] StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions& options);
 /// The planar quadrotor: level flight in all directions, moved by translations.
 [[nodiscard]] StoredRoadmap quadrotor_roadmap(const Problem& problem, const PrimitiveOptions& options);

@@ -1,5 +1,4 @@
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -157,14 +156,17 @@ StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions&
   constexpr int steps = 10;
   constexpr Cells goal{8, 8};
   PlaneLattice lattice(problem, {along_axis(0), along_axis(1), about_origin()}, goal, steps);
-  for (const Cells speed : {Cells{0, 0}, Cells{1, 0}, Cells{0, 1}, Cells{1, 1}}) {
+  for (const Cells speed : {Cells{0, 0}, Cells{1, 1}, Cells{0, 2}, Cells{1, 2}}) {
     lattice.add_trim(speed, Eigen::Vector2d::Zero());
   }
   PrimitiveLibrary library = library_of_trims(problem, lattice.trims(), lattice.step(), 3);
+  // Without thrust the linearised hovercraft moves sideways only as far as it turns: starts need some.
+  PrimitiveOptions with_thrust = options;
+  with_thrust.start_control = Eigen::Vector2d(0.3, 0.0);
   // The stern pushes sideways where it turns: how far that leads, the mean velocity does not tell.
   const std::vector<ManeuverRange> ranges{{.quarters = 0, .durations = {3, 4, 5}, .offsets = {-1, 0, 1}},
                                           {.quarters = 1, .durations = {5, 6, 7}, .offsets = {-6, -4, -2, 0, 2, 4, 6}}};
-  solve_primitives(problem, plane_requests(lattice, ranges), library, options);
+  solve_primitives(problem, plane_requests(lattice, ranges), library, with_thrust);
   return grown_on(lattice, std::move(library), goal, 1, steps);
 }
 

@@ -127,6 +127,11 @@ void check(const Problem& problem, const LatticeOptions& options) {
     throw Error(
         fmt::format("connections of {} time steps do not fit a horizon of {}", options.connection, options.time_steps));
   }
+  const auto intervals = static_cast<Eigen::Index>(options.connection) * options.intervals_per_step;
+  if (intervals * problem.control_size() < 2 * n) {
+    throw Error(fmt::format("connections of {} intervals have fewer controls than a state of {} has entries; take more",
+                            intervals, problem.name()));
+  }
 }
 
 }  // namespace

@@ -39,9 +39,10 @@ Motion cubic_between(const BoundaryState& first, const BoundaryState& last, doub
 /// All requests of one duration: one program.
 class PrimitiveBatch {
  public:
-  PrimitiveBatch(const Problem& problem, const PrimitiveLibrary& library, int duration)
-      : problem_(problem),
-        library_(library),
+  PrimitiveBatch(const Problem& problem, const PrimitiveLibrary& library, int duration, const PrimitiveOptions& options)
+      : library_(library),
+        options_(options),
+        start_control_(options.start_control.size() > 0 ? options.start_control : problem.guess(0.0).u),
         horizon_(library.step * duration),
         program_(problem, *make_element("dmoc"), gauss_tableau(1),
                  Grid::uniform(static_cast<long long>(duration) * library.intervals_per_step)) {
@@ -56,8 +57,8 @@ class PrimitiveBatch {
     usual_ = sample(program_, guessed_motion(problem));
   }
 
-  void solve(const std::vector<const PrimitiveRequest*>& requests, std::vector<std::optional<Primitive>*> results,
-             const PrimitiveOptions& options) {
+  void solve(const std::vector<const PrimitiveRequest*>& requests,
+             const std::vector<std::optional<Primitive>*>& results) {
     std::vector<BatchInstance> instances;
     for (const PrimitiveRequest* request : requests) instances.push_back(instance_of(*request));
     std::vector<Eigen::VectorXd> answers(requests.size());
@@ -69,10 +70,10 @@ class PrimitiveBatch {
       if (is_solved(solution.status)) answers[index] = solution.primal;
     };
     solve_batch(program_, lanes_of(program_), usual_, next, take,
-                {.tolerance = options.tolerance,
-                 .most_iterations = options.most_iterations,
-                 .falls_back = options.falls_back,
-                 .stop_requested = options.stop_requested});
+                {.tolerance = options_.tolerance,
+                 .most_iterations = options_.most_iterations,
+                 .falls_back = options_.falls_back,
+                 .stop_requested = options_.stop_requested});
     for (std::size_t i = 0; i < requests.size(); ++i) {
       if (answers[i].size() > 0) *results[i] = primitive_of(*requests[i], answers[i]);
     }
@@ -84,7 +85,7 @@ class PrimitiveBatch {
     const BoundaryState last = request.displacement.state(library_.states[request.last]);
     program_.set_initial_state(first);
     program_.set_final_state(last);
-    const Motion start = request.start.at ? request.start : cubic_between(first, last, horizon_, problem_.guess(0.0).u);
+    const Motion start = request.start.at ? request.start : cubic_between(first, last, horizon_, start_control_);
     const Eigen::VectorXd& rows = program_.constraint_lower();
     BatchInstance instance;
     instance.start = sample(program_, start);
@@ -104,8 +105,9 @@ class PrimitiveBatch {
             .u = std::move(motion.stage_u)};
   }
 
-  const Problem& problem_;
   const PrimitiveLibrary& library_;
+  const PrimitiveOptions& options_;
+  Eigen::VectorXd start_control_;
   double horizon_;
   Transcription program_;
   Eigen::VectorXd usual_;
@@ -134,7 +136,7 @@ void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest
       asked.push_back(&requests[number]);
       answers.push_back(&results[number]);
     }
-    PrimitiveBatch(problem, library, duration).solve(asked, answers, options);
+    PrimitiveBatch(problem, library, duration, options).solve(asked, answers);
   }
   for (std::optional<Primitive>& result : results) {
     if (result) library.primitives.push_back(std::move(*result));

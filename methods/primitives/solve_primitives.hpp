@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "methods/mechanics/problem.hpp"
 #include "methods/primitives/displacement.hpp"
 #include "methods/primitives/primitive_library.hpp"
@@ -18,8 +20,8 @@ struct PrimitiveRequest {
   std::size_t last = 0;       ///< state in which it ends, moved by `displacement`
   Displacement displacement;  ///< of its end
   int duration = 1;           ///< in time steps
-  /// The motion from which it is solved; where it is none, the cubic polynomial between both states, with the controls
-  /// of the problem's guess at t = 0.
+  /// The motion from which it is solved; where it is none, the cubic polynomial between both states with
+  /// `PrimitiveOptions::start_control`.
   Motion start = {};
 };
 
@@ -27,7 +29,8 @@ struct PrimitiveRequest {
 struct PrimitiveOptions {
   double tolerance = 1e-9;
   int most_iterations = 100;
-  bool falls_back = false;  ///< as in `BatchOptions`: what lanes cannot solve is solved once more, one by one
+  Eigen::VectorXd start_control;  ///< m entries; none for those of the problem's guess at t = 0
+  bool falls_back = false;        ///< as in `BatchOptions`: what lanes cannot solve is solved once more, one by one
   std::function<bool()> stop_requested = {};
 };
 

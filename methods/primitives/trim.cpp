@@ -7,7 +7,6 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/expression/schedule.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/expression/schedule.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/state.hpp"
 #include "methods/primitives/symmetry_group.hpp"

@@ -38,7 +38,7 @@ const ColumnNames& known_columns() {
         "smallest_curvature left_defect right_defect largest_momentum sequence iterations microseconds "
         "eccentricity rule sigma revolutions steps_per_revolution reference_digits cost_error state_error "
         "momentum_balance operations unknowns condition objective_error "
-        "reference_cost excess_before excess_after excess_of_starts plan_lower plan_upper rounds");
+        "reference_cost excess_before excess_after excess_of_starts start_motions plan_lower plan_upper rounds");
     for (std::string name; own >> name;) names.push_back(name);
     names.insert(names.end(), tests::differences.begin(), tests::differences.end());
     return names;

@@ -1,9 +1,13 @@
 #include "bench/primitives/roadmap_file.hpp"
 
+#include <cmath>
+#include <memory>
+
 #include <gtest/gtest.h>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/primitives/planned_motion.hpp"
 #include "problems/hovercraft.hpp"
+#include "problems/orbital_transfer.hpp"
 #include "problems/spherical_pendulum.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -81,6 +85,25 @@ TEST(RoadmapFile, IsRefusedWhereItIsNoRoadmap) {
   for (const char* text : {"", "[]", "{}", "null", "7", R"({"format": "other", "version": 1})"}) {
     EXPECT_THROW(static_cast<void>(roadmap_of(text, problem)), Error) << text;
   }
+}
+
+TEST_F(RoadmapFileInAFolder, PlansTheSameAndLeadsToTheCertifiedOptimum) {
+  const auto problem = std::make_shared<const OrbitalTransfer>();
+  const RoadmapSystem& system = roadmap_system("orbital_transfer");
+  const StoredRoadmap built = system.build(*problem, {});
+  write_roadmap(folder() / "roadmap.json", built);
+  const StoredRoadmap read = read_roadmap(folder() / "roadmap.json", *problem);
+  const auto steps = static_cast<int>(std::lround(problem->horizon() / built.library.step));
+  const auto path = cheapest_path(built.roadmap, built.start, built.goal, steps);
+  ASSERT_TRUE(path);
+  EXPECT_EQ(cheapest_path(read.roadmap, read.start, read.goal, steps)->edges, path->edges);
+  const PlannedMotion planned =
+      plan_and_refine(problem, system, {.stored = read, .seconds = 0.0, .is_read = true}, {.repeats = 1}, {});
+  ASSERT_TRUE(planned.after) << planned.status;
+  EXPECT_EQ(planned.before->cost, path->cost);
+  const double optimum = problem->card().reference->objective;
+  EXPECT_NEAR(planned.after->cost / optimum, 1.0, 1e-4);
+  EXPECT_GT(planned.before->cost, optimum);
 }
 
 }  // namespace

@@ -107,6 +107,11 @@ TEST(LatticeRoadmap, RefusesSizesThatDoNotFit) {
   tests::expect_error_naming({"two_link_manipulator", "2 entries"},
                              [&] { static_cast<void>(lattice_roadmap(*problem, small_lattice())); });
   LatticeOptions options = small_lattice();
+  options.connection = 1;
+  options.intervals_per_step = 3;
+  tests::expect_error_naming({"3 intervals", "cart_pole"},
+                             [&] { static_cast<void>(lattice_roadmap(cart_pole(), options)); });
+  options = small_lattice();
   options.connection = 9;
   tests::expect_error_naming({"9", "8"}, [&] { static_cast<void>(lattice_roadmap(cart_pole(), options)); });
 }

@@ -31,7 +31,9 @@ PrimitiveLibrary solved_between(const Problem& problem, const BoundaryState& fir
   PrimitiveLibrary library = PrimitiveLibrary::of(problem, h * intervals, intervals);
   library.states = {first, last};
   PrimitiveRequest request{.first = 0, .last = 1, .displacement = Displacement::identity(first.q.size())};
-  solve_primitives(problem, {request}, library, {.tolerance = 1e-11});
+  PrimitiveOptions options;
+  options.tolerance = 1e-11;
+  solve_primitives(problem, {request}, library, options);
   return library;
 }
 
