@@ -60,6 +60,7 @@ class PrimitiveBatch {
   void solve(const std::vector<const PrimitiveRequest*>& requests,
              const std::vector<std::optional<Primitive>*>& results) {
     std::vector<BatchInstance> instances;
+    instances.reserve(requests.size());
     for (const PrimitiveRequest* request : requests) instances.push_back(instance_of(*request));
     std::vector<Eigen::VectorXd> answers(requests.size());
     const auto next = [&](std::size_t index, BatchInstance& instance) {
