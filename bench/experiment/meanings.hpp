@@ -26,8 +26,11 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
 
 /// A column of a table without its values.
 struct DeclaredColumn {
+  /// As in the first line of a table.
   std::string name;
+  /// Empty for a pure number.
   std::string unit;
+  /// In words.
   std::string meaning;
 };
 

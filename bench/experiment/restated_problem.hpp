@@ -58,6 +58,7 @@ class RestatedProblem final : public Problem {
   [[nodiscard]] std::vector<std::string> path_constraint_names() const override {
     return base_->path_constraint_names();
   }
+  /// Those of the problem.
   [[nodiscard]] std::vector<std::string> boundary_condition_names() const override {
     return base_->boundary_condition_names();
   }

@@ -31,20 +31,25 @@ DMOCBENCH_API const char* dmocbench_last_error(void);
 
 /* The names of all problems, number 0 to count - 1; NULL behind them. */
 DMOCBENCH_API size_t dmocbench_problem_count(void);
+/* The name of a problem, from 0; NULL beyond the last. */
 DMOCBENCH_API const char* dmocbench_problem_name(size_t number);
 
 /* The problem of that name with its default parameters; NULL if there is none. Freed by dmocbench_free_problem. */
 DMOCBENCH_API dmocbench_problem* dmocbench_make_problem(const char* name);
+/* Ends a problem; NULL is allowed. */
 DMOCBENCH_API void dmocbench_free_problem(dmocbench_problem* problem);
 
 /* Its parameters: names (NULL behind the last), values. Both return 0, or another number if there is no parameter of
  * that name or the value is not allowed. */
 DMOCBENCH_API const char* dmocbench_parameter_name(dmocbench_problem* problem, size_t number);
+/* The value of a parameter by its name. 0 on success. */
 DMOCBENCH_API int dmocbench_get_parameter(dmocbench_problem* problem, const char* name, double* value);
+/* Gives a parameter another value. 0 on success. */
 DMOCBENCH_API int dmocbench_set_parameter(dmocbench_problem* problem, const char* name, double value);
 
 /* The names of q_1 .. q_n and of u_1 .. u_m; NULL behind the last. */
 DMOCBENCH_API const char* dmocbench_configuration_name(dmocbench_problem* problem, size_t number);
+/* The name of a control, from 0. */
 DMOCBENCH_API const char* dmocbench_control_name(dmocbench_problem* problem, size_t number);
 
 /* How a problem is solved. dmocbench_default_options fills all of it. */
@@ -57,11 +62,13 @@ typedef struct dmocbench_options {
   double tolerance;    /* of the KKT residual */
   double most_seconds; /* wall clock of the solver; 0 for no limit */
 } dmocbench_options;
+/* The options that dmocbench itself would take. */
 DMOCBENCH_API void dmocbench_default_options(dmocbench_options* options);
 
 /* Solves from the problem's guess. NULL on misuse only: an unknown name, a number out of range; a solve that does not
  * converge is a solution whose status says so. Freed by dmocbench_free_solution. */
 DMOCBENCH_API dmocbench_solution* dmocbench_solve(dmocbench_problem* problem, const dmocbench_options* options);
+/* Ends a solution; NULL is allowed. */
 DMOCBENCH_API void dmocbench_free_solution(dmocbench_solution* solution);
 
 /* 1 if the answer is solved: confirmed by residuals of our own, and a motion (each interval, replayed alone, meets the
@@ -69,6 +76,7 @@ DMOCBENCH_API void dmocbench_free_solution(dmocbench_solution* solution);
 DMOCBENCH_API int dmocbench_is_solved(const dmocbench_solution* solution);
 /* "solved", "iteration limit", "too coarse", ..., and the same in a sentence. */
 DMOCBENCH_API const char* dmocbench_status(const dmocbench_solution* solution);
+/* What happened, in a sentence. */
 DMOCBENCH_API const char* dmocbench_message(const dmocbench_solution* solution);
 
 /* A number of a solution: "cost", "kkt_residual", "constraint_violation", "relative_jump" (by how much of the motion's

@@ -93,15 +93,20 @@ class NamedVector : public ExpressionVector {
   /// No entries.
   NamedVector() = default;
   /// Whatever has entries: vectors, and Eigen's formulas of vectors.
-  NamedVector(const ExpressionVector& entries) : ExpressionVector(entries) {}                 // NOLINT(*-explicit-*)
+  NamedVector(const ExpressionVector& entries) : ExpressionVector(entries) {}  // NOLINT(*-explicit-*)
+  /// These entries.
   NamedVector(ExpressionVector&& entries) noexcept : ExpressionVector(std::move(entries)) {}  // NOLINT(*-explicit-*)
+  /// These entries.
   template <class Derived>
   NamedVector(const Eigen::MatrixBase<Derived>& entries) : ExpressionVector(entries) {}  // NOLINT(*-explicit-*)
 
   /// The entry of that number, from 0. Throws `Error` that names the vector, the entry and the size if there is none.
   [[nodiscard]] const Expression& operator[](Eigen::Index entry) const { return coeffRef(checked(entry)); }
+  /// An entry. Throws as the one above.
   [[nodiscard]] Expression& operator[](Eigen::Index entry) { return coeffRef(checked(entry)); }
+  /// The same by parentheses.
   [[nodiscard]] const Expression& operator()(Eigen::Index entry) const { return coeffRef(checked(entry)); }
+  /// The same by parentheses.
   [[nodiscard]] Expression& operator()(Eigen::Index entry) { return coeffRef(checked(entry)); }
 
  private:

@@ -13,6 +13,7 @@ namespace dmocbench {
 /// residual.
 class AmplAnswer final : public Solver {
  public:
+  /// Gives this answer to whatever it is asked to solve.
   explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});
 
   [[nodiscard]] std::string name() const override { return "ampl"; }

@@ -18,6 +18,7 @@ struct AmplSolution {
   /// the solver wrote none.
   Eigen::VectorXd multipliers;
   Eigen::Index variable_count = 0;  ///< of the program that was solved
+  /// Of the program that was solved, as the file says.
   Eigen::Index constraint_count = 0;
   int code = 0;  ///< AMPL's solve_result_num
   /// The solver's own word by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,

@@ -92,6 +92,7 @@ class Problem {
   [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
   /// What failed solves call the entries of `path_constraints` and `boundary_conditions`. Default: by their numbers.
   [[nodiscard]] virtual std::vector<std::string> path_constraint_names() const;
+  /// Names of the entries of `boundary_conditions`, for messages.
   [[nodiscard]] virtual std::vector<std::string> boundary_condition_names() const;
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;

@@ -19,8 +19,11 @@ class DiscreteFlow {
   /// `h`: the step; backwards in time where it is negative, which undoes a step forwards.
   DiscreteFlow(const Problem& problem, double h);
 
+  /// h.
   [[nodiscard]] double step() const noexcept { return h_; }
+  /// n.
   [[nodiscard]] Eigen::Index configuration_size() const noexcept { return n_; }
+  /// m.
   [[nodiscard]] Eigen::Index control_size() const noexcept { return m_; }
 
   /// One step of all states under the controls in the rows of `controls` (m columns). Adds h C to the entries of

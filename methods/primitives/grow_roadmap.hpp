@@ -9,7 +9,9 @@ namespace dmocbench {
 
 /// What is wanted of a roadmap that is grown.
 struct GrowthRequest {
+  /// Where paths begin.
   RoadmapNode start;
+  /// Where they shall end.
   RoadmapNode goal;
   int duration = 1;  ///< the horizon in time steps
   /// Nodes outside of a region are not visited; by default there is no such region.

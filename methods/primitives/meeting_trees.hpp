@@ -26,7 +26,9 @@ class MeetingTrees {
   /// `flow` goes one interval forwards.
   MeetingTrees(const Problem& problem, const DiscreteFlow& flow, const LatticeOptions& options);
 
+  /// The layers of the tree that begins at the start.
   [[nodiscard]] const std::vector<MotionTreeLayer>& forward() const noexcept { return forward_; }
+  /// The layers of the tree that begins at the goal.
   [[nodiscard]] const std::vector<MotionTreeLayer>& backward() const noexcept { return backward_; }
   /// The cheapest first.
   [[nodiscard]] const std::vector<TreeConnection>& connections() const noexcept { return connections_; }

@@ -23,6 +23,7 @@ struct MotionTreeOptions {
 
 /// The states that are reached after some time steps: row i is (q, v) of state i.
 struct MotionTreeLayer {
+  /// A state per node of the layer.
   Eigen::MatrixXd states;
   Eigen::VectorXd costs;               ///< of the motion from the root, or to it
   std::vector<Eigen::Index> parents;   ///< the state of the layer before

@@ -33,6 +33,7 @@ struct PrimitiveLibrary {
   double step = 0.0;                                       ///< length of a time step, in the problem's unit of time
   int intervals_per_step = 1;                              ///< intervals of the midpoint rule in each
   std::vector<BoundaryState> states;                       ///< of trims, or of a lattice
+  /// All of them, in the order in which they were found.
   std::vector<Primitive> primitives;
 
   /// Of no states and primitives.

@@ -19,7 +19,9 @@ struct RoadmapNode {
 
 /// A primitive between two nodes; it is moved as its first node is.
 struct RoadmapEdge {
+  /// The node where it begins.
   std::size_t from = 0;
+  /// The node where it ends.
   std::size_t to = 0;
   std::size_t primitive = 0;  ///< in `PrimitiveLibrary::primitives`
 };
@@ -31,16 +33,22 @@ class Roadmap {
   /// primitive does, to 1e-8 in every entry of the displacement.
   Roadmap(const PrimitiveLibrary& library, std::vector<RoadmapNode> nodes, std::vector<RoadmapEdge> edges);
 
+  /// All nodes; an edge names them by their place here.
   [[nodiscard]] const std::vector<RoadmapNode>& nodes() const noexcept { return nodes_; }
+  /// All edges, sorted by the node where they begin.
   [[nodiscard]] const std::vector<RoadmapEdge>& edges() const noexcept { return edges_; }
   /// The numbers of the edges that leave a node: from first to last - 1.
   struct EdgeRange {
+    /// Number of the first edge.
     std::size_t first = 0;
+    /// Number behind the last one.
     std::size_t last = 0;
   };
+  /// The edges that begin at a node.
   [[nodiscard]] EdgeRange leaving(std::size_t node) const { return {first_edge_[node], first_edge_[node + 1]}; }
   /// Cost and duration, in time steps, of an edge.
   [[nodiscard]] double cost(std::size_t edge) const { return costs_[edge]; }
+  /// The duration of an edge, in steps.
   [[nodiscard]] int duration(std::size_t edge) const { return durations_[edge]; }
 
  private:

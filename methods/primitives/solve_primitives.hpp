@@ -27,10 +27,13 @@ struct PrimitiveRequest {
 
 /// How primitives are solved.
 struct PrimitiveOptions {
+  /// For the KKT residual of the scaled program.
   double tolerance = 1e-9;
+  /// Of a solve.
   int most_iterations = 100;
   Eigen::VectorXd start_control;  ///< m entries; none for those of the problem's guess at t = 0
   bool falls_back = false;        ///< as in `BatchOptions`: what lanes cannot solve is solved once more, one by one
+  /// Asked between solves; true ends them.
   std::function<bool()> stop_requested = {};
 };
 

@@ -11,6 +11,7 @@ namespace dmocbench {
 /// A problem without its bounds on q, q̇ and u along the motion; all else is as it was. The problem must outlive it.
 class WithoutBounds final : public Problem {
  public:
+  /// The problem must outlive it.
   explicit WithoutBounds(const Problem& base) : base_(base) {}
 
   [[nodiscard]] std::string name() const override { return base_.name(); }
