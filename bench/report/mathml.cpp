@@ -56,6 +56,12 @@ std::string_view name_of_function(Operation operation) {
       return "cosh";
     case Operation::hyperbolic_tangent:
       return "tanh";
+    case Operation::inverse_hyperbolic_sine:
+      return "arsinh";
+    case Operation::error_function:
+      return "erf";
+    case Operation::unit_step:
+      return "θ";  // Heaviside's
     default:
       return "";
   }

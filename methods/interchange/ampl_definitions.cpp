@@ -50,14 +50,16 @@ int ampl_number(Operation operation) {
       return 48;
     case Operation::arc_tangent:
       return 49;
+    case Operation::inverse_hyperbolic_sine:
+      return 50;
     case Operation::arc_sine:
       return 51;
     case Operation::arc_cosine:
       return 53;
     default:
       throw Error(
-          "a formula has an operation that AMPL's format lacks; write it by +, -, *, /, powers and the "
-          "elementary functions");
+          "a formula has an operation that AMPL's format lacks, as erf and splines are; write it by +, -, *, /, powers "
+          "and the elementary functions");
   }
 }
 

@@ -54,9 +54,13 @@ inline std::vector<Element> elements_of(std::string_view text, std::size_t& at) 
 
 inline double (*function_named(const std::string& name))(double) {
   static const std::map<std::string, double (*)(double)> functions{
-      {"exp", std::exp},   {"ln", std::log},      {"sin", std::sin},     {"cos", std::cos},
-      {"tan", std::tan},   {"arcsin", std::asin}, {"arccos", std::acos}, {"arctan", std::atan},
-      {"sinh", std::sinh}, {"cosh", std::cosh},   {"tanh", std::tanh}};
+      {"exp", std::exp},     {"ln", std::log},
+      {"sin", std::sin},     {"cos", std::cos},
+      {"tan", std::tan},     {"arcsin", std::asin},
+      {"arccos", std::acos}, {"arctan", std::atan},
+      {"sinh", std::sinh},   {"cosh", std::cosh},
+      {"tanh", std::tanh},   {"arsinh", std::asinh},
+      {"erf", std::erf},     {"θ", [](double x) { return x > 0.0 ? 1.0 : 0.0; }}};
   const auto found = functions.find(name);
   return found == functions.end() ? nullptr : found->second;
 }

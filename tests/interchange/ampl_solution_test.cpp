@@ -9,6 +9,7 @@
 #include "methods/interchange/ampl_model.hpp"
 #include "methods/interchange/ampl_names.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
 
@@ -63,6 +64,15 @@ TEST(AmplSolution, IsRefusedIfItIsSomethingElse) {
   expect_named("much", "\nOptions\n0\n1\n0\n1\n1\nmuch\nobjno 0 0\n");
   expect_named("neither 0 nor 3", "\nOptions\n0\n1\n0\n3\n2\n1\n2\nobjno 0 0\n");
 }
+
+/// A particle in a force that AMPL cannot write.
+class InAnErrorFunction final : public tests::SmallProblem {
+ public:
+  InAnErrorFunction() : SmallProblem("in_an_error_function", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0] - erf(x.q[0]); }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+};
 
 class AmplAnswerOfSpring : public testing::Test {
  protected:
@@ -125,6 +135,13 @@ TEST(AmplNames, AreOnePerUnknownAndRow) {
       }
     }
   }
+}
+
+TEST(AmplModel, RefusesAnOperationThatAmplLacks) {
+  const InAnErrorFunction problem;
+  const auto program = tests::transcribe(problem, {"dmoc"}, Grid::uniform(2));
+  const Eigen::VectorXd start = sample(*program, guessed_motion(problem));
+  tests::expect_error_naming({"AMPL", "erf"}, [&] { static_cast<void>(ampl_model(*program, start)); });
 }
 
 TEST(AmplModel, IsShort) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace dmocbench::tests {
 
@@ -91,6 +92,15 @@ inline PathSums tanh(const PathSums& x) {
   const double f = std::tanh(x.value);
   return PathSums::apply(f, 1.0 - f * f, 2.0 * f * (1.0 - f * f), x);
 }
+inline PathSums asinh(const PathSums& x) {
+  const double rest = 1.0 + x.value * x.value;
+  return PathSums::apply(std::asinh(x.value), 1.0 / std::sqrt(rest), x.value / (rest * std::sqrt(rest)), x);
+}
+inline PathSums erf(const PathSums& x) {
+  const double slope = 2.0 / std::sqrt(std::numbers::pi) * std::exp(-x.value * x.value);
+  return PathSums::apply(std::erf(x.value), slope, 2.0 * x.value * slope, x);
+}
+inline PathSums unit_step(const PathSums& x) { return PathSums::apply(x.value > 0.0 ? 1.0 : 0.0, 0.0, 0.0, x); }
 inline PathSums pow(const PathSums& x, double exponent) {
   return PathSums::apply(std::pow(x.value, exponent), exponent * std::pow(x.value, exponent - 1.0),
                          exponent * (exponent - 1.0) * std::pow(x.value, exponent - 2.0), x);
