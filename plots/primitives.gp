@@ -22,11 +22,11 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
         "Best of ".entry(told_of, "starts")." starts in the same total time: "\
         .sprintf("%.5g", number(entry(told_of, "best_of_starts")))."; best known cost: "\
         .sprintf("%.5g", number(entry(told_of, "reference_cost"))).".")\
-        offset 0, -0.4 margins 0.075, 0.985, 0.24, 0.79 spacing 0.09, 0.1
+        offset 0, -0.4 margins 0.105, 0.985, 0.24, 0.79 spacing 0.12, 0.1
     set autoscale
     set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
-    set xlabel is_lattice ? "q_1" : "first quantity of the problem’s picture"
-    set ylabel is_lattice ? "q_2" : "second quantity of the problem’s picture"
+    set xlabel is_lattice ? "q_1" : "first coordinate of the picture"
+    set ylabel is_lattice ? "q_2" : "second coordinate of the picture"
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\

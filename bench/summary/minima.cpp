@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -86,18 +87,23 @@ Table basins(const Selection& rows, double separation) {
   Table table(columns);
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
+    std::vector<Row> starts;
     for (std::size_t i = 0; i < minima.size(); ++i) {
       for (const Row& answer : minima[i]) {
-        Row row = fields_of(answer, copied);
+        Row& row = starts.emplace_back(fields_of(answer, copied));
         row.set("minimum", i + 1);
         row.set("objective", minima[i].front().number("objective"));
         row.set("is_motion", is_motion(minima[i]) ? "yes" : "no");
-        table.append(std::move(row));
       }
     }
     for (const Row& answer : group) {
-      if (answer.text("status") != "solved") table.append(fields_of(answer, copied));
+      if (answer.text("status") != "solved") starts.push_back(fields_of(answer, copied));
     }
+    // Line by line of the plane, as an image is drawn.
+    std::ranges::stable_sort(starts, {}, [](const Row& row) {
+      return std::tuple(row.text("method"), row.needed("bulge_2"), row.needed("bulge_1"));
+    });
+    for (Row& start : starts) table.append(std::move(start));
   }
   return table;
 }
