@@ -12,7 +12,7 @@ foreach(target IN LISTS targets ITEMS dmocbench_experiment)
 endforeach()
 list(FILTER inputs INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/") # not what the build makes
 list(FILTER inputs EXCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
-file(GLOB_RECURSE pages ${PROJECT_SOURCE_DIR}/methods/*.md ${PROJECT_SOURCE_DIR}/bench/*.md
+file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/methods/*.md ${PROJECT_SOURCE_DIR}/bench/*.md
      ${PROJECT_SOURCE_DIR}/plots/*.md ${PROJECT_SOURCE_DIR}/tests/tutorials/*.md)
 list(FILTER pages EXCLUDE REGEX "/paper\\.md$") # for another reader
 list(APPEND inputs ${pages} ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
