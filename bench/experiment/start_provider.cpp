@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <random>
 #include <utility>
 
@@ -20,6 +19,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/tables/motion_file.hpp"
+#include "methods/transcription/bent_motion.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -327,34 +327,19 @@ Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std
       amplitudes(i, k) = amplitude * range[i] * even(engine) / static_cast<double>(k + 1);
     }
   }
-  const auto at = [motion, amplitudes](double t) {
-    MotionPoint point = motion.at(t);
-    for (Eigen::Index k = 0; k < modes; ++k) {
-      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
-      point.q += amplitudes.col(k) * std::sin(frequency * t);
-      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
-    }
-    return point;
-  };
-  return {at, motion.horizon};
+  return bent(motion, amplitudes);
 }
 
 Motion bulged(const Motion& motion, const Eigen::Vector2d& bulges) {
   const Eigen::VectorXd range = ranges(motion);
-  const bool is_plane = range.size() > 1;
-  const std::array<Eigen::Index, 2> coordinates{0, is_plane ? 1 : 0};
-  const std::array<double, 2> frequencies{std::numbers::pi / motion.horizon,
-                                          (is_plane ? 1.0 : 2.0) * std::numbers::pi / motion.horizon};
-  const auto at = [=](double t) {
-    MotionPoint point = motion.at(t);
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      const double amplitude = bulges[static_cast<Eigen::Index>(k)] * range[coordinates[k]];
-      point.q[coordinates[k]] += amplitude * std::sin(frequencies[k] * t);
-      point.v[coordinates[k]] += amplitude * frequencies[k] * std::cos(frequencies[k] * t);
-    }
-    return point;
-  };
-  return {at, motion.horizon};
+  Eigen::MatrixXd amplitudes = Eigen::MatrixXd::Zero(range.size(), 2);
+  amplitudes(0, 0) = bulges[0] * range[0];
+  if (range.size() > 1) {
+    amplitudes(1, 0) = bulges[1] * range[1];
+  } else {
+    amplitudes(0, 1) = bulges[1] * range[0];
+  }
+  return bent(motion, amplitudes);
 }
 
 }  // namespace dmocbench

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/report/mathml.hpp"
+#include "methods/expression/vectors.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 
@@ -40,12 +41,6 @@ std::string letter_of(const std::string& name) {
   return name;
 }
 
-ExpressionVector inputs_from(std::size_t first, Eigen::Index count) {
-  ExpressionVector inputs(count);
-  for (Eigen::Index i = 0; i < count; ++i) inputs[i] = Expression::input(first + static_cast<std::size_t>(i));
-  return inputs;
-}
-
 std::string indexed(std::string_view name, std::string_view index) {
   return fmt::format("<msub><mi>{}</mi>{}</msub>", name, index);
 }
@@ -72,17 +67,12 @@ std::vector<StatedProblem::Letter> letters_of(const Problem& problem, const std:
 void trace_along(const Problem& problem, StatedProblem& result) {
   const Eigen::Index n = problem.configuration_size();
   const Eigen::Index m = problem.control_size();
-  std::size_t next = result.letters.size();
-  const auto take = [&next](Eigen::Index count) {
-    const ExpressionVector inputs = inputs_from(next, count);
-    next += static_cast<std::size_t>(count);
-    return inputs;
-  };
+  InputCounter inputs(result.letters.size());
   ControlledState x;
-  x.q = take(n);
-  x.v = take(n);
-  x.u = take(m);
-  x.t = take(1)[0];
+  x.q = inputs.take(n);
+  x.v = inputs.take(n);
+  x.u = inputs.take(m);
+  x.t = inputs.take();
   result.along.push_back({"<mi>C</mi>", problem.running_cost(x), ""});
   result.along.push_back({"<mi>L</mi>", problem.lagrangian(x.state()), ""});
   const ExpressionVector force = problem.force(x);
@@ -96,19 +86,14 @@ void trace_along(const Problem& problem, StatedProblem& result) {
 
 void trace_ends(const Problem& problem, StatedProblem& result) {
   const Eigen::Index n = problem.configuration_size();
-  std::size_t next = result.letters.size();
-  const auto take = [&next](Eigen::Index count) {
-    const ExpressionVector inputs = inputs_from(next, count);
-    next += static_cast<std::size_t>(count);
-    return inputs;
-  };
+  InputCounter inputs(result.letters.size());
   State first;
-  first.q = take(n);
-  first.v = take(n);
+  first.q = inputs.take(n);
+  first.v = inputs.take(n);
   State last;
-  last.q = take(n);
-  last.v = take(n);
-  last.t = take(1)[0];
+  last.q = inputs.take(n);
+  last.v = inputs.take(n);
+  last.t = inputs.take();
   const Expression final_cost = problem.final_cost(last);
   result.has_final_cost = !final_cost.is_zero();
   if (result.has_final_cost) result.at_ends.push_back({"<mi>Φ</mi>", final_cost, ""});

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
@@ -122,9 +123,7 @@ TablesBySuffix tables_of(const Benchmarks& benchmarks) {
   const std::vector<std::string> counters{"setup_seconds", "evaluation_ns", "elimination_ns", "iteration_ns"};
   std::map<int, Row> by_links;
   for (const auto& [name, benchmark] : benchmarks) {
-    Row& row = by_links[static_cast<int>(benchmark.median_of("links").value_or(0.0))];
-    for (const auto& [key, value] : benchmark.labels) row.set(key, value);
-    for (const std::string& counter : counters) row.set(counter, benchmark.median_of(counter));
+    by_links[static_cast<int>(benchmark.median_of("links").value_or(0.0))] = row_of(benchmark, counters);
   }
   Table table({"problem", "method", "intervals", "links", "setup_seconds", "evaluation_ns", "elimination_ns",
                "iteration_ns", "exponent"});

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
@@ -145,9 +146,7 @@ TablesBySuffix tables_of(const Benchmarks& benchmarks) {
   columns.insert(columns.end(), counters.begin(), counters.end());
   std::vector<Row> rows;
   for (const auto& [name, benchmark] : benchmarks) {
-    Row& row = rows.emplace_back();
-    for (const auto& [key, value] : benchmark.labels) row.set(key, value);
-    for (const std::string& counter : counters) row.set(counter, benchmark.median_of(counter));
+    rows.push_back(row_of(benchmark, counters));
   }
   std::ranges::sort(rows, {}, [](const Row& row) {
     return std::tuple(row.text("problem"), row.text("method"), row.text("start"), row.number("intervals"));

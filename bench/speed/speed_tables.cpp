@@ -18,13 +18,6 @@ namespace {
 constexpr double nanoseconds = 1e9;  // of a second
 constexpr double second = 1e-9;      // of a nanosecond
 
-/// What the label tells, each word in its column.
-Row row_of_labels(const Benchmark& benchmark) {
-  Row row;
-  for (const auto& [key, value] : benchmark.labels) row.set(key, value);
-  return row;
-}
-
 /// The roof as (nanoseconds, limit), from the rows of the machine; none where a benchmark that it takes did not run.
 std::optional<std::pair<double, std::string>> roof_of(const Selection& machine, double operations, double bytes,
                                                       double working_set) {
@@ -42,7 +35,7 @@ std::optional<std::pair<double, std::string>> roof_of(const Selection& machine, 
 }
 
 Row interval_row(const Benchmark& benchmark, double time, const Selection& machine) {
-  Row row = row_of_labels(benchmark);
+  Row row = row_of(benchmark);
   const double operations = benchmark.median_of(operations_per_interval).value_or(0.0);
   row.set("repetitions", benchmark.numbers.at(ns_per_interval).size());
   row.set("nanoseconds", time);
@@ -67,7 +60,7 @@ double seconds_per_iteration(const Row& row) {
 }
 
 Row solve_row(const Benchmark& benchmark) {
-  Row row = row_of_labels(benchmark);
+  Row row = row_of(benchmark);
   row.set("repetitions", benchmark.numbers.at("real_time").size());
   row.set("seconds", second * *benchmark.median_of("real_time"));
   row.set("smallest_seconds", second * *benchmark.smallest_of("real_time"));
@@ -104,6 +97,13 @@ void append_ratio(Table& table, const std::string& quantity, const Selection& sl
 
 }  // namespace
 
+Row row_of(const Benchmark& benchmark, const std::vector<std::string>& counters) {
+  Row row;
+  for (const auto& [key, value] : benchmark.labels) row.set(key, value);
+  for (const std::string& counter : counters) row.set(counter, benchmark.median_of(counter));
+  return row;
+}
+
 Table interval_table(const Benchmarks& benchmarks) {
   Table table({"way", "quantity", "problem", "links", "method", "tableau", "stages", "instruction_set", "intervals",
                "repetitions", "nanoseconds", "smallest_nanoseconds", "operations", "bytes", "operations_per_byte",
@@ -121,7 +121,7 @@ Table machine_table(const Benchmarks& benchmarks) {
     const auto operations = benchmark.median_of(operations_per_second);
     const auto rate = operations ? operations : benchmark.median_of(bytes_per_second);
     if (!rate) continue;
-    Row row = row_of_labels(benchmark);
+    Row row = row_of(benchmark);
     row.set("rate", rate);
     table.append(std::move(row));
   }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bench/compare/benchmark_file.hpp"
 #include "methods/tables/table.hpp"
 
@@ -11,6 +14,9 @@ inline constexpr const char* operations_per_interval = "operations";
 inline constexpr const char* bytes_per_interval = "bytes";
 inline constexpr const char* operations_per_second = "operations_per_second";
 inline constexpr const char* bytes_per_second = "bytes_per_second";
+
+/// The row of a benchmark: what its label tells, each word in its column, and the medians of these counters.
+[[nodiscard]] Row row_of(const Benchmark& benchmark, const std::vector<std::string>& counters = {});
 
 /// way,quantity,problem,links,method,tableau,stages,instruction_set,intervals,repetitions,nanoseconds,
 /// smallest_nanoseconds,operations,bytes,operations_per_byte,operations_per_second,roof_nanoseconds,roof_limit,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "methods/solvers/batch/instance_program.hpp"
 #include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
+#include "methods/transcription/bent_motion.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
@@ -95,23 +95,14 @@ struct Case {
 };
 
 /// A motion with random curves added, of up to half of the way that each coordinate goes.
-Motion bent(const Motion& motion, tests::RandomPoints& random) {
+Motion randomly_bent(const Motion& motion, tests::RandomPoints& random) {
   constexpr Eigen::Index modes = 3;
   const Eigen::VectorXd way = (motion.at(motion.horizon).q - motion.at(0.0).q).cwiseAbs();
   Eigen::MatrixXd amplitudes(way.size(), modes);
   for (Eigen::Index k = 0; k < modes; ++k) {
     amplitudes.col(k) = random.vector(way.size(), -0.5, 0.5).cwiseProduct(way) / static_cast<double>(k + 1);
   }
-  const auto at = [motion, amplitudes](double t) {
-    MotionPoint point = motion.at(t);
-    for (Eigen::Index k = 0; k < modes; ++k) {
-      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
-      point.q += amplitudes.col(k) * std::sin(frequency * t);
-      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
-    }
-    return point;
-  };
-  return {at, motion.horizon};
+  return bent(motion, amplitudes);
 }
 
 /// Instances that must hurt no other: numbers and sizes that are wrong, a formula without a value, ends out of reach.
@@ -318,7 +309,7 @@ TEST(SolveBatch, KeepsHopelessStartsInTheirLanes) {
   tests::RandomPoints random;
   std::vector<BatchInstance> instances(count);
   for (BatchInstance& instance : instances) {
-    instance.start = sample(*orbit.program, bent(guessed_motion(*orbit.problem), random));
+    instance.start = sample(*orbit.program, randomly_bent(guessed_motion(*orbit.problem), random));
     instance.rows = orbit.program->constraint_lower();
   }
   const std::vector<Solution> solutions = orbit.solve(instances, {.most_iterations = 200, .falls_back = false});
