@@ -200,6 +200,26 @@ void solve_cases_of_program(const BatchWork& work, std::span<const std::size_t> 
 
 }  // namespace
 
+std::vector<CaseSpan> spans_of_programs(const std::vector<Case>& cases, const std::vector<CaseSpan>& problems,
+                                        const std::vector<std::size_t>& groups, std::size_t least) {
+  std::vector<CaseSpan> pieces;
+  for (const CaseSpan& problem : problems) {
+    const std::size_t before = pieces.size();
+    CaseSpan piece = problem;
+    std::size_t needed = problem.end;  // the first case that one behind the border belongs to
+    for (std::size_t border = problem.end; border-- > problem.first + 1;) {
+      needed = std::min(needed, groups[border]);
+      const bool is_long_enough = piece.end - border >= least && border - problem.first >= least;
+      if (!is_long_enough || needed < border || CaseBatch::share_program(cases[border - 1], cases[border])) continue;
+      pieces.push_back({border, piece.end});
+      piece.end = border;
+    }
+    pieces.push_back(piece);
+    std::reverse(pieces.begin() + static_cast<std::ptrdiff_t>(before), pieces.end());
+  }
+  return pieces;
+}
+
 void solve_in_batches(const BatchWork& work, const CaseSpan& span) {
   std::vector<std::size_t> numbers;
   for (std::size_t i = span.first; i < span.end; ++i) {

@@ -67,6 +67,13 @@ class CaseBatch {
   bool is_refused_ = false;
 };
 
+/// Spans of problems, cut where one program ends and the next begins, each for a process of its own: what batches leave
+/// to be solved and judged one by one then waits for no other program. They are cut nowhere inside of a group
+/// (`groups_of`), and no piece has fewer than `least` cases.
+[[nodiscard]] std::vector<CaseSpan> spans_of_programs(const std::vector<Case>& cases,
+                                                      const std::vector<CaseSpan>& problems,
+                                                      const std::vector<std::size_t>& groups, std::size_t least = 256);
+
 /// What the batches of a run need of it.
 struct BatchWork {
   const std::vector<Case>& cases;           ///< in the order of rows

@@ -310,9 +310,10 @@ class Run {
     }
   }
 
-  /// A process per problem; its rows come back in a file.
+  /// A process per problem, of batches per program; its rows come back in a file.
   void solve_in_processes() {
-    const std::vector<CaseSpan> spans = spans_of_problems(cases_, is_own_);
+    std::vector<CaseSpan> spans = spans_of_problems(cases_, is_own_);
+    if (experiment_.card().takes_batches && options_.batch) spans = spans_of_programs(cases_, spans, parts_.groups());
     std::vector<std::filesystem::path> files;  // named by this process
     for (const CaseSpan& span : spans) {
       files.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), span.first)));
@@ -380,7 +381,7 @@ int run_experiment(Experiment&& experiment, int argc, char** argv) {
     add_options(line, experiment.options());
     if (card.problems_are_independent) {
       line.number("--jobs", experiment.options().jobs, 1, 256,
-                  "problems worked on at the same time, each in a process of its own");
+                  "problems, in large batches also methods, worked on at the same time, each in a process of its own");
     }
     if (card.compares_tolerances) {
       line.list("--tolerances", experiment.options().tolerances,

@@ -81,10 +81,12 @@ PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, c
   if (is_of_parts) identity_ = identity_of(experiment.card(), cases, metadata, options);
 }
 
+std::vector<std::size_t> PartsOfRun::groups() const { return groups_of(cases_, respects_of(experiment_)); }
+
 std::vector<bool> PartsOfRun::own_cases() const {
   std::vector<bool> own(cases_.size(), true);
   if (!part_) return own;
-  const std::vector<std::size_t> part_of = dealt_out(cases_, groups_of(cases_, respects_of(experiment_)), part_->of);
+  const std::vector<std::size_t> part_of = dealt_out(cases_, groups(), part_->of);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = part_of[i] == part_->number;
   return own;
 }

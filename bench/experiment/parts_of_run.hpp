@@ -27,6 +27,8 @@ class PartsOfRun {
   [[nodiscard]] bool is_one() const noexcept { return part_.has_value(); }
   /// For every case whether this run works on it: all, or those of its part.
   [[nodiscard]] std::vector<bool> own_cases() const;
+  /// For every case the first one that it shares something with (`groups_of`).
+  [[nodiscard]] std::vector<std::size_t> groups() const;
   /// The file of this part.
   [[nodiscard]] std::filesystem::path file() const { return file_of(part_.value_or(Part())); }
   /// True if this part is there already, of this very run.

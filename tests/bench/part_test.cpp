@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "bench/experiment/case_batch.hpp"
 #include "bench/experiment/part_file.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "problems/registry.hpp"
@@ -55,6 +56,25 @@ TEST(Part, FilesAreInTheOrderOfTheirNumbers) {
   for (std::size_t number = 1; number <= 100; ++number) names.push_back(Part{number, 100}.file_name());
   EXPECT_TRUE(std::ranges::is_sorted(names));
   EXPECT_EQ(names[2], "003-of-100.part");
+}
+
+TEST(Spans, AreCutBetweenProgramsOnly) {
+  std::vector<Case> cases;  // four starts of each of two methods
+  for (Case& the_case : cases_on(1)) {
+    for (const char* const start : {"0", "1", "2", "3"}) cases.emplace_back(the_case).variant = start;
+  }
+  const auto ends = [&](const SharedBy& shared, std::size_t least) {
+    std::vector<std::size_t> found;
+    for (const CaseSpan& span : spans_of_programs(cases, {{0, cases.size()}}, groups_of(cases, {shared}), least)) {
+      EXPECT_EQ(span.first, found.empty() ? 0 : found.back());
+      found.push_back(span.end);
+    }
+    return found;
+  };
+  EXPECT_EQ(ends(nothing, 4), (std::vector<std::size_t>{4, 8}));
+  EXPECT_EQ(ends(method_of, 1), (std::vector<std::size_t>{4, 8}));
+  EXPECT_EQ(ends(nothing, 5), std::vector<std::size_t>{8}) << "pieces would have fewer cases than wanted";
+  EXPECT_EQ(ends(grid_of, 1), std::vector<std::size_t>{8}) << "cases of one grid need each other";
 }
 
 TEST(Dealing, EveryCaseIsAloneWhereNothingIsShared) {
