@@ -156,8 +156,4 @@ ExpressionMatrix symmetric_jacobian(const ExpressionVector& f, const ExpressionV
   return result;
 }
 
-ExpressionMatrix hessian(const Expression& f, const ExpressionVector& x) {
-  return symmetric_jacobian(gradient(f, x), x);
-}
-
 }  // namespace dmocbench

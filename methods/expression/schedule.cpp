@@ -15,21 +15,30 @@ using detail::Node;
 /// time.
 class Writer {
  public:
-  explicit Writer(std::span<const Expression> outputs) {
-    const std::vector<Node*> nodes = detail::reachable_nodes(outputs);
+  Writer(std::span<const Expression> outputs, const Definitions& definitions) {
+    std::vector<Expression> all(outputs.begin(), outputs.end());
+    for (const ExpressionVector& part : {definitions.inputs, definitions.formulas}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    const std::vector<Node*> nodes = detail::reachable_nodes(all);
     readers_.resize(nodes.size());
     positions_.assign(nodes.size(), unwritten);
     steps_.reserve(nodes.size());
-    for (const Expression& output : outputs) ++readers_[output.node()->number()];
+    meant_ = nodes;
+    for (Eigen::Index i = 0; i < definitions.inputs.size(); ++i) {
+      meant_[definitions.inputs[i].node()->number()] = definitions.formulas[i].node();
+    }
+    for (const Expression& output : outputs) ++readers_[meant(output.node())->number()];
     for (const Node* node : nodes) {
       for (const Node* operand : node->key().operands) {
-        if (operand != nullptr) ++readers_[operand->number()];
+        if (operand != nullptr) ++readers_[meant(operand)->number()];
       }
     }
   }
 
   /// The position of the node's step, which is written first if necessary.
-  std::uint32_t position(const Node* output) {
+  std::uint32_t position(const Node* asked) {
+    const Node* output = meant(asked);
     open_.push_back(output);
     while (!open_.empty()) {
       const Node* node = open_.back();
@@ -63,6 +72,9 @@ class Writer {
     bool has_constant_left = false;  // `value` stands for the left operand
   };
 
+  /// The formula that an input stands for, or the node itself; null of none.
+  [[nodiscard]] Node* meant(const Node* node) const { return node == nullptr ? nullptr : meant_[node->number()]; }
+
   [[nodiscard]] std::uint32_t position_of(const Node* node) const { return positions_[node->number()]; }
 
   [[nodiscard]] bool is_single(const Node* node, Operation operation) const {
@@ -72,19 +84,21 @@ class Writer {
   [[nodiscard]] Form form_of(const Node* node) const {
     if (node->operation() == Operation::multiply) {
       for (const std::size_t which : {0U, 1U}) {
-        const Node* factor = node->operand(which);
+        const Node* factor = meant(node->operand(which));
         if (!is_single(factor, Operation::reciprocal)) continue;
-        return {Operation::divide, {node->operand(1 - which), factor->operand(0)}, 0.0};
+        return {Operation::divide, {meant(node->operand(1 - which)), meant(factor->operand(0))}, 0.0};
       }
     }
     if (node->operation() == Operation::negate) {
-      const Node* x = node->operand(0);
+      const Node* x = meant(node->operand(0));
       if (is_single(x, Operation::multiply) && x->operand(0)->operation() == Operation::constant) {
-        return {Operation::multiply, {nullptr, x->operand(1)}, -x->operand(0)->value(), true};
+        return {Operation::multiply, {nullptr, meant(x->operand(1))}, -x->operand(0)->value(), true};
       }
-      if (is_single(x, Operation::subtract)) return {Operation::subtract, {x->operand(1), x->operand(0)}, 0.0};
+      if (is_single(x, Operation::subtract)) {
+        return {Operation::subtract, {meant(x->operand(1)), meant(x->operand(0))}, 0.0};
+      }
     }
-    return {node->operation(), node->key().operands, node->value()};
+    return {node->operation(), {meant(node->operand(0)), meant(node->operand(1))}, node->value()};
   }
 
   std::uint32_t write(const Node* node, const Form& form) {
@@ -111,7 +125,9 @@ class Writer {
     return static_cast<std::uint32_t>(steps_.size() - 1);
   }
 
-  // By the numbers of the nodes: their readers, outputs among them, and the positions of their steps.
+  // By the numbers of the nodes: what they stand for, their readers, outputs among them, and the positions of their
+  // steps.
+  std::vector<Node*> meant_;
   std::vector<std::size_t> readers_;
   std::vector<std::uint32_t> positions_;
   std::vector<const Node*> open_;
@@ -121,8 +137,8 @@ class Writer {
 
 }  // namespace
 
-Schedule::Schedule(std::span<const Expression> outputs) {
-  Writer writer(outputs);
+Schedule::Schedule(std::span<const Expression> outputs, const Definitions& definitions) {
+  Writer writer(outputs, definitions);
   outputs_.reserve(outputs.size());
   for (const Expression& output : outputs) outputs_.push_back(writer.position(output.node()));
   steps_ = writer.take_steps();

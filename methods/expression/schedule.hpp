@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "methods/expression/definitions.hpp"
 #include "methods/expression/vectors.hpp"
 
 namespace dmocbench {
@@ -26,7 +27,9 @@ class Schedule {
 
   Schedule() = default;
   /// The code that computes these outputs, in their order.
-  explicit Schedule(std::span<const Expression> outputs);
+  explicit Schedule(std::span<const Expression> outputs) : Schedule(outputs, Definitions{}) {}
+  /// The same, with formulas in the place of the inputs that stand for them.
+  Schedule(std::span<const Expression> outputs, const Definitions& definitions);
   /// The same of a vector.
   explicit Schedule(const ExpressionVector& outputs) : Schedule(entries_of(outputs)) {}
 

@@ -20,7 +20,7 @@ LocalVector nonzeros(const ExpressionVector& dense) {
   return vector;
 }
 
-LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle) {
+LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle, const Definitions& definitions = {}) {
   LocalMatrix matrix;
   std::vector<Expression> entries;
   for (Eigen::Index i = 0; i < dense.rows(); ++i) {
@@ -31,7 +31,7 @@ LocalMatrix nonzeros(const ExpressionMatrix& dense, bool lower_triangle) {
       matrix.columns.push_back(static_cast<std::size_t>(j));
     }
   }
-  matrix.schedule = Schedule(entries);
+  matrix.schedule = Schedule(entries, definitions);
   return matrix;
 }
 
@@ -51,9 +51,10 @@ LocalFunctions differentiate(const Expression& cost, const ExpressionVector& row
   functions.rows = nonzeros(rows);
   functions.jacobian = nonzeros(jacobian(rows, z), false);
   functions.lagrangian = Schedule(std::span(&lagrangian, 1));
-  const ExpressionVector lagrangian_gradient = gradient(lagrangian, z);
-  functions.hessian = nonzeros(symmetric_jacobian(lagrangian_gradient, z), true);
-  functions.adjoint = Schedule(ExpressionVector(lagrangian_gradient.head(adjoint_size)));
+  const DefinedDerivatives of_lagrangian = gradient_and_hessian(lagrangian, z);
+  functions.hessian = nonzeros(of_lagrangian.hessian, true, of_lagrangian.definitions);
+  functions.adjoint = Schedule(entries_of(of_lagrangian.gradient).first(static_cast<std::size_t>(adjoint_size)),
+                               of_lagrangian.definitions);
   return functions;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "methods/expression/vectors.hpp"
+
+namespace dmocbench {
+
+/// Inputs that stand for formulas: `inputs[i]` for `formulas[i]`, which reads none of the inputs.
+struct Definitions {
+  ExpressionVector inputs;    ///< what other formulas read
+  ExpressionVector formulas;  ///< what is meant, as many
+};
+
+/// The formulas with `replacements` in the place of `nodes`, as many.
+[[nodiscard]] std::vector<Expression> replaced(std::span<const Expression> formulas, const ExpressionVector& nodes,
+                                               const ExpressionVector& replacements);
+
+}  // namespace dmocbench
