@@ -91,8 +91,8 @@ TEST(IntervalKkt, AgreesWithDenseLinearAlgebraOnEveryProblemAndScheme) {
   }
 }
 
-/// Sizes that the kernel works on in tiles and blocks, whole ones and what is left of them: of DMOC, of collocation, and
-/// of two stages, whose equalities determine more than the next node.
+/// Sizes that the kernel works on in tiles and blocks, whole ones and what is left of them: of DMOC, of collocation,
+/// and of two stages, whose equalities determine more than the next node.
 TEST(IntervalKkt, AgreesWithDenseLinearAlgebraOnChainsOfManyLinks) {
   const auto chain = make_problem("link_chain");
   for (int links = 4; links <= 13; ++links) {
