@@ -2,14 +2,18 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
 #define DMOCBENCH_ANY_SIZE 1
+#define DMOCBENCH_COUNT_OPERATIONS(count)
 
 namespace dmocbench::kkt::one_lane {
 
 /// As `Lanes` of methods/runtime/lanes.inc, in plain numbers.
 struct Lanes {
+  static constexpr int width = 1;
+  static constexpr int parts = 8;
   using Vector = double __attribute__((vector_size(8 * sizeof(double))));
   struct Mask {
     bool part[8];

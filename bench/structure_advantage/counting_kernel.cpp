@@ -1,11 +1,12 @@
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include "bench/structure_advantage/operation_count.hpp"
 
 #define DMOCBENCH_INLINE inline
 #define DMOCBENCH_ANY_SIZE 0
-#define DMOCBENCH_COUNT_OPERATION ++operations  // of all eight lanes
+#define DMOCBENCH_COUNT_OPERATIONS(count) (operations += (count))  // of all eight lanes
 
 namespace dmocbench::kkt::counting {
 

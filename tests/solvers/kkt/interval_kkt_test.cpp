@@ -53,8 +53,8 @@ void expect_equal(const Eigen::VectorXd& found, const Eigen::VectorXd& wanted, c
   EXPECT_LT(error, rounding * dense.condition());
 }
 
-/// One seed per case, so that every case can be looked at by itself.
-void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int intervals, CostForm form) {
+/// One seed per case, so that every case can be looked at by itself. False if there is no step to compare.
+bool expect_agreement(const Problem& problem, const tests::Scheme& scheme, int intervals, CostForm form) {
   const std::string label = problem.name() + " " + scheme.label() + ", N = " + std::to_string(intervals);
   SCOPED_TRACE(label);
   std::mt19937 generator(static_cast<unsigned>(std::hash<std::string>()(label)));
@@ -75,10 +75,11 @@ void expect_agreement(const Problem& problem, const tests::Scheme& scheme, int i
   const FactorisationStatus verdict =
       kkt->solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers});
   EXPECT_EQ(verdict == FactorisationStatus::solved, is_minimum) << static_cast<int>(verdict);
-  if (verdict != FactorisationStatus::solved) return;
+  if (verdict != FactorisationStatus::solved) return false;
   const Eigen::VectorXd wanted = dense.solution();
   expect_equal(primal, wanted.head(n), dense);
   expect_equal(multipliers, wanted.tail(m), dense);
+  return true;
 }
 
 TEST(IntervalKkt, AgreesWithDenseLinearAlgebraOnEveryProblemAndScheme) {
@@ -86,6 +87,22 @@ TEST(IntervalKkt, AgreesWithDenseLinearAlgebraOnEveryProblemAndScheme) {
     const auto problem = make_problem(name);
     for (const tests::Scheme& scheme : tests::all_schemes(2)) {
       for (const int intervals : {8, 10}) expect_agreement(*problem, scheme, intervals, CostForm::bolza);
+    }
+  }
+}
+
+/// Sizes that the kernel works on in tiles and blocks, whole ones and what is left of them: of DMOC, of collocation,
+/// and of two stages, whose equalities determine more than the next node.
+TEST(IntervalKkt, AgreesWithDenseLinearAlgebraOnChainsOfManyLinks) {
+  const auto chain = make_problem("link_chain");
+  for (int links = 4; links <= 13; ++links) {
+    chain->set_parameter("links", links);
+    EXPECT_TRUE(expect_agreement(*chain, {"dmoc", 1}, 9, CostForm::bolza));
+    if (links % 3 == 1) {
+      EXPECT_TRUE(expect_agreement(*chain, {"hamiltonian", 1}, 8, CostForm::bolza));
+    }
+    if (links % 4 == 1) {
+      EXPECT_TRUE(expect_agreement(*chain, {"dmoc", 2}, 8, CostForm::bolza));
     }
   }
 }

@@ -70,6 +70,16 @@ void solve_in_place(Matrix& system, Sides& sides) {
   }
 }
 
+/// A product of matrices: by blocks if their size has no bound, else entry by entry, which then takes less time.
+template <int most, class Left, class Right>
+auto product(const Left& left, const Right& right) {
+  if constexpr (most == Eigen::Dynamic) {
+    return (left * right).eval();
+  } else {
+    return left.lazyProduct(right);
+  }
+}
+
 template <class Matrix>
 Matrix symmetric_part(const Matrix& matrix) {
   return 0.5 * (matrix + matrix.transpose());
@@ -113,14 +123,14 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
   // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
   const Matrix factor = semidefinite_factor<Matrix>(reachability);
-  const Matrix weighed = stiffness.lazyProduct(factor);
-  Matrix between = identity + factor.transpose().lazyProduct(weighed);
+  const Matrix weighed = product<most>(stiffness, factor);
+  Matrix between = identity + product<most>(factor.transpose(), weighed);
   if (!is_positive_definite(between)) return false;
   // y as a function of (X, ν, 1).
-  Matrix system = identity + reachability.lazyProduct(stiffness);
+  Matrix system = identity + product<most>(reachability, stiffness);
   Wide state(n, 2 * n + 2);
   state.leftCols(n) = Phi.transpose();
-  state.middleCols(n, n) = -reachability.lazyProduct(mixed);
+  state.middleCols(n, n) = -product<most>(reachability, mixed);
   state.col(2 * n) = segment.gamma - reachability.lazyProduct(constant);
   state.col(2 * n + 1).setZero();
   solve_in_place(system, state);
@@ -128,11 +138,11 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   const Vector state_constant = state.col(2 * n);
 
   // ν' as a function of (X, ν, 1).
-  Wide costate = stiffness.lazyProduct(state);
+  Wide costate = product<most>(stiffness, state);
   costate.middleCols(n, n) += mixed;
   costate.col(2 * n) += constant;
-  const Wide value = Phi.lazyProduct(costate);
-  const Matrix Gamma = total_.Gamma - mixed.transpose().lazyProduct(state_multiplier);
+  const Wide value = product<most>(Phi, costate);
+  const Matrix Gamma = total_.Gamma - product<most>(mixed.transpose(), state_multiplier);
   total_.gamma += mixed.transpose().lazyProduct(state_constant);
   total_.Gamma = symmetric_part<Matrix>(Gamma);
   total_.p = segment.p + value.col(2 * n);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 // A step is inlined into its sweep so that its blocks can live in registers; CMake says otherwise for sanitizers.
 #ifndef DMOCBENCH_INLINE

@@ -64,6 +64,11 @@ template <class S>
 inline constexpr bool is_always_plain = false;
 template <int... sizes>
 inline constexpr bool is_always_plain<FixedShape<sizes...>> = true;
+constexpr bool is_plain(const Shape& shape) { return shape.is_plain; }
+template <int... sizes>
+constexpr bool is_plain(const FixedShape<sizes...>& /*shape*/) {
+  return true;
+}
 /// True if entry i of x_{k+1} is dependent and node rows exist; `node_in_next` as in `EliminationPlan`. The equalities
 /// then determine its increment x_{k+1,i} - x_{k,i}, and s_{k+1} is the sum with J_{k+1,k} x_k replaced by
 /// -J_{k+1,k} (x_{k+1} - x_k), which for DMOC has the size of a momentum, as the plain sum has not (README.md).
@@ -130,7 +135,7 @@ struct RecordBlocks {
   }
   /// rows x (w, X, 1): the dependent entries of Z, unless the transition has them.
   [[nodiscard]] constexpr BlockPlace dependent() const {
-    return {transition().end(), is_always_plain<S> ? 0 : shape.rows, column_count(shape)};
+    return {transition().end(), is_plain(shape) ? 0 : shape.rows, column_count(shape)};
   }
   /// Where the interval has no rows of its own, node_sums x (X, 1, ν): the multipliers of the rows of node k. Else ...
   [[nodiscard]] constexpr BlockPlace multipliers() const {
