@@ -1,7 +1,9 @@
 #include "bench/report/packed_svg.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 
