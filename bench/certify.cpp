@@ -91,16 +91,16 @@ Certificate certificate_of(const Problem& problem, const Table& table) {
   return result;
 }
 
-Cell agreeing_digits(const Certificate& certificate) {
-  return certificate.agreement.routes > 1 ? Cell(certificate.agreement.digits) : Cell();
+auto agreeing_digits(const Certificate& certificate) {
+  return certificate.agreement.routes > 1 ? std::optional(certificate.agreement.digits) : std::nullopt;
 }
 
-Cell reference_agreement(const Certificate& certificate) {
+auto reference_agreement(const Certificate& certificate) {
   const bool is_known = certificate.reference && certificate.agreement.routes > 0;
-  return is_known ? Cell(certificate.agreement.reference_digits) : Cell();
+  return is_known ? std::optional(certificate.agreement.reference_digits) : std::nullopt;
 }
 
-Cell published(const Certificate& certificate) {
+std::string published(const Certificate& certificate) {
   if (!certificate.reference) return {};
   const auto in_words = [](const PublishedOptimum& p) { return fmt::format("{:.12g} ({})", p.objective, p.source); };
   return fmt::format("{}", fmt::join(certificate.reference->published | std::views::transform(in_words), "; "));
@@ -112,7 +112,7 @@ Columns<Certificate> certificate_columns(const std::vector<std::string>& routes)
   for (const std::string& route : routes) {
     columns.push_back({route + "_objective", "cost", "cost on the finest grid", [route](const Certificate& c) {
                          const auto found = c.objectives.find(route);
-                         return found == c.objectives.end() ? Cell() : Cell(found->second);
+                         return found == c.objectives.end() ? std::nullopt : std::optional(found->second);
                        }});
   }
   return columns +
@@ -229,7 +229,7 @@ class Certify final : public Experiment {
     std::vector<Certificate> certificates;
     for (const CertifiedProblem& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
-      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, agreeing_digits(c).text(),
+      fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, Cell(agreeing_digits(c)).text(),
                  c.agreement.confirmed);
     }
     write_table(prefix.string() + "_references.csv", table_of(certificate_columns(route_names_), certificates),

@@ -28,6 +28,7 @@ int judge_all(CommandLine& line) {
   tell_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
   write_file(out / "claims.csv", claims_table(claims).csv());
+  write_file(out / "claims_rows.csv", claims_rows_table(claims).csv());
   write_file(out / "claims.md", claims_markdown(claims));
   print(claims);
   for (const std::string& sentence : missed) fmt::print(stderr, "claims: {}\n", sentence);

@@ -2,6 +2,7 @@
 // solution. How many starts are solved, confirmed, on the best branch, and what that takes.
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ class ColdStart final : public Experiment {
          from(&SolvedCase::solution, &Solution::total_evaluations)},
         {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
            const auto& reference = solved.the_case.problem->card().reference;
-           return reference ? Cell(reference->objective) : Cell();
+           return reference ? std::optional(reference->objective) : std::nullopt;
          }}};
   }
   void add_options(CommandLine& line) override {

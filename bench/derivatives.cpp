@@ -41,7 +41,7 @@ class Derivatives final : public Experiment {
       return [this, evaluation](const SolvedCase& solved) {
         const bool is_wanted = evaluation != &EvaluationTimes::hessian || solved.the_case.variant.empty();
         const std::optional<EvaluationTimes>& seconds = measured_.seconds;
-        return seconds && is_wanted ? Cell((*seconds).*evaluation / seconds->residual) : Cell();
+        return seconds && is_wanted ? std::optional((*seconds).*evaluation / seconds->residual) : std::nullopt;
       };
     };
     return {

@@ -139,8 +139,8 @@ class Equivalence final : public Experiment {
  private:
   /// A column's getter: the largest relative difference of some tables from those of DMOC's answer; none without them.
   template <class... Tables>
-  [[nodiscard]] std::function<Cell(const SolvedCase&)> difference(Tables... tables) const {
-    return [this, tables...](const SolvedCase& solved) -> Cell {
+  [[nodiscard]] std::function<std::optional<double>(const SolvedCase&)> difference(Tables... tables) const {
+    return [this, tables...](const SolvedCase& solved) -> std::optional<double> {
       const auto both_have = [&](auto table) {
         return measured_.dmoc && (*solved.trajectory.*table).size() > 0 && (*measured_.dmoc.*table).size() > 0;
       };

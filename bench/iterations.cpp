@@ -77,7 +77,7 @@ class Iterations final : public Experiment {
 
   /// One minor iteration per free variable from the slack basis, per degree of freedom from a basis chosen for free,
   /// and one per later major iteration (no inequality active); none for other solvers.
-  static Cell predicted(const SolvedCase& solved) {
+  static std::optional<long long> predicted(const SolvedCase& solved) {
     const Solution& solution = solved.solution;
     if (!solution.minor_iterations || !solution.major_iterations) return {};
     const auto free_variables = static_cast<long long>(free_variable_count(*solved.program));

@@ -1,5 +1,6 @@
 // Which local minima there are and how often each method falls into which: "Global Minima", section 4.1 of the paper.
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -116,8 +117,8 @@ class LocalMinima final : public Experiment {
     };
     return {size(number % plane_), size(number / plane_)};
   }
-  [[nodiscard]] Cell bulge(const Case& the_case, Eigen::Index which) const {
-    return plane_ > 0 ? Cell(bulges(the_case)[which]) : Cell();
+  [[nodiscard]] std::optional<double> bulge(const Case& the_case, Eigen::Index which) const {
+    return plane_ > 0 ? std::optional(bulges(the_case)[which]) : std::nullopt;
   }
 
   long long starts_ = 20;

@@ -52,7 +52,7 @@ const Columns<PlannedMotion> columns{
     {"plan_upper", "ms", "upper end", from(&PlannedMotion::milliseconds, &RatioInterval::upper)},
     {"rounds", "", "searches that were timed", from(&PlannedMotion::milliseconds, &RatioInterval::rounds)},
     {"path_edges", "", "edges of the path",
-     [](const PlannedMotion& p) { return p.path ? Cell(p.path->edges.size()) : Cell(); }},
+     [](const PlannedMotion& p) { return p.path ? std::optional(p.path->edges.size()) : std::nullopt; }},
     {"cost_before", "cost", "of the concatenation", [](const PlannedMotion& p) { return cost_of(p.before); }},
     {"status", "", "of the full solve from there", &PlannedMotion::status},
     {"cost_after", "cost", "of its answer", [](const PlannedMotion& p) { return cost_of(p.after); }},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/experiment.hpp"
+#include "bench/experiment/meanings.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
@@ -23,7 +24,7 @@ namespace dmocbench::solve_program {
 /// (the slack of constraint 5).
 Table trace_table(const std::vector<MinorIteration>& trace, Eigen::Index variables) {
   const auto named = [variables](const std::optional<Eigen::Index> MinorIteration::*column) {
-    return [variables, column](const MinorIteration& minor) -> Cell {
+    return [variables, column](const MinorIteration& minor) -> std::string {
       const std::optional<Eigen::Index>& index = minor.*column;
       if (!index) return {};
       return *index < variables ? fmt::format("x{}", *index) : fmt::format("s{}", *index - variables);
@@ -127,6 +128,10 @@ class Solve final : public Experiment {
     if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
     checks_ = {};
     if (answer_ && !answer_->message.empty()) solved.note(fmt::format("Its solver says: {}", answer_->message));
+    if (!is_solved(solved.solution.status)) {
+      failures_.push_back(
+          fmt::format("{}: {}: {}", solved.the_case.label(), name_of(solved.solution.status), solved.solution.message));
+    }
     if (!solved.trajectory) return;
     checks_ = check_independently(solved);
     if (!is_solved(solved.solution.status)) return;
@@ -142,14 +147,16 @@ class Solve final : public Experiment {
     return files;
   }
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    for (const std::string& failure : failures_) fmt::print("solve: {}\n", failure);
     for (const SolvedCase& solved : motions_) {
       const Case& the_case = solved.the_case;
       const std::string file = prefix.string() + label_of(the_case);
-      write_file(file + "_stages.csv", stage_table(*the_case.problem, *solved.trajectory).csv());
-      write_file(file + "_picture.csv", picture_table(*the_case.problem, *solved.trajectory).csv());
-      write_file(file + "_nodes.csv", node_table(*the_case.problem, *solved.trajectory).csv());
+      write_table(file + "_stages.csv", stage_table(*the_case.problem, *solved.trajectory), metadata);
+      write_table(file + "_picture.csv", picture_table(*the_case.problem, *solved.trajectory), metadata);
+      write_table(file + "_nodes.csv", node_table(*the_case.problem, *solved.trajectory), metadata);
       metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
                                      {"problem", the_case.problem->name()},
+                                     {"settings", the_case.problem->settings()},
                                      {"method", the_case.method},
                                      {"tableau", the_case.tableau},
                                      {"stages", the_case.stages},
@@ -306,8 +313,9 @@ class Solve final : public Experiment {
   std::vector<std::string> labels_;  // of all cases
   std::string trace_file_;
   std::vector<MinorIteration> trace_;
-  std::vector<SolvedCase> motions_;  // solved, each with its trajectory
-  IndependentChecks checks_;         // of the case that is completed
+  std::vector<SolvedCase> motions_;    // solved, each with its trajectory
+  std::vector<std::string> failures_;  // of the cases that were not solved, why, a sentence each
+  IndependentChecks checks_;           // of the case that is completed
   std::string nl_file_;
   std::string sol_file_;
   std::optional<AmplSolution> answer_;  // of --read-sol

@@ -22,7 +22,7 @@ namespace dmocbench::structure_advantage_program {
 const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
 
 /// Empty where the solver does not tell.
-Cell linear_rounds(const SolvedCase& solved) {
+std::string linear_rounds(const SolvedCase& solved) {
   std::vector<double> seconds;
   for (const SolveTimes& round : solved.rounds) {
     if (!is_solved(solved.solution.status) || !round.linear_seconds) return {};

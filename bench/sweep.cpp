@@ -40,11 +40,11 @@ class Sweep final : public Experiment {
     line.number("--seed", seed_, 0, 0xffffffffU, "of the samples; the same seed gives the same instances");
   }
   [[nodiscard]] Columns<SolvedCase> columns() const override {
-    Columns<SolvedCase> columns{
-        {"instance", "", "number of the instance", from(&SolvedCase::the_case, &Case::variant)}};
+    Columns<SolvedCase> columns{{"instance", "", "number of the instance",
+                                 [](const SolvedCase& solved) { return std::stoul(solved.the_case.variant); }}};
     for (std::size_t i = 0; i < over_.size(); ++i) {
       columns.push_back({over_[i].substr(0, over_[i].find('=')), "", "its value", [this, i](const SolvedCase& solved) {
-                           return Cell(instances_.at(std::stoul(solved.the_case.variant)).at(i));
+                           return instances_.at(std::stoul(solved.the_case.variant)).at(i);
                          }});
     }
     return columns;

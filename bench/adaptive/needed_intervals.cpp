@@ -137,23 +137,22 @@ NeededGrid needed_uniform(const CertifiedProblem& certified, const Scheme& schem
 Columns<NeededGrid> needed_columns() {
   using N = NeededGrid;
   return scheme_columns<N>() +
-         Columns<N>{{"grid", "", "uniform, or adapted", &N::grid},
-                    {"accuracy", "", "relative error of q, p and cost that is asked for", &N::accuracy},
-                    {"status", "", "of the last solve, or why there is no such grid", &N::status},
-                    {"intervals", "", "number of intervals N", &N::intervals},
-                    {"variables", "", "of the program", &N::variables},
-                    {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",
-                     &N::variables_at_accuracy},
-                    {"true_error", "", "relative, against the certified optimum", &N::true_error},
-                    {"estimated_error", "", "relative, by the estimate", &N::estimated_error},
-                    {"largest_step", "", "h", &N::largest_step},
-                    {"smallest_step", "", "h", &N::smallest_step},
-                    {"grids", "", "on the way, the last one included", &N::grids},
-                    {"seconds", "s", "of the whole way by interior_point, median of the rounds",
-                     [](const N& found) { return found.rounds.empty() ? Cell() : Cell(median(found.rounds)); }},
-                    {"round_seconds", "s", "of every round", [](const N& found) {
-                       return found.rounds.empty() ? Cell() : Cell(joined_numbers(found.rounds));
-                     }}};
+         Columns<N>{
+             {"grid", "", "uniform, or adapted", &N::grid},
+             {"accuracy", "", "relative error of q, p and cost that is asked for", &N::accuracy},
+             {"status", "", "of the last solve, or why there is no such grid", &N::status},
+             {"intervals", "", "number of intervals N", &N::intervals},
+             {"variables", "", "of the program", &N::variables},
+             {"variables_at_accuracy", "", "variables times (true error / accuracy)^(1/order)",
+              &N::variables_at_accuracy},
+             {"true_error", "", "relative, against the certified optimum", &N::true_error},
+             {"estimated_error", "", "relative, by the estimate", &N::estimated_error},
+             {"largest_step", "", "h", &N::largest_step},
+             {"smallest_step", "", "h", &N::smallest_step},
+             {"grids", "", "on the way, the last one included", &N::grids},
+             {"seconds", "s", "of the whole way by interior_point, median of the rounds",
+              [](const N& found) { return found.rounds.empty() ? std::nullopt : std::optional(median(found.rounds)); }},
+             {"round_seconds", "s", "of every round", [](const N& found) { return joined_numbers(found.rounds); }}};
 }
 
 Columns<StepOfGrid> step_columns() {

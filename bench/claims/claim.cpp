@@ -120,6 +120,7 @@ std::string evidence_of(const Claim& claim, const std::string& problem) {
 }
 
 JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const std::string& problem) {
+  const ReadFields fields;
   Finding finding = finding_of([&] { return claim.judge(tables, problem); });
   return {.id = problem + "/" + claim.id,
           .where = claim.where.on(problem),
@@ -130,7 +131,8 @@ JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const st
           .verdict = finding.verdict,
           .reason = reason_of(claim, problem, finding),
           .evidence = evidence_of(claim, problem),
-          .sure = std::move(finding.sure)};
+          .sure = std::move(finding.sure),
+          .rows = read_rows(fields)};
 }
 
 }  // namespace

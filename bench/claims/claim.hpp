@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/claims/read_rows.hpp"
 #include "bench/claims/result_tables.hpp"
 
 namespace dmocbench {
@@ -111,9 +112,10 @@ struct JudgedClaim {
   std::string states;    ///< what is stated
   std::string measured;  ///< what was found, or what is lacking
   ClaimVerdict verdict = ClaimVerdict::not_yet;
-  std::string reason;    ///< why it differs, or under which condition it holds
-  std::string evidence;  ///< the tables and figures, with "; " between them
-  std::string sure;      ///< "exact", or how often the verdict came out among replicates; "" for "not yet"
+  std::string reason;               ///< why it differs, or under which condition it holds
+  std::string evidence;             ///< the tables and figures, with "; " between them
+  std::string sure;                 ///< "exact", or how often the verdict came out among replicates; "" for "not yet"
+  std::vector<ReadRows> rows = {};  ///< by which it was judged
 };
 
 /// Every claim with its verdict, and the paper's misprints. Rows that are not solved or on another branch make a claim

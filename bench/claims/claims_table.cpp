@@ -78,12 +78,27 @@ std::string markdown_table(const std::vector<JudgedClaim>& claims) {
 }
 
 /// "differs" of one claim, "differ" of several.
-std::string counted(std::ptrdiff_t count, ClaimVerdict verdict) {
+std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
   const bool are_several = verdict == ClaimVerdict::differs && count != 1;
   return fmt::format("{} {}", count, are_several ? "differ" : name_of(verdict));
 }
 
 }  // namespace
+
+Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
+  Table table({"claim", "table", "records", "columns"});
+  for (const JudgedClaim& claim : claims) {
+    for (const ReadRows& rows : claim.rows) {
+      Row row;
+      row.set("claim", claim.id);
+      row.set("table", rows.table);
+      row.set("records", packed_ranges(rows.records));
+      row.set("columns", fmt::format("{}", fmt::join(rows.columns, " ")));
+      table.append(std::move(row));
+    }
+  }
+  return table;
+}
 
 Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), claims); }
 
@@ -110,7 +125,7 @@ std::vector<std::string> closing_lines(const std::vector<JudgedClaim>& claims) {
     std::vector<std::string> counts;
     for (const ClaimVerdict verdict : all_verdicts) {
       const auto count = std::ranges::count(of_source, verdict, &JudgedClaim::verdict);
-      if (count > 0) counts.push_back(counted(count, verdict));
+      if (count > 0) counts.push_back(told_together(count, verdict));
     }
     lines.push_back(fmt::format("{}: {}", title_of(whose).line, fmt::join(counts, ", ")));
   }

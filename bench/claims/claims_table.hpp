@@ -12,8 +12,12 @@ namespace dmocbench {
 /// The judged claims as claims.csv has them, a row each in their order.
 [[nodiscard]] Table claims_table(const std::vector<JudgedClaim>& claims);
 
-/// The same for readers: what the paper states, its remarks, what is ours and the misprints, each in a table of its own
-/// below a heading, then the closing lines.
+/// Behind which claim stand which rows of which tables, as claims_rows.csv has it: a row per claim and table, with the
+/// records and the columns that were read ("2-5 9", the header is record 1).
+[[nodiscard]] Table claims_rows_table(const std::vector<JudgedClaim>& claims);
+
+/// The claims for readers: what the paper states, its remarks, what is ours and the misprints, each in a table of its
+/// own below a heading, then the closing lines.
 [[nodiscard]] std::string claims_markdown(const std::vector<JudgedClaim>& claims);
 
 /// How many claims have which verdict, a line for the paper's statements, its remarks, ours and the misprints:

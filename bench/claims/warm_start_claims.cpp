@@ -4,6 +4,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/timed_ratios.hpp"
+#include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
@@ -73,7 +74,7 @@ std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string
 std::string left_out_of(const std::vector<StepRatios>& all) {
   std::size_t count = 0;
   for (const StepRatios& ratios : all) count += ratios.left_out;
-  return count == 0 ? "" : fmt::format("; {} steps left out, not solved by both", count);
+  return count == 0 ? "" : fmt::format("; {} left out, not solved by both", counted(count, "step"));
 }
 
 Finding fewer_iterations(const ResultTables& tables, const std::string& problem) {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,13 +18,51 @@
 
 namespace dmocbench {
 
+/// What a column holds whose getter returns a `Value`: nobody knows it of a `Cell`.
+template <class Value>
+[[nodiscard]] constexpr FieldType field_type() {
+  if constexpr (std::same_as<Value, bool>) {
+    return {FieldKind::boolean, false};
+  } else if constexpr (std::integral<Value>) {
+    return {FieldKind::integer, false};
+  } else if constexpr (std::floating_point<Value>) {
+    return {FieldKind::number, true};
+  } else if constexpr (std::convertible_to<Value, std::string_view>) {
+    return {FieldKind::text, true};
+  } else if constexpr (requires(Value value) { value.has_value(); }) {
+    return {field_type<typename Value::value_type>().kind, true};
+  } else {
+    return {};
+  }
+}
+
+/// Reads a field of a record: any function, or a pointer to a member, whose value a `Cell` can be made of.
+template <class Record>
+class FieldReader {
+ public:
+  /// Of a function or a pointer to a member; implicit, so that columns are written as lists.
+  template <class Function>
+    requires(!std::same_as<Function, FieldReader> && std::invocable<const Function&, const Record&>)
+  FieldReader(Function function)
+      : type_(field_type<std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>>()),
+        read_(std::move(function)) {}
+  /// The field of a record.
+  [[nodiscard]] Cell operator()(const Record& record) const { return read_(record); }
+  /// By the type that the function returns.
+  [[nodiscard]] FieldType type() const noexcept { return type_; }
+
+ private:
+  FieldType type_;
+  std::function<Cell(const Record&)> read_;
+};
+
 /// A column of a table that has a row per `Record`.
 template <class Record>
 struct Column {
-  std::string name;                         ///< as in the first line of a table
-  std::string unit;                         ///< empty for texts, counts and numbers without unit
-  std::string meaning;                      ///< in words, for `--help`
-  std::function<Cell(const Record&)> cell;  ///< the record's field
+  std::string name;          ///< as in the first line of a table
+  std::string unit;          ///< empty for texts, counts and numbers without unit
+  std::string meaning;       ///< in words, for `--help`
+  FieldReader<Record> cell;  ///< the record's field
 };
 
 /// The columns of a table whose rows are made of records.
@@ -52,11 +94,20 @@ template <class Record>
   return meanings;
 }
 
+/// What columns hold by their names.
+template <class Record>
+[[nodiscard]] std::map<std::string, FieldType> types_of(const Columns<Record>& columns) {
+  std::map<std::string, FieldType> types;
+  for (const Column<Record>& column : columns) types[column.name] = column.cell.type();
+  return types;
+}
+
 /// The table of records: a row for each.
 template <class Record>
 [[nodiscard]] Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
   Table table(names_of(columns));
   table.explain(meanings_of(columns));
+  table.declare(types_of(columns));
   for (const Record& record : records) table.append(row_of(columns, record));
   return table;
 }
@@ -79,16 +130,30 @@ template <class Record>
   return left;
 }
 
-/// The member of a member ... of an object; nothing where an optional or a pointer on the way is empty.
+/// A value that need not be there: of an optional, what it holds.
+template <class Value>
+struct Optional {
+  /// An optional that holds no other one.
+  using type = std::optional<Value>;
+};
+/// Of an optional it is the optional itself.
+template <class Value>
+struct Optional<std::optional<Value>> {
+  /// As it is.
+  using type = std::optional<Value>;
+};
+
+/// The member of a member ... of an object; an optional where an optional or a pointer on the way may be empty.
 template <class Object>
-[[nodiscard]] Cell member(const Object& object) {
+[[nodiscard]] Object member(const Object& object) {
   return object;
 }
-/// A cell of a member of a member: `member(object, &A::b, &B::c)`.
+/// A member of a member: `member(object, &A::b, &B::c)`.
 template <class Object, class First, class... Rest>
-[[nodiscard]] Cell member(const Object& object, First first, Rest... rest) {
+[[nodiscard]] auto member(const Object& object, First first, Rest... rest) {
   if constexpr (requires { *object; }) {  // an optional or a pointer; std::invoke would not ask whether it is empty
-    return object ? member(*object, first, rest...) : Cell();
+    using Found = typename Optional<decltype(member(*object, first, rest...))>::type;
+    return object ? Found(member(*object, first, rest...)) : Found();
   } else {
     return member(std::invoke(first, object), rest...);
   }

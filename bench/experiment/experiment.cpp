@@ -23,6 +23,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/written_tables.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/counted.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
 
@@ -97,12 +98,13 @@ class Run {
     metadata_["not_solved"] = outcome.failures;
     metadata_["too_coarse"] = outcome.too_coarse;
     metadata_["on_another_branch"] = outcome.other_branch;
-    describe_tables_of_run(files_of_run(), meanings_of(columns_), metadata_);
+    describe_tables_of_run(files_of_run(), table_of(columns_, {}), metadata_);
     write_metadata(prefix_.string() + ".json", metadata_);
-    fmt::print("{}: {}{} rows, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
-               complete ? "" : fmt::format("interrupted before {} rows were complete: ", cases_.size()),
-               table.rows().size(), outcome.failures, outcome.other_branch, outcome.coarse_by_method,
-               table_file().string());
+    fmt::print(
+        "{}: {}{}, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
+        complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
+        counted(table.rows().size(), "row"), outcome.failures, outcome.other_branch, outcome.coarse_by_method,
+        table_file().string());
     if (!complete) return 130;
     return outcome.failures > 0 ? 1 : 0;
   }

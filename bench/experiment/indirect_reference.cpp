@@ -208,6 +208,7 @@ Table IndirectReference::table() const {
   }
   Table table(names);
   table.explain(meanings_of(reference_columns));
+  table.declare(types_of(reference_columns));
   for (const Json& account : accounts) {
     Row row;
     for (const auto& [name, value] : account.at("cells").items()) row.set(name, value.get<std::string>());

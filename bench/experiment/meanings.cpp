@@ -37,19 +37,63 @@ bool is_status_of_solve(const DeclaredColumn& column) {
 Json of_type(const char* type) { return {{"type", type}}; }
 
 /// A column from its meaning as tables have it, "[s] median time of a solve".
-DeclaredColumn declared(const std::string& name, const std::string& meaning) {
+DeclaredColumn declared(const std::string& name, const std::string& meaning, FieldType type) {
   const std::size_t end = meaning.starts_with('[') ? meaning.find("] ") : std::string::npos;
-  if (end == std::string::npos) return {name, "", meaning};
-  return {name, meaning.substr(1, end - 1), meaning.substr(end + 2)};
+  if (end == std::string::npos) return {name, "", meaning, type};
+  return {name, meaning.substr(1, end - 1), meaning.substr(end + 2), type};
+}
+
+/// What `add_meanings` has noted of a column of a file, or else what the columns of the run's own rows mean.
+std::string meaning_of(const std::string& column, const Json& of_file, const Table& rows) {
+  const Json meanings = of_file.value("meanings", Json::object());
+  if (meanings.contains(column)) return meanings.at(column).get<std::string>();
+  const auto of_rows = rows.meanings().find(column);
+  return of_rows == rows.meanings().end() ? "" : of_rows->second;
+}
+
+/// Likewise what it holds. A summary may leave a column of the rows empty.
+FieldType type_of(const std::string& column, const Json& of_file, const Table& rows) {
+  const Json types = of_file.value("types", Json::object());
+  if (types.contains(column)) {
+    const Json& noted = types.at(column);
+    return {static_cast<FieldKind>(noted.at(0).get<int>()), noted.at(1).get<bool>()};
+  }
+  const auto of_rows = rows.types().find(column);
+  const bool has_other_meaning = of_file.value("meanings", Json::object()).contains(column);
+  if (has_other_meaning || of_rows == rows.types().end()) return {};
+  return {of_rows->second.kind, of_rows->second.may_be_empty || !of_file.empty()};
+}
+
+DeclaredColumn declaration_of(const std::string& column, const Json& of_file, const Table& rows) {
+  return declared(column, meaning_of(column, of_file, rows), type_of(column, of_file, rows));
+}
+
+/// Of the fields of a column: nothing but null is said of those that nobody has declared.
+void add_type(FieldType type, Json& property) {
+  if (type.kind == FieldKind::boolean) {
+    property["enum"] = {0, 1};
+    if (type.may_be_empty) property["enum"].push_back(nullptr);
+    return;
+  }
+  Json types = Json::array();
+  if (type.kind == FieldKind::any || type.kind == FieldKind::number) types.push_back("number");
+  if (type.kind == FieldKind::any || type.kind == FieldKind::text) types.push_back("string");
+  if (type.kind == FieldKind::integer) types.push_back("integer");
+  if (type.may_be_empty) types.push_back("null");
+  property["type"] = types.size() == 1 ? types.front() : types;
 }
 
 }  // namespace
 
 void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table) {
+  Json& told = metadata["tables"][file.filename().string()];
+  if (told.is_null()) told = Json::object();
   for (const std::string& column : table.columns()) {
     const auto meaning = table.meanings().find(column);
-    if (meaning != table.meanings().end())
-      metadata["tables"][file.filename().string()]["meanings"][column] = meaning->second;
+    if (meaning != table.meanings().end()) told["meanings"][column] = meaning->second;
+    const auto type = table.types().find(column);
+    if (type != table.types().end())
+      told["types"][column] = {static_cast<int>(type->second.kind), type->second.may_be_empty};
   }
 }
 
@@ -58,23 +102,18 @@ void write_table(const std::filesystem::path& file, const Table& table, nlohmann
   add_meanings(metadata, file, table);
 }
 
-void describe_tables_of_run(const std::vector<std::filesystem::path>& files,
-                            const std::map<std::string, std::string>& of_rows, nlohmann::ordered_json& metadata) {
+void describe_tables_of_run(const std::vector<std::filesystem::path>& files, const Table& rows,
+                            nlohmann::ordered_json& metadata) {
   const Json noted = metadata.value("tables", Json::object());
   Json tables = describe_tables(files);
   for (auto& [file, told] : tables.items()) {
-    const Json own = noted.contains(file) ? noted.at(file).at("meanings") : Json::object();
+    const Json of_file = noted.value(file, Json::object());
     const auto columns = told.at("columns").get<std::vector<std::string>>();  // an entry more may move the others
     std::vector<DeclaredColumn> declarations;
     for (const std::string& column : columns) {
-      const auto of_row = of_rows.find(column);
-      if (own.contains(column)) {
-        told["meanings"][column] = own.at(column);
-      } else if (of_row != of_rows.end()) {
-        told["meanings"][column] = of_row->second;
-      }
-      const Json meanings = told.value("meanings", Json::object());
-      declarations.push_back(declared(column, meanings.value(column, std::string())));
+      declarations.push_back(declaration_of(column, of_file, rows));
+      if (const std::string meaning = meaning_of(column, of_file, rows); !meaning.empty())
+        told["meanings"][column] = meaning;
     }
     told["schema"] = row_schema(file, declarations);
   }
@@ -91,13 +130,14 @@ nlohmann::ordered_json row_schema(const std::string& title, const std::vector<De
     if (is_status_of_solve(column)) {
       property["enum"] = status_names();
     } else {
-      property["type"] = {"number", "string", "null"};
+      add_type(column.type, property);
     }
     names.push_back(column.name);
   }
   return {{"$schema", draft},
           {"title", title},
-          {"description", "a row; fields that read as numbers are numbers, empty ones null"},
+          {"description",
+           "a row; empty fields are null, those of columns of texts texts, others that read as numbers numbers"},
           {"type", "object"},
           {"properties", properties},
           {"required", names},

@@ -14,13 +14,15 @@ namespace {
 
 /// A column's getter: a number of the program's.
 auto count(std::size_t (*of_program)(const NonlinearProgram&)) {
-  return [=](const SolvedCase& solved) { return solved.program ? Cell(of_program(solved.solved_program())) : Cell(); };
+  return [=](const SolvedCase& solved) {
+    return solved.program ? std::optional(of_program(solved.solved_program())) : std::nullopt;
+  };
 }
 
 /// A number of seconds; no case that could not start has any, nor one of a batch.
 auto seconds(double Solution::*member) {
   return [=](const SolvedCase& solved) {
-    return solved.program && solved.is_timed ? Cell(solved.solution.*member) : Cell();
+    return solved.program && solved.is_timed ? std::optional(solved.solution.*member) : std::nullopt;
   };
 }
 
@@ -33,7 +35,7 @@ std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
 
 /// A getter of the time that a share of the rounds stays below.
 auto quantile_of_rounds(double share) {
-  return [share](const SolvedCase& solved) -> Cell {
+  return [share](const SolvedCase& solved) -> std::optional<double> {
     std::vector<double> seconds = seconds_of_rounds(solved);
     if (seconds.empty()) return {};
     std::ranges::sort(seconds);
@@ -41,12 +43,12 @@ auto quantile_of_rounds(double share) {
   };
 }
 
-Cell largest_step(const SolvedCase& solved) {
+std::optional<double> largest_step(const SolvedCase& solved) {
   if (!solved.program) return {};
   return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->card().time_unit.factor;
 }
 
-Cell horizon_of(const SolvedCase& solved) {
+double horizon_of(const SolvedCase& solved) {
   const Problem& problem = *solved.the_case.problem;
   const bool has_times = solved.trajectory && solved.trajectory->node_times.size() > 0;
   const double horizon = has_times ? solved.trajectory->node_times.tail<1>()[0] : problem.horizon();

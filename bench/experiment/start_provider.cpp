@@ -30,9 +30,10 @@ namespace {
 constexpr long long final_intervals = 144;
 constexpr std::array guess_intervals{48LL, 96LL, 144LL};
 
-/// The scheme and grid of a solve; equal for solves with the same answer.
-std::string scheme_and_grid(const std::string& method, const std::string& tableau, int stages, std::size_t intervals) {
-  return fmt::format("{} {} {} {}", method, tableau, stages, intervals);
+/// The problem of a solve with its parameters, its scheme and grid; equal for solves with the same answer.
+std::string identity_of(const std::string& problem, const std::string& settings, const std::string& method,
+                        const std::string& tableau, int stages, std::size_t intervals) {
+  return fmt::format("{} {} {} {} {} {}", problem, settings, method, tableau, stages, intervals);
 }
 
 /// The metadata in a file; null if it holds none, whatever else it is.
@@ -46,21 +47,22 @@ nlohmann::json metadata_in(const std::filesystem::path& file) {
   }
 }
 
-/// The scheme and grid of the solve that wrote a node file, if metadata tell it; empty otherwise.
+/// The identity of the solve that wrote a node file, if metadata tell it; empty otherwise.
 std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) {
   try {
     if (!metadata.is_object() || !metadata.contains("motions")) return {};
     for (const auto& motion : metadata["motions"]) {
       if (motion.at("nodes") != nodes) continue;
-      return scheme_and_grid(motion.at("method"), motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
+      return identity_of(motion.at("problem"), motion.value("settings", std::string()), motion.at("method"),
+                         motion.at("tableau"), motion.at("stages"), motion.at("intervals"));
     }
   } catch (const nlohmann::json::exception&) {  // it is no metadata of a solve
   }
   return {};
 }
 
-/// The scheme and grid of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws
-/// `Error` if they tell of another content, as that of a file that was cut short.
+/// The identity of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws `Error`
+/// if they tell of another content, as that of a file that was cut short.
 std::string origin_of(const std::filesystem::path& nodes_file) {
   if (!std::filesystem::exists(nodes_file)) return {};
   const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
@@ -271,21 +273,11 @@ const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
 
 Start StartProvider::start_for(const Case& the_case) {
   const bool from_guess = rules_.kind == "guess";
+  if (!from_guess && rules_.kind != "common") return start_in_file(the_case);
   if (the_case.nominal && !from_guess) {
     Case nominal = the_case;
     nominal.problem = std::exchange(nominal.nominal, nullptr);
     return start_for(nominal);
-  }
-  if (!from_guess && rules_.kind != "common") {
-    const Trajectory& tables = motion_in_file(*the_case.problem);
-    const Motion motion = smooth_motion(tables);
-    if (origin_ != scheme_and_grid(the_case.method, the_case.tableau, the_case.stages, the_case.intervals())) {
-      Start start{motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
-      if (rules_.takes_costates && tables.has_costates()) start.with_costates = tables;
-      return start;
-    }
-    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
-                              rules_.kind, the_case.label()));
   }
   Start start{guessed_motion(*the_case.problem)};
   if (from_guess && !rules_.tells_branch_from_guess) return start;
@@ -298,6 +290,19 @@ Start StartProvider::start_for(const Case& the_case) {
   const bool own = found->method == the_case.method && the_case.intervals() == found->intervals;
   if (!from_guess) start.motion = own ? found->finer : found->motion;
   if (rules_.tells_branch) start.branch = from_guess ? found->motion : start.motion;
+  return start;
+}
+
+Start StartProvider::start_in_file(const Case& the_case) {
+  const Trajectory& tables = motion_in_file(the_case.nominal ? *the_case.nominal : *the_case.problem);
+  if (origin_ == identity_of(the_case.problem->name(), the_case.problem->settings(), the_case.method, the_case.tableau,
+                             the_case.stages, the_case.intervals())) {
+    throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
+                              rules_.kind, the_case.label()));
+  }
+  const Motion motion = smooth_motion(tables);
+  Start start{motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};
+  if (rules_.takes_costates && tables.has_costates()) start.with_costates = tables;
   return start;
 }
 

@@ -53,8 +53,9 @@ class StartProvider {
 
   /// The motion to start this case from, and the motion whose branch it should be on. No case starts at its own answer:
   /// where the common start is the case's own method on the same grid, the answer on the finer grid serves; a file
-  /// that is the case's own answer is refused: throws `NoStart`. Where no common start is found, in time or at all, it
-  /// is the guess, and the note says why; throws `Interrupted` if the search was interrupted.
+  /// that is the case's own answer, with the same values of its parameters, is refused: throws `NoStart`. Where no
+  /// common start is found, in time or at all, it is the guess, and the note says why; throws `Interrupted` if the
+  /// search was interrupted.
   [[nodiscard]] Start start_for(const Case& the_case);
 
   /// The answer of a case from its start. Throws `Error` if it is not solved on the wanted branch, `Interrupted` if
@@ -78,12 +79,13 @@ class StartProvider {
   class Search;
   [[nodiscard]] const FoundStart& common_start(const Case& the_case);
   [[nodiscard]] const Trajectory& motion_in_file(const Problem& problem);
+  [[nodiscard]] Start start_in_file(const Case& the_case);
 
   Rules rules_;
   SolverOptions options_;
   std::map<Key, FoundStart> common_;
   std::map<std::string, Trajectory> files_;  // the file's motion, by the problem it was read for
-  std::string origin_;  // the scheme and grid of the solve that wrote the file; empty if nothing tells
+  std::string origin_;  // which solve wrote the file: problem, parameters, scheme, grid; empty if unknown
 };
 
 /// A motion with smooth random curves added: to every q_i a sum of three sines that vanish at both ends, their

@@ -9,6 +9,7 @@
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/written_tables.hpp"
+#include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
@@ -45,7 +46,7 @@ void TableRun::show(const std::string& activity) const {
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
   const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), table, fmt::format("{} rows{}", table.rows().size(), gaps)});
+  tables_.push_back({out_ / (file + ".csv"), table, counted(table.rows().size(), "row") + gaps});
   not_measured_ += not_measured;
 }
 
@@ -60,7 +61,7 @@ int TableRun::write() const {
   std::vector<std::filesystem::path> files;
   for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.table.csv());
   for (const NamedTable& table : tables_) add_meanings(metadata, table.file, table.table);
-  describe_tables_of_run(files, {}, metadata);
+  describe_tables_of_run(files, Table(), metadata);
   write_as(true);
   for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
   return not_measured_ > 0 ? 1 : 0;

@@ -9,6 +9,7 @@
 #include "bench/experiment/meanings.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/counted.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {
@@ -76,8 +77,8 @@ void require_as_written(const nlohmann::json& metadata, const std::string& sourc
   if (const std::string missing = lacked(columns, found.columns()); !missing.empty())
     throw Error(fmt::format("{} lacks the column {}, of which {} tells", table, missing, source));
   if (told["rows"] != found.rows().size()) {
-    throw Error(fmt::format("{} tells of {} rows and {} has {}: they are of different runs, or rows are lost", source,
-                            told["rows"].dump(), table, found.rows().size()));
+    throw Error(fmt::format("{} tells of {} and {} has {}: they are of different runs, or rows are lost", source,
+                            counted(told["rows"].get<long long>(), "row"), table, found.rows().size()));
   }
   if (const std::string checksum = checksum_in_words(content); told["crc32"] != checksum) {
     throw Error(fmt::format("{} is not as its run wrote it: its checksum is {}, and {} tells of {}", table, checksum,

@@ -12,6 +12,7 @@
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/page.hpp"
+#include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
@@ -60,9 +61,10 @@ std::string claims_section_of(const ComparedRun& first, const ComparedRun& secon
     if (!before.contains(name)) alone.push_back(name + " (B)");
   }
   std::string html = fmt::format(
-      "<section id=\"claims\"><h2>Claims</h2>\n<p>{} claims have another verdict, {} have the same one, {} are in one "
+      "<section id=\"claims\"><h2>Claims</h2>\n<p>{} another verdict, {} the same one, {} in one "
       "of the runs only.</p>\n",
-      changed.size(), same, alone.size());
+      counted(changed.size(), "claim has", "claims have"), counted(same, "has", "have"),
+      counted(alone.size(), "is", "are"));
   if (!changed.empty()) {
     html += cells("claims with another verdict",
                   {"claim", "states", "verdict in A", "verdict in B", "measured in A", "measured in B"}, changed);
@@ -134,14 +136,14 @@ std::string counts_section(const ComparedRun& first, const ComparedRun& second) 
     const std::string begin =
         changes.size() > most_changes ? fmt::format(", the first {} here", most_changes) : std::string();
     html += fmt::format(
-        "<details><summary><b>{}</b> {} fields differ{}; {} rows are in one of them only</summary>\n{}</details>\n",
-        escaped(before->file), changes.size(), begin, rows.alone,
+        "<details><summary><b>{}</b> {}{}; {} in one of them only</summary>\n{}</details>\n", escaped(before->file),
+        counted(changes.size(), "field differs", "fields differ"), begin, counted(rows.alone, "row is", "rows are"),
         shown.empty() ? std::string() : cells("counts in " + before->file, {"row", "column", "A", "B"}, shown));
   }
   return fmt::format(
              "<section id=\"counts\"><h2>Counts</h2>\n<p>Whole numbers, statuses and verdicts in rows that are about "
-             "the same. {} tables have none that differ.</p>\n",
-             same) +
+             "the same. {} none that differ.</p>\n",
+             counted(same, "table has", "tables have")) +
          html + "</section>\n";
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/report/html.hpp"
+#include "bench/report/packed_svg.hpp"
 
 namespace dmocbench {
 
@@ -137,10 +138,13 @@ std::string figure_markup(const std::string& file, const std::string& prefix, co
   for (const char* const said_by_style :
        {" font-family=\"sans-serif\"", " xml:space=\"preserve\"", " stroke-linecap=\"butt\" stroke-linejoin=\"miter\""})
     replace_all(svg, said_by_style, "");
-  svg = with_short_numbers(without_empty_groups(svg));
+  svg = with_short_numbers(packed_svg(without_empty_groups(svg)));
+  replace_all(svg, "gpPt", "p");
   replace_all(svg, "<g fill=\"none\" color=\"black\" stroke=\"currentColor\" stroke-width=\"1.00\">",
               "<g class=\"k\">");
   replace_all(svg, "<g fill=\"none\" color=\"gray\" stroke=\"currentColor\" stroke-width=\"1.00\">", "<g class=\"y\">");
+  replace_all(svg, " stroke=\"none\" fill=\"#202020\"", " class=\"t\"");
+  replace_all(svg, " stroke=\"none\" fill=\"black\"", " class=\"b\"");
   for (const std::string quote : {"'", "\""}) {
     replace_all(svg, " id=" + quote, " id=" + quote + prefix);
     replace_all(svg, "href=" + quote + "#", "href=" + quote + "#" + prefix);

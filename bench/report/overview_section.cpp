@@ -1,12 +1,17 @@
-#include <algorithm>
+#include <ctime>
+#include <iomanip>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/report/answers.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/sections.hpp"
+#include "methods/runtime/counted.hpp"
 
 namespace dmocbench {
 
@@ -51,15 +56,15 @@ std::string unsolved_html(const ResultsFolder& results) {
     const long long failed = count_of(run, "not_solved");
     const long long coarse = count_of(run, "too_coarse");
     if (failed + coarse == 0) continue;
-    runs.push_back(fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} rows not solved, {} too coarse to be motions</li>",
-                               anchor("table", run.name + ".csv"), escaped(run.name), failed, count_of(run, "rows"),
-                               coarse));
+    runs.push_back(fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} not solved, {} too coarse to be motions</li>",
+                               anchor("table", run.name + ".csv"), escaped(run.name), failed,
+                               counted(count_of(run, "rows"), "row"), coarse));
   }
   if (runs.empty()) return "";
   return fmt::format(
-      "<details><summary>Not every solve succeeded: {} runs have rows that were not "
+      "<details class=\"failures\"><summary>Not every solve succeeded: {} rows that were not "
       "solved</summary><ul>\n{}</ul></details>\n",
-      runs.size(), fmt::join(runs, "\n"));
+      counted(runs.size(), "run has", "runs have"), fmt::join(runs, "\n"));
 }
 
 std::string warnings_html(const ResultsFolder& results) {
@@ -72,31 +77,54 @@ std::string warnings_html(const ResultsFolder& results) {
   return html;
 }
 
+/// Seconds since 1970 of "2026-11-23T14:22:57Z"; none if it is something else.
+std::optional<long long> seconds_of(const std::string& utc_time) {
+  std::tm time{};
+  std::istringstream text(utc_time);
+  text >> std::get_time(&time, "%Y-%m-%dT%H:%M:%SZ");
+  if (text.fail()) return std::nullopt;
+  return static_cast<long long>(::timegm(&time));
+}
+
+/// When the runs began, and how long after the first the last one did.
+std::string times_in_words(const std::set<std::string>& times) {
+  if (times.empty()) return "";
+  if (times.size() == 1) return "began at " + *times.begin();
+  std::string words = fmt::format("the first began at {}, the last at {}", *times.begin(), *times.rbegin());
+  const auto first = seconds_of(*times.begin());
+  const auto last = seconds_of(*times.rbegin());
+  constexpr double seconds_per_minute = 60.0;
+  if (first && last)
+    words += fmt::format(", {:.1f} minutes later", static_cast<double>(*last - *first) / seconds_per_minute);
+  return words;
+}
+
+/// What was compared, in a sentence.
+std::string comparison_html(const ResultsFolder& results) {
+  std::size_t rows = 0;
+  for (const ReportedTable& table : results.tables) rows += table.table.rows().size();
+  return fmt::format(
+      "<p>{} by the methods {}: {} in {}, {}, {}.</p>\n", counted(fields_of(results, "problem").size(), "problem"),
+      escaped(listed(fields_of(results, "method"))), counted(rows, "row"), counted(results.tables.size(), "table"),
+      counted(results.figures.size(), "figure"), counted(results.claims.rows().size(), "claim"));
+}
+
 }  // namespace
 
 std::string overview_section(const ResultsFolder& results) {
-  long long rows = 0;
-  for (const ReportedTable& table : results.tables) rows += static_cast<long long>(table.table.rows().size());
   std::string html = "<section id=\"overview\"><h1>DMOC against collocation</h1>\n";
-  html += fmt::format("<p>{} problems by the methods {}: {} rows in {} tables, {} figures, {} claims.</p>\n",
-                      fields_of(results, "problem").size(), escaped(listed(fields_of(results, "method"))), rows,
-                      results.tables.size(), results.figures.size(), results.claims.rows().size());
-  html += warnings_html(results) + unsolved_html(results) + "<dl class=\"facts\">\n";
+  html += comparison_html(results) + warnings_html(results) + answers_html(results.claims) + unsolved_html(results) +
+          "<dl class=\"facts\">\n";
   const auto add = [&html](std::string_view term, const std::string& description) {
     if (!description.empty()) html += fmt::format("<dt>{}<dd>{}\n", term, escaped(description));
   };
-  const std::set<std::string> times = told(results, "utc_time");
-  if (!times.empty()) {
-    add("Runs", times.size() == 1
-                    ? "began at " + *times.begin()
-                    : fmt::format("the first began at {}, the last at {}", *times.begin(), *times.rbegin()));
-  }
-  add("Problems", listed(fields_of(results, "problem")));
+  add("Runs", times_in_words(told(results, "utc_time")));
   add("Commit", listed(told(results, "commit")));
   add("Processor", fmt::format("{}, {} cores, {}", listed(told(results, "processor")), listed(told(results, "cores")),
                                listed(told(results, "instruction_set"))));
   add("System", listed(told(results, "operating_system")));
   add("Compiler", fmt::format("{}, {}", listed(told(results, "compiler")), listed(told(results, "flags"))));
+  add("Problems", listed(fields_of(results, "problem")));
   return html + "</dl></section>\n";
 }
 

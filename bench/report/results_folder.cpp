@@ -95,6 +95,8 @@ void read_tables(const std::filesystem::path& folder, ResultsFolder& results) {
       Table table = Table::from_csv(read_file(file));
       if (name == "claims.csv") {
         results.claims = std::move(table);
+      } else if (name == "claims_rows.csv") {
+        results.claim_rows = std::move(table);
       } else if (!of_motions.contains(name)) {
         results.tables.push_back({name, run_of(name, results.runs), std::move(table)});
       }

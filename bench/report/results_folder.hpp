@@ -44,6 +44,7 @@ struct ResultsFolder {
   std::vector<ReportedFigure> figures;
   std::vector<ReportedMotion> motions;
   Table claims;                     ///< no rows if nothing has been judged
+  Table claim_rows;                 ///< by which rows of which tables: claim, table, records, columns
   std::vector<std::string> faults;  ///< files that are there and cannot be shown, a sentence each
 
   /// The metadata of a run; null if there are none of that name.

@@ -7,9 +7,9 @@
 namespace dmocbench {
 
 /// The parts of the page, each a <section>; empty where there is nothing to show.
-/// What was compared, on which machine, when, and what was not solved.
+/// What was compared, the answer in five sentences, on which machine, when, and what was not solved.
 [[nodiscard]] std::string overview_section(const ResultsFolder& results);
-/// The claims that answer five questions, then all of them with their verdicts.
+/// All claims with their verdicts and what stands behind them.
 [[nodiscard]] std::string claims_section(const ResultsFolder& results);
 /// Every problem that the program knows: its motions, its statement, its optimum and who reaches it; nothing where no
 /// motion was written.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -151,7 +152,7 @@ Step SequenceRun::next(bool also_cold) {
 
 Table step_table(const std::vector<Step>& steps) {
   const auto of_cold = [](auto member) {
-    return [member](const Step& step) -> Cell { return step.cold ? Cell((*step.cold).*member) : Cell(); };
+    return [member](const Step& step) { return step.cold ? std::optional((*step.cold).*member) : std::nullopt; };
   };
   const Columns<Step> columns =
       scheme_columns<Step>() +

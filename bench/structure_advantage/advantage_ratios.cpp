@@ -65,7 +65,7 @@ Selection comparable_rows(const Selection& table) {
 Table advantage_ratios(const Selection& advantage) {
   Table table({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
                "ratio_at_equal_intervals", "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
-  table.explain(meanings_in_ratios());
+  explain(table, meanings_in_ratios());
   const Selection rows = comparable_rows(advantage);
   for (const Selection& line : rows.group_by(line_columns)) {
     const Selection dmoc = rows.where("method", "dmoc")

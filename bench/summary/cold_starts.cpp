@@ -207,7 +207,7 @@ void append_profiles_of_all(Table& table, const Selection& rows, const std::stri
 
 Table cold_start_shares(const Selection& rows, double tolerance) {
   Table table(share_columns());
-  table.explain(meanings_in_cold_starts());
+  explain(table, meanings_in_cold_starts());
   for (const Selection& grid : rows.group_by(grid_columns)) {
     const BestCost reference(grid, tolerance);
     for (const Selection& cell : grid.group_by(cell_columns)) table.append(shares_of(cell, reference, tolerance));
@@ -219,7 +219,7 @@ Table cold_start_profiles(const Selection& rows) {
   ColumnNames columns = cell_columns;
   columns.insert(columns.end(), {"start_kind", "measure", "budget", "share"});
   Table table(columns);
-  table.explain(meanings_in_cold_starts());
+  explain(table, meanings_in_cold_starts());
   for (const std::string measure : {"evaluations", "seconds"}) {
     append_profiles_of_problems(table, rows, measure);
     append_profiles_of_all(table, rows, measure);

@@ -1,5 +1,7 @@
 #include "bench/summary/column_meanings.hpp"
 
+#include <set>
+
 namespace dmocbench {
 
 const ColumnMeanings& meanings_in_orders() {
@@ -119,6 +121,38 @@ const ColumnMeanings& meanings_in_profiles() {
       {"relative_difference", "of the objective from the reference, with its sign"},
   };
   return meanings;
+}
+
+void explain(Table& table, const ColumnMeanings& meanings) {
+  static const std::set<std::string> texts{"quantity",   "verdict",   "currency",        "round_ratios",
+                                           "start_kind", "failures",  "measure",         "reference_kind",
+                                           "is_best",    "is_motion", "replay_confirmed"};
+  static const std::set<std::string> counts{"points",
+                                            "starts",
+                                            "solved",
+                                            "confirmed",
+                                            "best",
+                                            "elsewhere",
+                                            "too_coarse",
+                                            "lost",
+                                            "below_reference",
+                                            "minimum",
+                                            "unsolved",
+                                            "unconfirmed",
+                                            "instances",
+                                            "successes",
+                                            "common",
+                                            "wins_seconds",
+                                            "wins_evaluations",
+                                            "wins_major_iterations"};
+  table.explain(meanings);
+  std::map<std::string, FieldType> types;
+  for (const auto& [column, meaning] : meanings) {
+    types[column].kind = texts.contains(column)    ? FieldKind::text
+                         : counts.contains(column) ? FieldKind::integer
+                                                   : FieldKind::number;
+  }
+  table.declare(types);
 }
 
 }  // namespace dmocbench

@@ -3,9 +3,11 @@
 #include <map>
 #include <string>
 
+#include "methods/tables/table.hpp"
+
 namespace dmocbench {
 
-/// What the columns of summaries mean, by their names, for `Table::explain`; units stand in brackets. Columns that a
+/// What the columns of summaries mean, by their names, for `explain`; units stand in brackets. Columns that a
 /// summary takes over from the rows that it sums up are explained there.
 using ColumnMeanings = std::map<std::string, std::string>;
 
@@ -19,5 +21,8 @@ using ColumnMeanings = std::map<std::string, std::string>;
 [[nodiscard]] const ColumnMeanings& meanings_in_minima();
 /// Of `performance_profiles`, `profile_summary` and `library_table`.
 [[nodiscard]] const ColumnMeanings& meanings_in_profiles();
+
+/// Tells a table what its columns mean and what they hold: a text, a whole number, or else a number.
+void explain(Table& table, const ColumnMeanings& meanings);
 
 }  // namespace dmocbench

@@ -157,7 +157,7 @@ FitRange range_against_grid(const Selection& curve, const std::optional<FitRange
 
 FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
   FittedOrders result{.table = Table(table_columns), .notes = {}};
-  result.table.explain(meanings_in_orders());
+  explain(result.table, meanings_in_orders());
   const bool is_exact = reference == exact_reference;
   for (const Selection& curve : convergence.group_by(curve_columns)) {
     const Row& head = curve.front();
@@ -180,7 +180,7 @@ Table fit_jumps(const Selection& convergence) {
   Table table({"problem", "method", "tableau", "stages", "jump_slope", "jump_standard_error", "error_slope",
                "error_standard_error", "orders_apart", "error_of_jumps_coarsest", "error_of_jumps_finest", "coarsest",
                "finest", "points", "verdict"});
-  table.explain(meanings_in_orders());
+  explain(table, meanings_in_orders());
   for (const Selection& curve : convergence.group_by(curve_columns)) {
     const auto of_the_method = convergence.matching(curve.front(), {"problem", "method"}).group_by(curve_columns);
     const Fit jumps = above_the_floor(curve, jump, smallest_floor(of_the_method, jump));
@@ -214,7 +214,7 @@ Table fit_jumps(const Selection& convergence) {
 
 Table fit_differences(const Selection& equivalence, const std::string& column) {
   Table table(table_columns);
-  table.explain(meanings_in_orders());
+  explain(table, meanings_in_orders());
   for (const Selection& curve : equivalence.where("method", "tangent").group_by(curve_columns)) {
     const Selection hamiltonian = equivalence.matching(curve.front(), {"problem"}).where("method", "hamiltonian");
     const Selection rounded = hamiltonian.usable().with_number(column);

@@ -61,7 +61,7 @@ Table distinct_minima(const Selection& rows, double separation) {
   const std::vector<std::string> methods = rows.distinct("method");
   columns.insert(columns.end(), methods.begin(), methods.end());
   Table table(columns);
-  table.explain(meanings_in_minima());
+  explain(table, meanings_in_minima());
   for (const std::string& method : methods) table.explain({{method, "how often this method ended there"}});
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
@@ -111,7 +111,7 @@ Table basins(const Selection& rows, double separation) {
 Table best_minimum_shares(const Selection& rows, double separation) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "starts", "solved",
                "unsolved", "unconfirmed", "best", "share", "share_lower", "share_upper"});
-  table.explain(meanings_in_minima());
+  explain(table, meanings_in_minima());
   const std::vector<std::string> methods = rows.distinct("method");
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);

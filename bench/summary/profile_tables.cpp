@@ -92,7 +92,7 @@ const std::vector<std::string>& profile_measures() {
 
 Table performance_profiles(const Selection& rows) {
   Table table({"measure", "method", "tableau", "stages", "solver", "derivatives", "ratio", "share"});
-  table.explain(meanings_in_profiles());
+  explain(table, meanings_in_profiles());
   for (const std::string& measure : profile_measures()) {
     const Contest contest = contest_of(rows, measure);
     std::vector<std::vector<double>> ratios(contest.competitors.size());
@@ -128,7 +128,7 @@ Table profile_summary(const Selection& rows) {
   columns.insert(columns.end(), {"instances", "successes", "common"});
   for (const std::string& measure : profile_measures()) columns.insert(columns.end(), {measure, "wins_" + measure});
   Table table(columns);
-  table.explain(meanings_in_profiles());
+  explain(table, meanings_in_profiles());
   // Who succeeded where does not depend on what is measured; every solved row has an objective.
   const Contest successes = contest_of(rows, "objective");
   std::vector<std::size_t> common;
@@ -175,7 +175,7 @@ Table library_table(const Selection& rows) {
   Table library({"problem", "reference_objective", "reference_digits", "reference_kind", "method", "tableau", "stages",
                  "solver", "derivatives", "intervals", "status", "objective", "relative_difference", "success",
                  "replay_error", "message"});
-  library.explain(meanings_in_profiles());
+  explain(library, meanings_in_profiles());
   for (const Selection& curve : rows.group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
     for (const Row& row : curve.where("intervals", curve.sorted_by("intervals").back().text("intervals"))) {
       Row line = fields_of(row, library.columns());

@@ -110,7 +110,7 @@ void set_cost_ratios(Row& result, const Row& row, const Selection& others, const
 Table equal_accuracy(const Selection& convergence) {
   Table table({"problem", "tableau", "stages", "quantity", "error", "method", "intervals", "variables", "seconds",
                "variables_ratio", "seconds_ratio"});
-  table.explain(meanings_in_ratios());
+  explain(table, meanings_in_ratios());
   for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
     for (const std::string quantity : {"state", "control", "replay"}) {
       const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
@@ -129,7 +129,7 @@ Table equal_accuracy(const Selection& convergence) {
 Table currency_ratios(const Selection& iterations) {
   Table table({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_intervals",
                "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
-  table.explain(meanings_in_ratios());
+  explain(table, meanings_in_ratios());
   for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
     const Selection dmoc = compared.where("method", "dmoc").usable();
     for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {

@@ -3,16 +3,22 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "methods/adaptive/adaptive_solve.hpp"
+#include "methods/adaptive/error_estimate.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/solvers/polish.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/registry.hpp"
@@ -28,6 +34,8 @@ struct dmocbench_solution {
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   dmocbench::Solution solution;
+  std::unique_ptr<dmocbench::Transcription> program;
+  std::optional<dmocbench::Trajectory> motion;
   std::string status;
   std::map<std::string, double, std::less<>> numbers;
   std::map<std::string, Table, std::less<>> arrays;
@@ -103,37 +111,99 @@ void keep_arrays(dmocbench_solution& result, const Trajectory& motion) {
 }
 
 /// Reads the motion and judges it: an answer whose intervals do not join is too coarse.
-void read_motion(dmocbench_solution& result, Transcription& program) {
+void read_motion(dmocbench_solution& result) {
   Solution& solution = result.solution;
   if (solution.primal.size() == 0 || !solution.primal.allFinite()) return;
-  const Trajectory motion = read_trajectory(program, solution.primal, solution.multipliers);
-  keep_arrays(result, motion);
+  result.motion = read_trajectory(*result.program, solution.primal, solution.multipliers);
+  keep_arrays(result, *result.motion);
   if (!is_solved(solution.status)) return;
-  const Accuracy joined = accuracy(program.traced_problem(), motion);
+  const Accuracy joined = accuracy(result.program->traced_problem(), *result.motion);
   result.numbers["relative_jump"] = joined.relative_jump;
   if (joined.relative_jump <= largest_jump_of_a_motion) return;
   solution.status = Status::too_coarse;
   solution.message = sentence_of(solution.status);
 }
 
-std::unique_ptr<dmocbench_solution> solved(const Problem& problem, const dmocbench_options& options) {
-  const std::string method = &required(options.method, "the method");
+/// Reads, judges and keeps what the handle's program and solution tell.
+std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> result) {
+  read_motion(*result);
+  keep_numbers(*result);
+  result->numbers["intervals"] = static_cast<double>(result->program->grid().intervals());
+  result->numbers["stages"] = static_cast<double>(result->program->tableau().stages());
+  result->status = name_of(result->solution.status);
+  return result;
+}
+
+std::string method_of(const dmocbench_options& options) {
+  std::string method = &required(options.method, "the method");
   if (method.starts_with("single_shooting")) {
     throw Error(method + " is not offered here; multiple_shooting has the same solutions");
   }
-  Transcription program(problem, *make_element(method),
-                        make_tableau(&required(options.tableau, "the tableau"), options.stages),
-                        Grid::uniform(static_cast<Eigen::Index>(options.intervals)));
+  return method;
+}
+
+SolverOptions solver_options_of(const dmocbench_options& options) {
   SolverOptions of_solver;
   of_solver.tolerance = options.tolerance;
   of_solver.most_seconds = options.most_seconds;
-  const auto solver = make_solver(&required(options.solver, "the solver"), of_solver);
+  return of_solver;
+}
+
+std::unique_ptr<dmocbench_solution> solved(const Problem& problem, const dmocbench_options& options,
+                                           const Motion& start) {
   auto result = std::make_unique<dmocbench_solution>();
-  result->solution = solver->solve(program, sample(program, guessed_motion(problem)));
-  read_motion(*result, program);
-  keep_numbers(*result);
-  result->status = name_of(result->solution.status);
-  return result;
+  result->program =
+      std::make_unique<Transcription>(problem, *make_element(method_of(options)),
+                                      make_tableau(&required(options.tableau, "the tableau"), options.stages),
+                                      Grid::uniform(static_cast<Eigen::Index>(options.intervals)));
+  const auto solver = make_solver(&required(options.solver, "the solver"), solver_options_of(options));
+  result->solution = solver->solve(*result->program, sample(*result->program, start));
+  result->numbers["settling_steps"] = settle(*result->program, options.tolerance, result->solution);
+  return told(std::move(result));
+}
+
+/// The motion of a solution, to start from. Throws `Error` if it has none, or not of a problem like this one.
+Motion motion_of(const dmocbench_solution& solution, const Problem& problem) {
+  if (!solution.motion) throw Error("the solution to start from has no motion");
+  const bool fits = solution.motion->q.cols() == static_cast<Eigen::Index>(problem.configuration_names().size()) &&
+                    solution.motion->stage_u.cols() == static_cast<Eigen::Index>(problem.control_names().size());
+  if (!fits) throw Error("the solution to start from is of a problem with other numbers of q or u");
+  return smooth_motion(*solution.motion);
+}
+
+std::unique_ptr<dmocbench_solution> solved_accurately(const Problem& problem, const dmocbench_options& options,
+                                                      double accuracy, const std::string& refinement) {
+  AdaptiveOptions adaptive;
+  adaptive.accuracy = accuracy;
+  adaptive.refinement = refinement_named(refinement);
+  adaptive.solver = &required(options.solver, "the solver");
+  adaptive.solver_options = solver_options_of(options);
+  adaptive.validate();
+  const AdaptiveTask task{.problem = &problem,
+                          .method = method_of(options),
+                          .tableau = &required(options.tableau, "the tableau"),
+                          .stages = options.stages,
+                          .first = Grid::uniform(static_cast<Eigen::Index>(options.intervals)),
+                          .start = guessed_motion(problem)};
+  AdaptiveAnswer answer = solve_adaptively(task, adaptive);
+  if (!answer.program) throw Error(answer.message);
+  auto result = std::make_unique<dmocbench_solution>();
+  result->program = std::move(answer.program);
+  result->solution = std::move(answer.solution);
+  const bool is_reached = answer.outcome == AdaptiveOutcome::reached;
+  if (!is_reached && is_solved(result->solution.status)) result->solution.status = Status::not_confirmed;
+  result->solution.message = answer.message;
+  if (is_reached) result->numbers["estimated_error"] = answer.estimate.relative;
+  return told(std::move(result));
+}
+
+double estimated_error(dmocbench_solution& solution) {
+  if (!is_solved(solution.solution.status) || !solution.motion) throw Error("the solution is not solved");
+  if (!solution.motion->has_costates()) throw Error("the solution has no costates");
+  Transcription& program = *solution.program;
+  ErrorEstimator estimator(program);
+  return estimator.estimate(program, solution.solution.primal, solution.solution.multipliers, *solution.motion)
+      .relative;
 }
 
 }  // namespace
@@ -213,7 +283,26 @@ void dmocbench_default_options(dmocbench_options* options) {
 
 dmocbench_solution* dmocbench_solve(dmocbench_problem* problem, const dmocbench_options* options) {
   return guarded<dmocbench_solution*>(nullptr, [&] {
-    return dmocbench::solved(*required(problem, "the problem").problem, required(options, "the options")).release();
+    const dmocbench::Problem& solved = *required(problem, "the problem").problem;
+    return dmocbench::solved(solved, required(options, "the options"), dmocbench::guessed_motion(solved)).release();
+  });
+}
+
+dmocbench_solution* dmocbench_solve_from(dmocbench_problem* problem, const dmocbench_options* options,
+                                         const dmocbench_solution* start) {
+  return guarded<dmocbench_solution*>(nullptr, [&] {
+    const dmocbench::Problem& solved = *required(problem, "the problem").problem;
+    const dmocbench::Motion motion = dmocbench::motion_of(required(start, "the solution to start from"), solved);
+    return dmocbench::solved(solved, required(options, "the options"), motion).release();
+  });
+}
+
+dmocbench_solution* dmocbench_solve_accurately(dmocbench_problem* problem, const dmocbench_options* options,
+                                               double accuracy, const char* refinement) {
+  return guarded<dmocbench_solution*>(nullptr, [&] {
+    return dmocbench::solved_accurately(*required(problem, "the problem").problem, required(options, "the options"),
+                                        accuracy, &required(refinement, "the refinement"))
+        .release();
   });
 }
 
@@ -229,6 +318,15 @@ const char* dmocbench_status(const dmocbench_solution* solution) {
 
 const char* dmocbench_message(const dmocbench_solution* solution) {
   return guarded<const char*>(nullptr, [&] { return required(solution, "the solution").solution.message.c_str(); });
+}
+
+int dmocbench_estimate_error(dmocbench_solution* solution, double* relative) {
+  return guarded(1, [&] {
+    double& place = required(relative, "the place of the error");
+    place = dmocbench::estimated_error(required(solution, "the solution"));
+    solution->numbers["estimated_error"] = place;
+    return 0;
+  });
 }
 
 int dmocbench_number(const dmocbench_solution* solution, const char* name, double* value) {

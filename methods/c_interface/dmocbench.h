@@ -65,9 +65,21 @@ typedef struct dmocbench_options {
 /* The options that dmocbench itself would take. */
 DMOCBENCH_API void dmocbench_default_options(dmocbench_options* options);
 
-/* Solves from the problem's guess. NULL on misuse only: an unknown name, a number out of range; a solve that does not
- * converge is a solution whose status says so. Freed by dmocbench_free_solution. */
+/* Solves from the problem's guess. An answer that a Newton step would still move is settled by such steps before it is
+ * judged. NULL on misuse only: an unknown name, a number out of range; a solve that does not converge is a solution whose
+ * status says so. Freed by dmocbench_free_solution. */
 DMOCBENCH_API dmocbench_solution* dmocbench_solve(dmocbench_problem* problem, const dmocbench_options* options);
+/* The same from the motion of another solution, by any method and on any grid, of a problem with as many q and u, say
+ * with other values of its parameters. NULL also if that solution has no motion. It stays as it is. */
+DMOCBENCH_API dmocbench_solution* dmocbench_solve_from(dmocbench_problem* problem, const dmocbench_options* options,
+                                                       const dmocbench_solution* start);
+/* Solves on one grid after the other, beginning with that of the options, until the estimated relative error of q, p and
+ * cost (dmocbench_estimate_error) is at most `accuracy`, 1e-14 to 0.1. `refinement`: "h" refines steps, "hp" takes up to
+ * three stages too. The solution is that of the last grid; dmocbench_is_solved tells 1 only if the accuracy was reached.
+ * NULL on misuse, and for the problems that dmocbench_estimate_error refuses. */
+DMOCBENCH_API dmocbench_solution* dmocbench_solve_accurately(dmocbench_problem* problem,
+                                                             const dmocbench_options* options, double accuracy,
+                                                             const char* refinement);
 /* Ends a solution; NULL is allowed. */
 DMOCBENCH_API void dmocbench_free_solution(dmocbench_solution* solution);
 
@@ -79,9 +91,15 @@ DMOCBENCH_API const char* dmocbench_status(const dmocbench_solution* solution);
 /* What happened, in a sentence. */
 DMOCBENCH_API const char* dmocbench_message(const dmocbench_solution* solution);
 
+/* Estimates the relative error of q, p and cost of a solved answer, the largest of them, from the answer alone: no
+ * reference is needed. Returns 0 and the error, which dmocbench_number then tells as "estimated_error"; another number if
+ * the solve failed, if the horizon is free, if bounds or inequalities are active, or if the answer has no costates. */
+DMOCBENCH_API int dmocbench_estimate_error(dmocbench_solution* solution, double* relative);
+
 /* A number of a solution: "cost", "kkt_residual", "constraint_violation", "relative_jump" (by how much of the motion's
- * range an interval, replayed alone, misses the next node), "iterations", "seconds". Returns 0; another number if
- * there is none of that name, or it is not known of this solution. */
+ * range an interval, replayed alone, misses the next node), "iterations", "seconds", "settling_steps" (Newton steps behind
+ * the solver), "intervals", "stages", "estimated_error" once it is known. Returns 0; another number if there is none of
+ * that name, or it is not known of this solution. */
 DMOCBENCH_API int dmocbench_number(const dmocbench_solution* solution, const char* name, double* value);
 
 /* An array of a solution, row by row, valid as long as the solution: a row per node of "t" (1 column), "q", "v", "p",

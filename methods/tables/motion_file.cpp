@@ -92,6 +92,7 @@ Table series_table(const std::string& time, const Eigen::VectorXd& times, const 
   }
   Table table(header);
   for (Row& row : rows) table.append(std::move(row));
+  for (const std::string& column : header) table.declare({{column, {FieldKind::number, true}}});
   return table;
 }
 

@@ -9,6 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/runtime/parsed.hpp"
+#include "methods/tables/read_fields.hpp"
 
 namespace dmocbench {
 
@@ -49,15 +50,17 @@ std::vector<std::string> take_record(std::string_view& rest) {
 
 }  // namespace
 
-Cell::Cell(double number) : text_(fmt::format("{:.17g}", number)) {}
+Cell::Cell(double number) : text_(std::isfinite(number) ? fmt::format("{:.17g}", number) : "") {}
 
 const std::string& Row::text(std::string_view column) const {
   static const std::string nothing;
+  note_read_field(place_, column, false);
   const auto found = cells_.find(column);
   return found == cells_.end() ? nothing : found->second.text();
 }
 
 std::optional<double> Row::number(std::string_view column) const {
+  note_read_field(place_, column, true);
   const auto value = parsed<double>(text(column));
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
@@ -70,6 +73,7 @@ double Row::needed(std::string_view column) const {
 }
 
 std::vector<double> Row::numbers(std::string_view column) const {
+  note_read_field(place_, column, true);
   const std::string& field = text(column);
   std::vector<double> numbers;
   for (std::string_view rest = field; !rest.empty();) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -72,6 +73,21 @@ class Row {
   std::string place_;
 };
 
+/// What the fields of a column are.
+enum class FieldKind : std::uint8_t {
+  any,      ///< nobody says
+  text,     ///< as it is
+  number,   ///< as `Cell(double)` writes it
+  integer,  ///< a whole number
+  boolean,  ///< 1 or 0
+};
+
+/// What a column may hold.
+struct FieldType {
+  FieldKind kind = FieldKind::any;  ///< of the fields that are not empty
+  bool may_be_empty = true;         ///< texts and numbers that are not finite may always be
+};
+
 /// A table with named columns. What does not exist is an empty field.
 class Table {
  public:
@@ -91,6 +107,10 @@ class Table {
   void explain(const std::map<std::string, std::string>& meanings) {
     meanings_.insert(meanings.begin(), meanings.end());
   }
+  /// What columns hold, as far as somebody has said it. It is not part of `csv`.
+  [[nodiscard]] const std::map<std::string, FieldType>& types() const noexcept { return types_; }
+  /// Says what columns hold; what was said before stays.
+  void declare(const std::map<std::string, FieldType>& types) { types_.insert(types.begin(), types.end()); }
   /// Removes all rows.
   void clear() { rows_.clear(); }
   /// Gives every row its place in a file of this name.
@@ -105,6 +125,7 @@ class Table {
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
   std::map<std::string, std::string> meanings_;  ///< by the names of columns, which need not have one
+  std::map<std::string, FieldType> types_;       ///< by the names of columns, which need not have one
 };
 
 }  // namespace dmocbench

@@ -1,6 +1,8 @@
 // What the page can do beyond showing: filter claims, sort tables, open what a link names, move motions through time.
 "use strict";
 
+let printing = false;
+
 // --- Links open what they lead to.
 function open_target() {
   const target = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
@@ -29,6 +31,20 @@ for (const form of document.querySelectorAll(".filter")) {
   apply();
 }
 
+// --- A claim that is opened shows its figures in place.
+function show_figures(claim) {
+  if (claim.dataset.shown) return;
+  claim.dataset.shown = "yes";
+  for (const link of claim.querySelectorAll("a[href^='#figure-']")) {
+    const drawn = document.getElementById(link.hash.slice(1))?.querySelector("svg");
+    if (!drawn) continue;
+    const figure = document.createElement("figure");
+    figure.append(drawn.cloneNode(true));
+    claim.append(figure);
+  }
+}
+for (const claim of document.querySelectorAll(".claim")) claim.addEventListener("toggle", () => { if (claim.open && !printing) show_figures(claim); });
+
 // --- Tables sort by a column: numbers by size, texts by letters, empty fields last.
 function compare(a, b) {
   if (a === "" || b === "") return (a === "") - (b === "");
@@ -48,20 +64,24 @@ function sort_by(head) {
   });
   body.append(...rows);
 }
-for (const list of document.querySelectorAll(".columns dl")) {
-  const meanings = new Map([...list.querySelectorAll("dt")].map((name) => [name.textContent.trim(), name.nextElementSibling.textContent.trim()]));
-  for (const head of list.closest(".table").querySelectorAll("thead th")) {
+function make_sortable(table) {
+  if (table.dataset.sortable) return;
+  table.dataset.sortable = "yes";
+  const terms = [...(table.closest(".table")?.querySelectorAll(".columns dt") ?? [])];
+  const meanings = new Map(terms.map((name) => [name.textContent.trim(), name.nextElementSibling.textContent.trim()]));
+  for (const head of table.tHead.rows[0].cells) {
     const meaning = meanings.get(head.firstChild.textContent.trim());
     if (meaning) head.title = meaning;
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append(...head.childNodes);
+    head.append(button);
+    button.addEventListener("click", () => sort_by(head));
   }
 }
-for (const head of document.querySelectorAll("thead th")) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.append(...head.childNodes);
-  head.append(button);
-  button.addEventListener("click", () => sort_by(head));
-}
+// What is closed is made ready when it is opened: there are hundreds of tables.
+for (const table of document.querySelectorAll("table")) if (!table.closest("details")) make_sortable(table);
+addEventListener("toggle", (event) => { if (event.target.open) event.target.querySelectorAll("table").forEach(make_sortable); }, true);
 
 // --- Motions.
 function element(name, attributes, parent) {
@@ -140,5 +160,5 @@ function start_motion(figure) {
 document.querySelectorAll(".motion").forEach(start_motion);
 
 // --- Print shows what is closed on the screen.
-addEventListener("beforeprint", () => document.querySelectorAll(".claim").forEach((claim) => { claim.open = true; }));
+addEventListener("beforeprint", () => { printing = true; document.querySelectorAll(".claim").forEach((claim) => { claim.open = true; }); });
 open_target();

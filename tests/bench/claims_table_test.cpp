@@ -23,6 +23,46 @@ JudgedClaim claim_of(const char* id, Whose whose, ClaimVerdict verdict) {
           .sure = "exact"};
 }
 
+TEST(ReadRows, AreThoseWhoseNumbersWereRead) {
+  Table table = Table::from_csv("method,error,cost\ndmoc,1,7\ntangent,2,7\ndmoc,3,7\n\"other, record\",4,7\n");
+  table.name_places("errors.csv");
+  Table texts = Table::from_csv("verdict\nslope\n");
+  texts.name_places("slopes.csv");
+  const ReadFields fields;
+  double sum = 0.0;
+  for (const Row& row : table.rows()) {
+    if (row.text("method") == "dmoc") sum += row.needed("error");
+  }
+  EXPECT_EQ(sum, 4.0);
+  EXPECT_EQ(texts.rows().front().text("verdict"), "slope");
+  const std::vector<ReadRows> read = read_rows(fields);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].table, "errors.csv");
+  EXPECT_EQ(read[0].records, (std::vector<std::size_t>{2, 4}));
+  EXPECT_EQ(read[0].columns, (std::vector<std::string>{"error", "method"}));
+  EXPECT_EQ(read[1].records, (std::vector<std::size_t>{2}));
+}
+
+TEST(ReadRows, AreNotThoseOfAnInnerJudgement) {
+  Table table = Table::from_csv("error\n1\n");
+  table.name_places("errors.csv");
+  const ReadFields outer;
+  {
+    const ReadFields inner;
+    EXPECT_EQ(table.rows().front().number("error", 0.0), 1.0);
+    EXPECT_EQ(inner.rows().size(), 1U);
+  }
+  EXPECT_TRUE(outer.rows().empty());
+}
+
+TEST(ReadRows, AreWrittenAsRanges) {
+  EXPECT_EQ(packed_ranges({2, 3, 4, 9, 11, 12}), "2-4 9 11-12");
+  EXPECT_EQ(packed_ranges({}), "");
+  JudgedClaim claim = claim_of("a/one", Whose::paper, ClaimVerdict::reproduced);
+  claim.rows = {{"errors.csv", {2, 3}, {"error", "method"}}};
+  EXPECT_EQ(claims_rows_table({claim}).csv(), "claim,table,records,columns\na/one,errors.csv,2-3,error method\n");
+}
+
 using ClaimsFolder = tests::InTemporaryFolder;
 
 TEST_F(ClaimsFolder, LacksEvidenceThatTheRowNames) {

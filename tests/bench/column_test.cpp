@@ -46,6 +46,27 @@ TEST(Column, ReadsAnObjectWhenTheRowIsMade) {
   EXPECT_EQ(row_of(late, Cart{}).text("radius"), "2");
 }
 
+TEST(Column, KnowsWhatItHoldsByTheTypeThatItsGetterReturns) {
+  const Columns<Cart> further =
+      columns + Columns<Cart>{{"is_named", "", "", [](const Cart& cart) { return !cart.name.empty(); }},
+                              {"letters", "", "", [](const Cart& cart) { return cart.name.size(); }},
+                              {"anything", "", "", [](const Cart&) { return Cell("12"); }}};
+  const std::map<std::string, FieldType> types = table_of(further, std::vector<Cart>{}).types();
+  const auto is = [&](const std::string& column, FieldKind kind, bool may_be_empty) {
+    const FieldType& type = types.at(column);
+    return type.kind == kind && type.may_be_empty == may_be_empty;
+  };
+  EXPECT_TRUE(is("name", FieldKind::text, true));
+  EXPECT_TRUE(is("radius", FieldKind::number, true));
+  EXPECT_TRUE(is("diameter", FieldKind::number, true));
+  EXPECT_TRUE(is("spokes", FieldKind::integer, true));
+  EXPECT_TRUE(is("spare", FieldKind::number, true));
+  EXPECT_TRUE(is("drawn", FieldKind::number, true));
+  EXPECT_TRUE(is("is_named", FieldKind::boolean, false));
+  EXPECT_TRUE(is("letters", FieldKind::integer, false));
+  EXPECT_TRUE(is("anything", FieldKind::any, true));
+}
+
 TEST(Column, IsDescribedWithItsUnit) {
   const std::string text = describe(columns);
   EXPECT_NE(text.find("  name: what it is called\n"), std::string::npos) << text;

@@ -82,8 +82,12 @@ TEST_F(MotionFile, ServesWhateverElseLiesBesideIt) {
 }
 
 TEST_F(MotionFile, IsRefusedWhereItIsNotAsItsRunWroteIt) {
-  const nlohmann::json motion{
-      {"nodes", "X_nodes.csv"}, {"method", "dmoc"}, {"tableau", "gauss"}, {"stages", 1}, {"intervals", 4}};
+  const nlohmann::json motion{{"nodes", "X_nodes.csv"},
+                              {"problem", "double_integrator"},
+                              {"method", "dmoc"},
+                              {"tableau", "gauss"},
+                              {"stages", 1},
+                              {"intervals", 4}};
   const nlohmann::json told = nlohmann::json(describe_tables({nodes_file(), folder() / "X_stages.csv"}));
   write_file(folder() / "X.json", nlohmann::json{{"motions", {motion}}, {"tables", told}}.dump());
   EXPECT_NO_THROW(provide());

@@ -1,11 +1,18 @@
+#include <cctype>
+#include <random>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/figure_markup.hpp"
 #include "bench/report/html.hpp"
+#include "bench/report/packed_svg.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/reached_optima.hpp"
 #include "problems/registry.hpp"
@@ -83,8 +90,8 @@ TEST(Report, FiguresShareNoNames) {
       "id='gpPt0'/><use xlink:href='#gpPt0'/></svg>\n";
   results.figures = {{"one", svg}, {"two", svg}};
   const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "id='f0-gpPt0'") && has(page, "href='#f0-gpPt0'"));
-  EXPECT_TRUE(has(page, "id='f1-gpPt0'") && has(page, "href='#f1-gpPt0'"));
+  EXPECT_TRUE(has(page, "id='f0-p0'") && has(page, "href='#f0-p0'"));
+  EXPECT_TRUE(has(page, "id='f1-p0'") && has(page, "href='#f1-p0'"));
   EXPECT_FALSE(has(page, "<g"));
   EXPECT_FALSE(has(page, "<?xml") || has(page, "Gnuplot"));
 }
@@ -95,10 +102,114 @@ TEST(Report, LeavesOutOfFiguresWhatDoesNotShow) {
       "<g id=\"a\"><g fill=\"none\">\n</g>\n</g>\n<path d='M93.47,455.01 L9.25,0.178'/><use href='#gpPt1'/>"
       "<text>slope 12.34</text></svg>",
       "f", "a figure");
-  EXPECT_TRUE(has(svg, "d='M93.5,455 L9.25,0.178'"));
+  EXPECT_TRUE(has(svg, "d='M93.5 455l-84.2-454.8'"));
   EXPECT_TRUE(has(svg, "slope 12.34"));
-  EXPECT_TRUE(has(svg, "id='fgpPt0'") && has(svg, "href='#fgpPt1'"));
+  EXPECT_TRUE(has(svg, "id='fp0'") && has(svg, "href='#fp1'"));
   EXPECT_FALSE(has(svg, "gpDot") || has(svg, "<g"));
+}
+
+/// The points of a path of M, L and what `packed_svg` writes instead.
+std::vector<std::pair<double, double>> points_of(const std::string& path) {
+  std::vector<std::pair<double, double>> points;
+  std::istringstream letters(path);
+  double x = 0.0;
+  double y = 0.0;
+  char command = ' ';
+  const auto number = [&letters] {
+    double value = 0.0;
+    letters >> value;
+    return value;
+  };
+  while (letters >> std::ws && letters.peek() != EOF) {
+    if (std::isalpha(letters.peek()) != 0) command = static_cast<char>(letters.get());
+    const bool is_absolute = command == 'M';
+    if (command != 'v') x = number() + (is_absolute ? 0.0 : x);
+    if (command != 'h') y = number() + (is_absolute ? 0.0 : y);
+    points.emplace_back(x, y);
+    if (command == 'm') command = 'l';
+  }
+  return points;
+}
+
+TEST(PackedSvg, PathsGoThroughTheSamePointsToATenth) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> anywhere(-5.0, 1700.0);
+  std::vector<std::pair<double, double>> points;
+  std::string path;
+  for (int i = 0; i < 200; ++i) {
+    const bool keeps_column = i % 7 == 3;
+    const bool keeps_line = i % 5 == 2;
+    points.emplace_back(keeps_column ? points.back().first : anywhere(engine),
+                        keeps_line ? points.back().second : anywhere(engine));
+    path += fmt::format("{}{:.2f},{:.2f} ", i % 9 == 0 ? "M" : (i % 9 == 1 ? "L" : ""), points.back().first,
+                        points.back().second);
+  }
+  const std::string packed = packed_svg("<path d='" + path + "'/>");
+  const std::vector<std::pair<double, double>> found = points_of(packed.substr(9, packed.size() - 12));
+  ASSERT_EQ(found.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(found[i].first, points[i].first, 0.0551);
+    EXPECT_NEAR(found[i].second, points[i].second, 0.0551);
+  }
+  EXPECT_LT(packed.size(), path.size());
+}
+
+TEST(PackedSvg, LeavesWhatItDoesNotKnow) {
+  for (const std::string svg : {"<path d='M1,2 A3,4 0 0 1 5,6'/>", "<path id='p' d='M0,1.33 L-1.33,-0.67 z'/>",
+                                "<text>rgb is (no colour) > M1,2</text>", "a < b", "<use xlink:href='#a' id='b'/>"})
+    EXPECT_EQ(packed_svg(svg), svg);
+  EXPECT_EQ(packed_svg("<a fill='rgb(  0, 114, 178)'/>"), "<a fill='#0072b2'/>");
+}
+
+TEST(PackedSvg, MarksOfOneColourShareAGroupAndKeepTheirPlaces) {
+  const auto mark = [](const std::string& place, const std::string& colour) {
+    return fmt::format("<use xlink:href='#a' transform='translate({}) scale(2)' color='{}'/>\n", place, colour);
+  };
+  EXPECT_EQ(packed_svg(mark("1,2", "red") + mark("3,4", "red") + mark("5,6", "blue") + "<path/>"),
+            "<g color='red'><use xlink:href='#a' transform='translate(1,2)scale(2)'/><use xlink:href='#a' "
+            "transform='translate(3,4)scale(2)'/></g><g color='blue'><use xlink:href='#a' "
+            "transform='translate(5,6)scale(2)'/></g>\n<path/>");
+}
+
+TEST(Report, ShowsTheRowsAndColumnsThatDecidedOnAClaimAndTheCommands) {
+  ResultsFolder results = folder_with(two_solves());
+  results.claims = Table::from_csv("claim,verdict,whose,states,evidence\narm/order,differs,ours,two,objective.csv\n");
+  results.claim_rows = Table::from_csv(
+      "claim,table,records,columns\narm/order,objective.csv,2-3 99,intervals objective\narm/order,none.csv,2,x\n");
+  const std::string page = report_page(results, "");
+  const std::size_t begin = page.find("<details class=\"rows\">");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string rows = page.substr(begin, page.find("</table>", begin) - begin);
+  EXPECT_TRUE(has(rows, "<tr><td>16<td>0.123457"));
+  EXPECT_TRUE(has(rows, "<tr><td>32<td>\n"));
+  EXPECT_FALSE(has(rows, "<td>dmoc"));
+  EXPECT_TRUE(has(page, "<code class=\"line\">objective --out x</code>\n<code class=\"line\">claims --out x</code>"));
+}
+
+TEST(Report, ChoosesRowsOfAClaimEvenlyWhereThereAreMany) {
+  std::string csv = "n,error\n";
+  for (int n = 1; n <= 101; ++n) csv += fmt::format("{},{}\n", n, 0.5 * n);
+  ResultsFolder results = folder_with(Table::from_csv(csv));
+  results.claims = Table::from_csv("claim,verdict,whose,states,evidence\narm/order,differs,ours,two,objective.csv\n");
+  results.claim_rows = Table::from_csv("claim,table,records,columns\narm/order,objective.csv,2-102,n error\n");
+  const std::string page = report_page(results, "");
+  const std::size_t begin = page.find("<details class=\"rows\">");
+  const std::string rows = page.substr(begin, page.find("</table>", begin) - begin);
+  EXPECT_TRUE(has(rows, "101 rows of objective.csv, 24 of them here"));
+  EXPECT_TRUE(has(rows, "<tr><td>1<td>0.5") && has(rows, "<tr><td>101<td>50.5"));
+}
+
+TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
+  ResultsFolder results = folder_with(two_solves());
+  results.claims = Table::from_csv(
+      "claim,verdict,whose,states,measured\narm/equal_solutions,reproduced,paper,they are equal,to 1e-9; on 3 grids\n"
+      "leg/equal_solutions,differs,paper,they are equal,to 1e-2\narm/other,differs,paper,nothing,5\n");
+  const std::string page = report_page(results, "");
+  const std::string overview = page.substr(0, page.find("<section id=\"claims\""));
+  EXPECT_TRUE(has(overview, "<b>Accuracy.</b> they are equal: "));
+  EXPECT_TRUE(has(overview, "reproduced</span>: to 1e-9; "));
+  EXPECT_TRUE(has(overview, "differs</span>: to 1e-2."));
+  EXPECT_FALSE(has(overview, "on 3 grids") || has(overview, "Structure"));
 }
 
 TEST(ComparedTables, PairRowsByWhatTheyAreAboutAndTellCountsAndStatusesThatDiffer) {
@@ -143,7 +254,7 @@ TEST(Comparison, TellsClaimsWhoseVerdictChangedAndWhatOneRunLacks) {
       Table::from_csv("claim,states,verdict,measured\narm/order,two,reproduced,2.0\narm/cost,less,differs,3\n");
   second.results.claims = Table::from_csv("claim,states,verdict,measured\narm/order,two,differs,1.0\n");
   const std::string page = comparison_page(third, second);
-  EXPECT_TRUE(has(page, "1 claims have another verdict, 0 have the same one, 1 are in one of the runs only"));
+  EXPECT_TRUE(has(page, "1 claim has another verdict, 0 have the same one, 1 is in one of the runs only"));
   EXPECT_TRUE(has(page, "<td>arm/order<td>two<td>reproduced<td>differs<td>2.0<td>1.0"));
   EXPECT_TRUE(has(page, "Only in A: objective.csv."));
 }

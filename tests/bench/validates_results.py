@@ -19,10 +19,13 @@ def read(name):
     return json.loads((folder / name).read_text())
 
 
-def number_or_text(field):
-    """A field of a table as JSON has it."""
+def as_json(field, schema):
+    """A field of a table as the schema of its column says that it is read."""
     if field == "":
         return None
+    types = schema.get("type", [])
+    if "number" not in types and "string" in types:
+        return field
     try:
         return float(field)
     except ValueError:
@@ -54,12 +57,21 @@ for file in sorted((folder / "results").glob("*.json")):
         of_row = validator_of(told["schema"])
         with open(folder / "results" / name, newline="") as table:
             for row in csv.DictReader(table):
-                row = {column: number_or_text(field) for column, field in row.items()}
+                row = {column: as_json(field, told["schema"]["properties"][column]) for column, field in row.items()}
                 of_row.validate(row)
                 validated += 1
         refuses(of_row, {**row, "colour": 1})
+        if name.endswith(("_nodes.csv", "_stages.csv", "_picture.csv")):
+            for column in row:
+                refuses(of_row, {**row, column: "far"})
         refuses(of_row, {column: row[column] for column in list(row)[1:]})
         if name in ("solve.csv", "convergence.csv"):
-            refuses(of_row, {**row, "status": "splendid"})
-            assert told["schema"]["properties"]["seconds"]["unit"] == "s"
+            for column, wrong in [("status", "splendid"), ("stages", 1.5), ("stages", None), ("intervals", "many"),
+                                  ("objective", "low"), ("method", 7), ("free_variables", 0.5)]:
+                refuses(of_row, {**row, column: wrong})
+            of_row.validate({**row, "objective": None, "seconds": None})
+            properties = told["schema"]["properties"]
+            assert properties["seconds"]["unit"] == "s"
+            untyped = [column for column, schema in properties.items() if {"number", "string"} <= set(schema.get("type", []))]
+            assert set(untyped) <= {"tolerance"}, untyped
 assert validated > 5, validated

@@ -37,6 +37,23 @@ for wrong in ({"stages": 0}, {"stages": 99}, {"intervals": 0}, {"intervals": 2**
     refuses("", tutorial.solve(problem, options_with(**wrong)))
 refuses("options", tutorial.solve(problem, None))
 assert not tutorial.is_solved(None)
+refuses("start from", tutorial.solve_from(problem, options_with(), None))
+refuses("magic", tutorial.solve_accurately(problem, options_with(), 1e-4, b"magic"))
+refuses("1e-14", tutorial.solve_accurately(problem, options_with(), 0.0, b"h"))
+other = tutorial.make_problem(b"two_link_manipulator")
+of_other = tutorial.solve(other, options_with())
+refuses("other numbers", tutorial.solve_from(problem, options_with(), of_other))
+error = ctypes.c_double()
+refuses("NULL", tutorial.estimate_error(of_other, None))
+
+# The estimate is that of the difference from a far finer grid, and what is asked for is reached.
+assert tutorial.estimate_error(of_other, ctypes.byref(error)) == 0, tutorial.last_error()
+fine = tutorial.solve_from(other, options_with(intervals=512), of_other)
+coarse_cost, fine_cost = (tutorial.number(solution, "cost") for solution in (of_other, fine))
+assert abs(coarse_cost - fine_cost) <= 1.5 * error.value * abs(fine_cost), (coarse_cost, fine_cost, error.value)
+accurate = tutorial.solve_accurately(other, options_with(), 1e-5, b"h")
+assert tutorial.is_solved(accurate) and tutorial.number(accurate, "estimated_error") <= 1e-5
+assert abs(tutorial.number(accurate, "cost") - fine_cost) < 1e-4 * abs(fine_cost)
 late = tutorial.solve(tutorial.make_problem(b"acrobot"), options_with(most_seconds=1e-6, intervals=256))
 assert late and not tutorial.is_solved(late), "a solve without time is no result"
 

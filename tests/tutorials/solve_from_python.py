@@ -44,6 +44,9 @@ set_parameter = declare("set_parameter", ctypes.c_int, Handle, text, ctypes.c_do
 control_name = declare("control_name", text, Handle, ctypes.c_size_t)
 default_options = declare("default_options", None, ctypes.POINTER(Options))
 solve = declare("solve", Handle, Handle, ctypes.POINTER(Options))
+solve_from = declare("solve_from", Handle, Handle, ctypes.POINTER(Options), Handle)
+solve_accurately = declare("solve_accurately", Handle, Handle, ctypes.POINTER(Options), ctypes.c_double, text)
+estimate_error = declare("estimate_error", ctypes.c_int, Handle, ctypes.POINTER(ctypes.c_double))
 free_solution = declare("free_solution", None, Handle)
 is_solved = declare("is_solved", ctypes.c_int, Handle)
 message = declare("message", text, Handle)
@@ -93,7 +96,23 @@ def main():
     print(f"ends at t = {array(solution, 't')[-1][0]:g} in q = ({last[0]:g}, {last[1]:g})")
     first = array(solution, "stage_u")[0]
     print("first controls:", ", ".join(f"{control_name(problem, i).decode()} = {u:.6g}" for i, u in enumerate(first)))
-    free_solution(solution)
+    error = ctypes.c_double()
+    if estimate_error(solution, ctypes.byref(error)) != 0:
+        raise SystemExit(last_error().decode())
+    print(f"estimated relative error: {error.value:.1e}")
+
+    set_parameter(problem, b"mass_1", 1.6)  # a heavier arm, from the motion of the lighter one
+    heavier = solve_from(problem, ctypes.byref(options), solution)
+    if not heavier or not is_solved(heavier):
+        raise SystemExit(last_error().decode())
+    print(f"with mass_1 = 1.6: {number(heavier, 'cost'):.15g} after {number(heavier, 'iterations'):.0f} iterations")
+    accurate = solve_accurately(problem, ctypes.byref(options), 1e-6, b"hp")
+    if not accurate or not is_solved(accurate):
+        raise SystemExit(last_error().decode())
+    print(f"to {number(accurate, 'estimated_error'):.0e}: {number(accurate, 'cost'):.9g} on "
+          f"{number(accurate, 'intervals'):.0f} intervals with {number(accurate, 'stages'):.0f} stages")
+    for handle in (solution, heavier, accurate):
+        free_solution(handle)
     free_problem(problem)
 
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "methods/tables/read_fields.hpp"
+
+namespace dmocbench {
+
+/// The rows of a table by which a claim was judged.
+struct ReadRows {
+  std::string table;                 ///< its file, without folder
+  std::vector<std::size_t> records;  ///< of the rows whose numbers were read, in order; the header is record 1
+  std::vector<std::string> columns;  ///< that were read of these rows, numbers and texts, by their names
+};
+
+/// What was read, table by table. Of a table no number of which was read, the rows whose texts were.
+[[nodiscard]] std::vector<ReadRows> read_rows(const ReadFields& fields);
+
+/// Whole numbers in order as a text: "2-5 9".
+[[nodiscard]] std::string packed_ranges(const std::vector<std::size_t>& numbers);
+
+}  // namespace dmocbench

@@ -1,0 +1,90 @@
+#include "bench/report/answers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/report/html.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// A question about the methods, by the names of claims without the problem.
+struct Question {
+  std::string_view topic;
+  std::string_view claim;   ///< whose measurements answer it
+  int clauses;              ///< of what was measured that are the answer; the others are told by the claim itself
+  std::string_view beside;  ///< whose verdicts are told too
+};
+
+constexpr std::array questions{
+    Question{"Accuracy", "equal_solutions", 1, "state_slope"},
+    Question{"Structure", "momentum_consistency", 1, "replay_beside_tangent"},
+    Question{"Size", "savings_at_equal_state_error", 1, "variable_ratio"},
+    Question{"Cost", "collocation_more_expensive", 1, "factorisation_more_expensive_by_any_solver"},
+    Question{"Robustness", "cold_starts_confirmed_as_often", 3, "cold_starts_best_as_often"},
+};
+
+/// The claims of that name, one for each problem.
+std::vector<const Row*> claims_named(const Table& claims, std::string_view name) {
+  std::vector<const Row*> found;
+  for (const Row& claim : claims.rows()) {
+    if (problem_and_name(claim.text("claim")).second == name) found.push_back(&claim);
+  }
+  return found;
+}
+
+/// The first clauses of a sentence whose clauses end with semicolons.
+std::string first_clauses(const std::string& sentence, int count) {
+  std::size_t end = 0;
+  for (int i = 0; i < count && end != std::string::npos; ++i) end = sentence.find("; ", i == 0 ? 0 : end + 1);
+  return sentence.substr(0, end);
+}
+
+std::string linked(const Row& claim) {
+  return fmt::format("<a href=\"#{}\">{}</a>", anchor("claim", claim.text("claim")),
+                     escaped(in_words(problem_and_name(claim.text("claim")).first)));
+}
+
+std::string answer_html(const Question& question, const Table& claims) {
+  const std::vector<const Row*> answers = claims_named(claims, question.claim);
+  if (answers.empty()) return "";
+  std::vector<std::string> measured;
+  for (const Row* const claim : answers) {
+    measured.push_back(fmt::format("{} {}: {}", linked(*claim), badge(claim->text("verdict")),
+                                   escaped(first_clauses(claim->text("measured"), question.clauses))));
+  }
+  std::string html = fmt::format("<li><b>{}.</b> {}: {}.", question.topic, escaped(answers.front()->text("states")),
+                                 fmt::join(measured, "; "));
+  std::vector<std::string> verdicts;
+  const std::vector<const Row*> beside = claims_named(claims, question.beside);
+  for (const Row* const claim : beside)
+    verdicts.push_back(fmt::format("{} {}", linked(*claim), badge(claim->text("verdict"))));
+  if (!verdicts.empty())
+    html += fmt::format(" <i>{}: {}</i>", escaped(in_words(question.beside)), fmt::join(verdicts, ", "));
+  return html + "</li>\n";
+}
+
+}  // namespace
+
+std::string answers_html(const Table& claims) {
+  std::string answers;
+  for (const Question& question : questions) answers += answer_html(question, claims);
+  return answers.empty() ? "" : "<ol class=\"answers\">\n" + answers + "</ol>\n";
+}
+
+std::string badge(const std::string& verdict) {
+  return fmt::format("<span class=\"verdict {}\">{}</span>", anchor("v", verdict), escaped(verdict));
+}
+
+std::pair<std::string, std::string> problem_and_name(const std::string& claim) {
+  const std::size_t slash = std::min(claim.find('/'), claim.size());
+  return {claim.substr(0, slash), claim.substr(std::min(slash + 1, claim.size()))};
+}
+
+}  // namespace dmocbench

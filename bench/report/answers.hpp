@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "methods/tables/table.hpp"
+
+namespace dmocbench {
+
+/// Five questions about the methods, each answered in a sentence by the claims that a run has judged, with what was
+/// measured for each problem and the verdicts; empty where none of these claims was judged.
+[[nodiscard]] std::string answers_html(const Table& claims);
+
+/// A verdict as a small label.
+[[nodiscard]] std::string badge(const std::string& verdict);
+
+/// "orbital_transfer" and "state_slope" of "orbital_transfer/state_slope".
+[[nodiscard]] std::pair<std::string, std::string> problem_and_name(const std::string& claim);
+
+}  // namespace dmocbench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace dmocbench {
+
+/// As long as it exists, remembers which fields this thread reads, of rows that know their place
+/// (`Table::name_places`): what a conclusion from tables rests on. The innermost one remembers.
+class ReadFields {
+ public:
+  /// What was read of a row.
+  struct OfRow {
+    std::set<std::string, std::less<>> columns;  ///< their names
+    bool has_number = false;                     ///< a field was read as a number, not only to choose the row
+  };
+  /// By the places of rows.
+  using ByPlace = std::map<std::string, OfRow, std::less<>>;
+
+  /// Begins to remember.
+  ReadFields();
+  ~ReadFields();
+  ReadFields(const ReadFields&) = delete;
+  ReadFields& operator=(const ReadFields&) = delete;
+  ReadFields(ReadFields&&) = delete;
+  ReadFields& operator=(ReadFields&&) = delete;
+
+  /// What was read since it exists.
+  [[nodiscard]] const ByPlace& rows() const noexcept { return rows_; }
+
+ private:
+  friend void note_read_field(const std::string& place, std::string_view column, bool is_number);
+  ByPlace rows_;
+  ReadFields* outer_;
+};
+
+/// Tells this thread's `ReadFields`, if there is one; rows without a place are nobody's.
+void note_read_field(const std::string& place, std::string_view column, bool is_number);
+
+}  // namespace dmocbench
