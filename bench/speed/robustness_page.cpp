@@ -73,6 +73,23 @@ std::string solved_of(const Selection& rows) {
   return rows.empty() ? "-" : fmt::format("{} of {}", rows.where(solves_program).size(), rows.size());
 }
 
+/// What became of cells that were solved before. Earlier builds did not ask whether an answer is settled.
+std::string lost_since(const std::vector<SolvePair>& pairs) {
+  const auto unsettled = std::ranges::count_if(lost_by_first(pairs), [](const SolvePair& pair) {
+    const Row& now = pair.first;
+    return now.text("status") == "not confirmed" && now.needed("kkt_residual") <= now.needed("tolerance");
+  });
+  std::string text = lost_list(pairs, columns_of_cell, "now", "before");
+  if (unsettled > 0) {
+    text += fmt::format(
+        "Of these, {} have a KKT residual within the tolerance as before and are \"not confirmed\" because a Newton "
+        "step "
+        "would still move the answer, which earlier builds did not ask.\n\n",
+        unsettled);
+  }
+  return text;
+}
+
 /// How many cells each solves, by number of intervals and stages.
 std::string totals(const Selection& now, const Selection& ipopt, const Selection& before) {
   std::vector<Row> rows;
@@ -203,7 +220,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
   page += "Cells that interior_point alone solves: ";
   page += lost_list(paired_solves(ipopt, now, columns_of_cell), columns_of_cell, "Ipopt", ours);
   page += "Cells that interior_point solved before and does not now: ";
-  page += lost_list(paired_solves(now, then, columns_of_cell), columns_of_cell, "now", "before");
+  page += lost_since(paired_solves(now, then, columns_of_cell));
   page += iterations_in_words(beside_ipopt);
   if (!starts.empty()) page += starts_section(read_table(starts));
   for (const Selection& cells : now.group_by({"intervals"})) {
