@@ -178,6 +178,10 @@ std::string starts_section(const Selection& starts) {
                             {"verdict", "interior_point solves"},
                             {"iterations", "iterations"}});
   text += iterations_in_words(all);
+  text += fmt::format(
+      "At the limit of time ended {} starts by interior_point and {} by Ipopt: on a busy machine they might have been "
+      "solved.\n\n",
+      of_ours.where("status", "time limit").size(), of_other.where("status", "time limit").size());
   text += "Starts that Ipopt solves and interior_point does not: " + lost_list(all, columns_of_start, ours, "Ipopt");
   return text;
 }
