@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/summary/column_meanings.hpp"
+#include "bench/summary/quantile.hpp"
 #include "bench/summary/share_interval.hpp"
 
 namespace dmocbench {
@@ -42,15 +43,6 @@ struct BestCost {
     return (row.needed("objective") - cost.value_or(0.0)) / std::abs(cost.value_or(1.0));
   }
 };
-
-/// The number below which a share of some lies, between two of them linearly; none of none.
-std::optional<double> quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return std::nullopt;
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
 
 std::vector<double> sorted_numbers(const Selection& rows, const std::string& column) {
   std::vector<double> numbers;

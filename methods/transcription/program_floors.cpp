@@ -28,14 +28,15 @@ Eigen::VectorXd floors_at(const Places& places, const Eigen::VectorXd& of_interv
 
 RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::VectorXd& steps, const Layout& layout) {
   constexpr double safety = 20.0;
-  const double terms =
-      safety * std::numeric_limits<double>::epsilon() * survey.largest_configuration * survey.largest_mass;
+  const double of_entries = safety * std::numeric_limits<double>::epsilon() * survey.largest_mass;
+  const double terms = of_entries * survey.largest_configuration;
+  // λ is multiplied by L_vv/h, of which a small q takes nothing away; a large one is in the masses that depend on it.
+  const double products = std::max(of_entries, terms);
   RoundingFloors floors{
-      .smallest = terms / steps.maxCoeff(), .largest = terms / steps.minCoeff(), .rows = {}, .variables = {}};
-  if (steps.minCoeff() == steps.maxCoeff()) return floors;
-  const Eigen::VectorXd of_interval = terms * steps.cwiseInverse();
-  floors.rows = floors_at(layout.structure().rows, of_interval, floors.smallest);
-  floors.variables = floors_at(layout.structure().unknowns, of_interval, floors.largest);
+      .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .rows = {}, .variables = {}};
+  if (floors.smallest == floors.largest) return floors;
+  floors.rows = floors_at(layout.structure().rows, terms * steps.cwiseInverse(), floors.smallest);
+  floors.variables = floors_at(layout.structure().unknowns, products * steps.cwiseInverse(), floors.largest);
   return floors;
 }
 

@@ -106,6 +106,7 @@ class Transcription final : public NonlinearProgram {
   void jacobian(const VectorIn& x, VectorOut values) override;
   void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, VectorOut values) override;
   /// 20 ε max|q| max|L_vv| / h: constraints are differences of momenta, and these are differences of q divided by h.
+  /// Of variables, 1 stands in the place of a max|q| below it: they multiply λ by L_vv / h, however small q is.
   /// The maxima are taken over the ends of the motion and the problem's guess; h is the step of the row's or the
   /// variable's interval, at a node the smaller one of both sides. Rows of the border have the smallest floor, its
   /// variables the largest. No floor is above 1e-6 of max|q| max|L_vv| / T, because no interval is as narrow (`Grid`).

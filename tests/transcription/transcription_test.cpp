@@ -216,6 +216,17 @@ TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
   }
 }
 
+TEST(Transcription, RoundingFloorsOfVariablesDoNotVanishWithSmallConfigurations) {
+  // Jᵀλ sums products of λ with L_vv / h, here exactly 1 / h, however low the beam lies.
+  const auto beam = make_problem("beam");
+  beam->set_parameter("bound", 0.001);
+  const auto program = tests::transcribe(*beam, {"dmoc", 1}, Grid::uniform(1024));
+  const RoundingFloors& floors = program->rounding_floors();
+  constexpr double entry = 1024.0;
+  for (const double floor : floors.variables) EXPECT_GE(floor, std::numeric_limits<double>::epsilon() * entry);
+  for (const double floor : floors.rows) EXPECT_LT(floor, 0.01 * floors.largest);
+}
+
 TEST(Element, UnknownNamesListTheKnownOnes) {
   for (const std::string& name : element_names()) {
     EXPECT_EQ(make_element(name)->name(), name);

@@ -58,6 +58,7 @@ class InteriorPointRun final : public PreparedRun {
     length_ = 0.0;
     iterations_ = 0;
     descents_ = 0;
+    was_short_ = false;
     message_.clear();
     const bool is_warm = multipliers.size() > 0;
     if (program_.has_bounds()) {
@@ -98,6 +99,7 @@ class InteriorPointRun final : public PreparedRun {
         is_accepted = try_step(step_, alpha, derivative, alpha);
       }
       length_ = alpha;
+      was_short_ = is_accepted && alpha <= constants::short_step;
       // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
@@ -172,11 +174,13 @@ class InteriorPointRun final : public PreparedRun {
   }
 
   /// Where the violation grows from the start of a step, by the constraints' curvature, their residuals at the trial
-  /// point join the right-hand side, A-5.5 to. Where it grows a lot the step is too long for a correction.
+  /// point join the right-hand side, A-5.5 to. Where it grows a lot the step is too long for a correction that
+  /// would be worth its elimination, unless the last step was short: then it may be curvature that keeps them short.
   [[nodiscard]] bool try_second_order_correction(double newton_length, double derivative) {
     double before = values_.theta;
-    const bool grows_a_little = trial_values_.theta >= before && trial_values_.theta <= correctable * before;
-    if (!grows_a_little) return false;  // nor is NaN corrected
+    const bool is_worthwhile = trial_values_.theta <= correctable * before || was_short_;
+    const bool grows = trial_values_.theta >= before && std::isfinite(trial_values_.theta);
+    if (!grows || !is_worthwhile) return false;
     Eigen::VectorXd& residuals = corrected_residuals_;
     residuals = newton_length * values_.constraints + trial_values_.constraints;  // (27)
     for (int p = 0; p < constants::p_max; ++p) {
@@ -281,6 +285,7 @@ class InteriorPointRun final : public PreparedRun {
   double length_ = 0.0;  // of the last step
   int iterations_ = 0;
   int descents_ = 0;
+  bool was_short_ = false;  // the last Newton step
   std::string message_;
 };
 

@@ -9,6 +9,7 @@
 #include "methods/error.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
+#include "problems/beam.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/container_crane.hpp"
@@ -208,6 +209,17 @@ TEST(InteriorPoint, TakesNoStepToWhereTheRowsSayNothing) {
     EXPECT_NEAR(found.objective, ipopt.objective, 1e-8 * ipopt.objective);
     EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.5 * ipopt.major_iterations.value_or(0));
   }
+}
+
+/// Its q is small and its multipliers are large: their rounding is what ends the solve.
+TEST(InteriorPoint, StopsWhereMultipliersOfALowBeamAreRounding) {
+  Beam problem;
+  problem.set_parameter("bound", 0.01);
+  const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(500));
+  const Solution found = solve_by_interior_point(*program, sample(*program, guessed_motion(problem)));
+  EXPECT_EQ(found.status, Status::solved) << found.message;
+  const double least = problem.card().reference->objective * program->cost_scale();
+  EXPECT_NEAR(found.objective, least, 2e-3 * least);
 }
 
 /// Terminal weights that are too small see conjugate points everywhere: every Hessian was shifted, and 114 to 500

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace dmocbench {
+
+/// The number below which a share of sorted numbers lies, between two of them linearly; none of none.
+[[nodiscard]] inline std::optional<double> quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return std::nullopt;
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+}  // namespace dmocbench
