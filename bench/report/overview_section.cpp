@@ -78,8 +78,9 @@ std::string overview_section(const ResultsFolder& results) {
   long long rows = 0;
   for (const ReportedTable& table : results.tables) rows += static_cast<long long>(table.table.rows().size());
   std::string html = "<section id=\"overview\"><h1>DMOC against collocation</h1>\n";
-  html += fmt::format("<p>{} problems by the methods {}: {} rows in {} tables, {} figures, {} claims.</p>\n",
-                      fields_of(results, "problem").size(), escaped(listed(fields_of(results, "method"))), rows,
+  const std::size_t problems = fields_of(results, "problem").size();
+  html += fmt::format("<p>{} {} by the methods {}: {} rows in {} tables, {} figures, {} claims.</p>\n", problems,
+                      problems == 1 ? "problem" : "problems", escaped(listed(fields_of(results, "method"))), rows,
                       results.tables.size(), results.figures.size(), results.claims.rows().size());
   html += warnings_html(results) + unsolved_html(results) + "<dl class=\"facts\">\n";
   const auto add = [&html](std::string_view term, const std::string& description) {
