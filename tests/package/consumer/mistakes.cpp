@@ -221,7 +221,7 @@ std::function<std::string()> statement(const std::string& method = "dmoc") {
   return [method] { return told_of(Mistaken(), method); };
 }
 
-Transcription plain(std::size_t intervals = 8) {
+Transcription plain(long long intervals = 8) {
   static const TwoMasses problem;
   return {problem, *make_element("dmoc"), gauss_tableau(1), Grid::uniform(intervals)};
 }
