@@ -1,5 +1,5 @@
-# Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, and `libdmocbench-dev`,
-# the libraries. What belongs to a package is what `cmake --install` installs of a component; man pages and what Debian asks
+# Debian packages: `cpack -G DEB` in the build folder makes `dmocbench`, the program with its figures, `libdmocbench0`, the
+# shared library with an interface in C, and `libdmocbench-dev`, what programs are compiled with. What belongs to a package is what `cmake --install` installs of a component; man pages and what Debian asks
 # of every package are added by `complete_debian`.
 include_guard(GLOBAL)
 
@@ -11,7 +11,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_ALL program library development)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 
 # Whoever builds a package maintains it: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or git's user.
@@ -39,6 +39,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmocbench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
@@ -52,6 +53,18 @@ and by shooting, and compares accuracy, structure and cost of the answers in
 tables and figures. Problems of one's own come from a shared library, which
 libdmocbench-dev makes of one header each.")
 
+# Its name ends in the version of its interface, as the library's own.
+set(library libdmocbench${PROJECT_VERSION_MAJOR})
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+    "optimal control by DMOC and collocation, from C and other languages
+A shared library with an interface in C, dmocbench.h, that Python, Julia,
+Rust and others reach without a compiler: make a problem by its name, set its
+parameters, solve it, get arrays.")
+
 # The static libraries bring nothing with them: who links them needs what they were compiled with.
 set(adolc)
 get_property(with_adolc GLOBAL PROPERTY DMOCBENCH_WITH_ADOLC)
@@ -61,7 +74,7 @@ endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdmocbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
+    "${library} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), coinor-libipopt-dev, libboost-dev, libeigen3-dev (>= 3.4), libfmt-dev, liblapack-dev, liblapacke-dev, libmumps-seq-dev, libnlopt-dev, pkg-config${adolc}"
 )
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "cmake (>= 3.25), dmocbench (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), g++, libcli11-dev, nlohmann-json3-dev")

@@ -70,7 +70,7 @@ std::string problem_html(const Problem& problem, const ResultsFolder& results) {
          "</article>\n";
 }
 
-/// The motions of problems that this program does not know, such as those of a library.
+/// The motions of problems that this program does not know, such as those of a library that was not named to it.
 std::string unknown_motions(const ResultsFolder& results, const std::vector<std::string>& known) {
   std::set<std::string> names;
   for (const ReportedMotion& motion : results.motions) names.insert(motion.problem);
@@ -89,9 +89,14 @@ std::string gallery_section(const ResultsFolder& results) {
       "<section id=\"gallery\"><h2>Gallery</h2>\n<p>Every problem of the library as it is stated, in the units in "
       "which it is solved, with the motions that were found. A method reaches an optimum where its cost comes within 1 "
       "%; other minima and coarse grids are farther away.</p>\n";
-  const std::vector<std::string> names = problem_names();
+  std::vector<std::string> names = problem_names();
+  html += unknown_motions(results, names);
+  // What this folder tells of comes first.
+  std::ranges::stable_partition(names, [&results](const std::string& name) {
+    return !motions_of(results, name).empty() || lowest_cost(results, name).has_value();
+  });
   for (const std::string& name : names) html += problem_html(*make_problem(name), results);
-  return html + unknown_motions(results, names) + "</section>\n";
+  return html + "</section>\n";
 }
 
 }  // namespace dmocbench

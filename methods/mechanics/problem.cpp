@@ -97,6 +97,8 @@ double Problem::cost_scale() const {
 
 Problem::Problem(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
   for (const Parameter& parameter : parameters_) {
+    const auto is_same = [&](const Parameter& other) { return other.name == parameter.name; };
+    if (std::ranges::count_if(parameters_, is_same) > 1) throw Error("two parameters are named " + parameter.name);
     parameter.check(parameter.value);
     defaults_.push_back(parameter.value);
   }

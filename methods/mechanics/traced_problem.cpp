@@ -21,6 +21,46 @@ void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& probl
   throw Error(fmt::format("{}: {} has {} entries, expected {}", problem.name(), formula, actual, wanted));
 }
 
+/// Names of q and u are columns of tables side by side, so that each needs one of its own.
+void require_names(const Problem& problem) {
+  std::vector<std::string> names = problem.configuration_names();
+  const std::vector<std::string> controls = problem.control_names();
+  names.insert(names.end(), controls.begin(), controls.end());
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    const char* fault = nullptr;
+    if (name->empty() || name->find_first_of(",\"\n\r") != std::string::npos) {
+      fault = "is no name of a column: it is empty, or has a comma, a quotation mark or a line break";
+    } else if (*name == "t") {
+      fault = "is the name of the time";
+    } else if (std::find(names.begin(), name, *name) != name) {
+      fault = "names two of them";
+    }
+    if (fault != nullptr) {
+      throw Error(
+          fmt::format(R"({}: among configuration_names and control_names "{}" {})", problem.name(), *name, fault));
+    }
+  }
+}
+
+/// Constraints have names all or none.
+void require_as_many_names(const std::vector<std::string>& names, Eigen::Index entries, const Problem& problem,
+                           const char* formula) {
+  if (!names.empty()) require_size(std::ssize(names), entries, problem, formula);
+}
+
+/// A control that nothing reads would keep any value. `first` is the input of the first control.
+void require_controls(const Schedule& formulas, std::size_t first, const Problem& problem) {
+  const std::vector<std::string> names = problem.control_names();
+  std::vector<bool> is_read(names.size());
+  for (const Schedule::Step& step : formulas.steps()) {
+    if (step.operation != Operation::input || step.input_index < first) continue;
+    if (step.input_index - first < is_read.size()) is_read[step.input_index - first] = true;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_read[i]) throw Error(problem.name() + ": no formula reads the control " + names[i] + "; leave it out");
+  }
+}
+
 /// Substitutes other formulas for the inputs of a schedule, and reads its outputs in their order.
 class FormulaReader {
  public:
@@ -49,6 +89,7 @@ class FormulaReader {
 TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters)
     : n_(problem.configuration_size()), m_(problem.control_size()) {
   if (n_ == 0) throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
+  require_names(problem);
   const Eigen::VectorXd values = parameter_values(problem);
   const ParameterTrace parameters(problem, open_parameters);
   open_ = parameters.open();
@@ -89,6 +130,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   formulas.push_back(problem.running_cost(point));
   const ExpressionVector path_constraints = problem.path_constraints(point);
   path_constraints_ = path_constraints.size();
+  require_as_many_names(problem.path_constraint_names(), path_constraints_, problem, "path_constraint_names");
   append(formulas, path_constraints);
   append(formulas, mass);
   append(formulas, jacobian(momentum, point.q));
@@ -102,6 +144,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
     append(formulas, jacobian(*generator, point.q));
   }
   schedule_ = Schedule(formulas);
+  require_controls(schedule_, open_.size() + 2 * static_cast<std::size_t>(n_), problem);
   tape_ = Tape(schedule_);
 }
 
@@ -111,6 +154,7 @@ void TracedProblem::trace_ends(const Problem& problem) {
   const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
   const ExpressionVector conditions = problem.boundary_conditions(first, last);
   boundary_conditions_ = conditions.size();
+  require_as_many_names(problem.boundary_condition_names(), boundary_conditions_, problem, "boundary_condition_names");
   std::vector<Expression> formulas;
   append(formulas, conditions);
   formulas.push_back(problem.final_cost(last));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,18 @@
 #include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench {
+
+namespace {
+
+/// " Entry 3 of the start is nan."; empty if the start is finite.
+std::string fault_of_start(const Eigen::VectorXd& start) {
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (!std::isfinite(start[i])) return fmt::format(" Entry {} of the start is {}.", i, start[i]);
+  }
+  return {};
+}
+
+}  // namespace
 
 void SolverOptions::validate() const {
   if (!(tolerance > 0.0) || !(tolerance < 1.0)) {
@@ -61,6 +74,7 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) 
   complete(counted, solution);
   confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
+  if (solution.status == Status::evaluation_failed) solution.message += fault_of_start(start);
   return solution;
 }
 

@@ -1,4 +1,6 @@
 #include <array>
+#include <cstddef>
+#include <functional>
 
 #include "methods/choose.hpp"
 #include "methods/transcription/collocation_elements.hpp"
@@ -41,7 +43,8 @@ std::vector<std::string> all_element_names() {
 
 std::unique_ptr<Element> make_element(std::string_view name) {
   if (auto shooting = make_shooting_element(name)) return shooting;
-  return one_of(registry, family_name, name, "there is no method")();
+  const std::size_t position = position_of(all_element_names(), std::identity(), name, "there is no method");
+  return registry[position]();  // the names of shooting are behind those of the registry
 }
 
 }  // namespace dmocbench

@@ -75,8 +75,10 @@ EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, Eigen::Ind
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
   if (!(bounds.lower > 0.0) || !(bounds.upper >= bounds.lower)) {
-    throw Error(fmt::format("{}: bounds().horizon must be positive and ascend, got {:g} and {:g}", problem.name(),
-                            bounds.lower, bounds.upper));
+    const char* hint =
+        bounds.upper == 0.0 ? "; begin with Problem::bounds(), which fixes the ends and the horizon" : "";
+    throw Error(fmt::format("{}: bounds().horizon must be positive and ascend, got {:g} and {:g}{}", problem.name(),
+                            bounds.lower, bounds.upper, hint));
   }
 }
 
@@ -124,7 +126,9 @@ ProblemBounds problem_bounds(const Problem& problem) {
   require_state(problem.initial_state(), problem, "initial_state");
   require_state(problem.final_state(), problem, "final_state");
   ProblemBounds bounds = problem.bounds();
-  if (!(problem.horizon() > 0.0)) throw Error(problem.name() + ": the horizon must be positive");
+  if (!(problem.horizon() > 0.0)) {
+    throw Error(fmt::format("{}: the horizon must be positive, got {:g}", problem.name(), problem.horizon()));
+  }
   bounds = complete_bounds(problem, std::move(bounds));
   require_inside(problem.horizon(), bounds.horizon.lower, bounds.horizon.upper, problem.name() + ": horizon");
   require_state_inside(problem.initial_state(), bounds.first, problem, "initial_state");

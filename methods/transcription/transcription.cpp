@@ -1,8 +1,11 @@
 #include "methods/transcription/transcription.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "methods/error.hpp"
 #include "methods/transcription/guess_check.hpp"
@@ -11,6 +14,12 @@
 namespace dmocbench {
 
 namespace {
+
+double positive_cost_scale(const Problem& problem) {
+  const double scale = problem.cost_scale();
+  if (scale > 0.0 && std::isfinite(scale)) return scale;
+  throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
+}
 
 /// Looks up every place.
 std::vector<ColumnPlace> pick(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
@@ -72,7 +81,7 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       parameters_(dmocbench::parameter_values(problem)),
       tableau_(std::move(tableau)),
       grid_(grid),
-      cost_scale_(problem.cost_scale()),
+      cost_scale_(positive_cost_scale(problem)),
       guessed_horizon_(problem.horizon()),
       traced_(problem, open.names),
       problem_bounds_(problem_bounds(problem)),
