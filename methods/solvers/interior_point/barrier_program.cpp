@@ -26,10 +26,10 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
 
 /// Whether a variable that may move has a bound.
 bool has_bounded_variables(const NonlinearProgram& program) {
+  const Eigen::VectorXd& lower = program.variable_lower();
+  const Eigen::VectorXd& upper = program.variable_upper();
   bool has_some = false;
-  for_each_bounded(program.variable_lower(), program.variable_upper(), [&](Eigen::Index i) {
-    has_some = has_some || program.variable_lower()[i] != program.variable_upper()[i];
-  });
+  for_each_bounded(lower, upper, [&](Eigen::Index i) { has_some = has_some || lower[i] != upper[i]; });
   return has_some;
 }
 

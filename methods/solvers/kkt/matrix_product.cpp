@@ -74,7 +74,7 @@ bool set_to_sum_of_products(Eigen::VectorXd& result, const Eigen::VectorXd& star
     double zeros_of_stretch = 0.0;
     for (Eigen::Index from = begin; from < begin + length; from += at_once) {
       const Eigen::Index to = std::min(from + at_once, begin + length);
-      result.segment(from, to - from) = start.segment(from, to - from);
+      if (&start != &result) std::copy_n(start.data() + from, to - from, result.data() + from);
       for (const MatrixTerm& term : terms) {
         for (const PatternRun& run : term.matrix.along_) add_part(run, from, to, term.values, term.vector, result);
       }
