@@ -1,7 +1,6 @@
 #include "methods/runtime/long_vectors.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 
 #if defined(__linux__)
@@ -76,15 +75,14 @@ void set_to_sum(Eigen::VectorXd& target, const Eigen::VectorXd& vector, double f
 void copy_to(Eigen::VectorXd& target, const Eigen::VectorXd& vector) {
   resize_unwritten(target, vector.size());
   for_stretches(vector.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    if (&target != &vector) std::copy_n(vector.data() + begin, length, target.data() + begin);
+    target.segment(begin, length) = vector.segment(begin, length);
   });
 }
 
 void set_zero(Eigen::VectorXd& target, Eigen::Index size) {
   resize_unwritten(target, size);
-  for_stretches(size, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    std::memset(target.data() + begin, 0, static_cast<std::size_t>(length) * sizeof(double));
-  });
+  for_stretches(size,
+                [&](std::size_t, Eigen::Index begin, Eigen::Index length) { target.segment(begin, length).setZero(); });
 }
 
 }  // namespace dmocbench

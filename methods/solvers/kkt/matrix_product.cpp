@@ -11,7 +11,7 @@ namespace dmocbench::kkt {
 namespace {
 
 /// Entries of the result that stay in the first cache.
-constexpr Eigen::Index at_once = 1024;
+constexpr Eigen::Index at_once = 512;
 
 PatternRun transpose_of(const PatternRun& run) {
   return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
