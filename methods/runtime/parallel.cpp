@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <memory>
@@ -50,50 +50,81 @@ class Job {
   std::exception_ptr error_;
 };
 
-/// Threads that wait for work.
+/// Yields the processor, some ten microseconds in all, until `holds`: a thread that sleeps needs as long to wake. False
+/// if it does not hold by then.
+template <class Condition>
+bool holds_soon(const Condition& holds) {
+  constexpr int most_yields = 100;
+  for (int i = 0; i < most_yields; ++i) {
+    if (holds()) return true;
+    std::this_thread::yield();
+  }
+  return holds();
+}
+
+/// Threads that wait for work. A job is open while parts of it may be left. A thread that comes later, because it slept
+/// or had no processor, finds the job closed and nobody waits for it.
 class WorkerTeam {
  public:
   /// `helpers` threads besides the caller's.
   explicit WorkerTeam(std::size_t helpers) {
-    for (std::size_t i = 0; i < helpers; ++i) {
-      threads_.emplace_back([this](const std::stop_token& stop) { serve(stop); });
-    }
+    for (std::size_t i = 0; i < helpers; ++i) threads_.emplace_back([this] { serve(); });
+  }
+  WorkerTeam(const WorkerTeam&) = delete;
+  WorkerTeam& operator=(const WorkerTeam&) = delete;
+  WorkerTeam(WorkerTeam&&) = delete;
+  WorkerTeam& operator=(WorkerTeam&&) = delete;
+  ~WorkerTeam() {
+    is_over_ = true;
+    state_ += one_call;
+    state_.notify_all();
   }
 
   [[nodiscard]] std::size_t helpers() const noexcept { return threads_.size(); }
 
   void run(Job& job) {
-    {
-      const std::lock_guard lock(mutex_);
-      job_ = &job;
-      busy_ = threads_.size();
-      ++call_;
-    }
-    begun_.notify_all();
+    job_ = &job;
+    state_ = call_of(state_) + one_call + is_open;
+    state_.notify_all();
     job.take_parts();
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return busy_ == 0; });
+    state_ &= ~is_open;
+    if (holds_soon([this] { return inside(state_) == 0; })) return;
+    for (State state = state_; inside(state) > 0; state = state_) state_.wait(state);
   }
 
  private:
-  void serve(const std::stop_token& stop) {
-    std::size_t seen = 0;
-    std::unique_lock lock(mutex_);
-    while (begun_.wait(lock, stop, [&] { return call_ != seen; })) {
-      seen = call_;
-      lock.unlock();
+  /// From the lowest bit: whether the job is open, how many helpers work on it, and the number of the call, which
+  /// begins anew where it overflows.
+  using State = std::uint32_t;
+  static constexpr State is_open = 1;
+  static constexpr State one_inside = 2;
+  static constexpr State one_call = 2 * 1024 * one_inside;
+  static_assert(most_threads <= one_call / one_inside - 1);
+
+  static State inside(State state) { return state % one_call / one_inside; }
+  static State call_of(State state) { return state - state % one_call; }
+
+  void serve() {
+    for (State served = 0;;) {
+      const auto is_awaited = [&] { return ((state_ & is_open) != 0 && call_of(state_) != served) || is_over_; };
+      if (!holds_soon(is_awaited)) {
+        const State state = state_;
+        if (!is_awaited()) state_.wait(state);
+        continue;
+      }
+      if (is_over_) return;
+      State state = state_;
+      if ((state & is_open) == 0 || !state_.compare_exchange_strong(state, state + one_inside)) continue;
+      served = call_of(state);
       job_->take_parts();
-      lock.lock();
-      if (--busy_ == 0) done_.notify_one();
+      const State left = state_ -= one_inside;
+      if ((left & is_open) == 0 && inside(left) == 0) state_.notify_all();
     }
   }
 
-  std::mutex mutex_;
-  std::condition_variable_any begun_;
-  std::condition_variable done_;
-  Job* job_ = nullptr;
-  std::size_t busy_ = 0;
-  std::size_t call_ = 0;
+  std::atomic<State> state_{0};
+  std::atomic<bool> is_over_{false};
+  Job* job_ = nullptr;                 // of the call that is open; written between calls only
   std::vector<std::jthread> threads_;  // last: they use the rest, and are waited for before it goes
 };
 

@@ -16,7 +16,9 @@ ColumnAssembly::ColumnAssembly(AssemblyPlan plan) : plan_(std::move(plan)), colu
   std::ranges::sort(order, {}, [&](std::size_t column) { return plan_.places[column].first; });
   std::size_t covered = 0;  // entries below are written, set to zero or added to
   const auto zero_until = [&](std::size_t end) {
-    for (; covered < end && plan_.mode == AssemblyMode::whole; ++covered) zeros_.push_back(covered);
+    if (covered >= end || plan_.mode != AssemblyMode::whole) return;
+    zeros_.push_back({covered, end});
+    covered = end;
   };
   for (const std::size_t column : order) {
     const ColumnPlace& place = plan_.places[column];
@@ -46,24 +48,37 @@ std::span<double* const> ColumnAssembly::open(VectorOut& result) {
 }
 
 void ColumnAssembly::close(VectorOut& result) const {
-  for (const std::size_t entry : zeros_) result.data()[entry] = 0.0;
-  // Columns that begin at different entries may overlap. Threads therefore share the intervals of one column at a time.
-  constexpr std::size_t additions_per_part = 65536;
-  const std::size_t parts = part_count(intervals(), additions_per_part);
-  for (const Addition& addition : additions_) {
-    const ColumnPlace& place = plan_.places[addition.column];
-    double* target = result.data() + place.first;
-    const double* source = scratch_.data() + addition.scratch;
-    if (place.shared) {
-      *target += Eigen::Map<const Eigen::VectorXd>(source, static_cast<Eigen::Index>(intervals())).sum();
-      continue;
+  // Threads share the entries of the result and not the columns: an entry gets what belongs to it in the order of the
+  // columns, and is still in a cache when the next one adds to it.
+  constexpr std::size_t entries_per_part = 65536;
+  const std::size_t parts = part_count(plan_.size, entries_per_part);
+  double* const entries = result.data();
+  for_each_part(parts, [&](std::size_t part) {
+    const Stretch within{begin_of_part(part, parts, plan_.size), begin_of_part(part + 1, parts, plan_.size)};
+    for (const Stretch& zeros : zeros_) {
+      const std::size_t begin = std::max(zeros.begin, within.begin);
+      const std::size_t end = std::min(zeros.end, within.end);
+      if (begin < end) std::fill(entries + begin, entries + end, 0.0);
     }
-    for_each_part(parts, [&](std::size_t part) {
-      const std::size_t begin = begin_of_part(part, parts, intervals());
-      const auto count = static_cast<std::ptrdiff_t>(begin_of_part(part + 1, parts, intervals()) - begin);
-      vector_loops().set_to_sum(target + begin, target + begin, 1.0, source + begin, count);
-    });
+    for (const Addition& addition : additions_) add_column(addition, within, entries);
+  });
+}
+
+/// Adds those of its values whose entries of the result lie within a stretch.
+void ColumnAssembly::add_column(const Addition& addition, Stretch within, double* result) const {
+  const ColumnPlace& place = plan_.places[addition.column];
+  const double* const source = scratch_.data() + addition.scratch;
+  const std::size_t first = place.first;
+  if (place.shared) {
+    if (first < within.begin || first >= within.end) return;
+    result[first] += Eigen::Map<const Eigen::VectorXd>(source, static_cast<Eigen::Index>(intervals())).sum();
+    return;
   }
+  const std::size_t begin = std::max(first, within.begin);
+  const std::size_t end = std::min(first + intervals(), within.end);
+  if (begin >= end) return;
+  double* const target = result + begin;
+  vector_loops().set_to_sum(target, target, 1.0, source + (begin - first), static_cast<std::ptrdiff_t>(end - begin));
 }
 
 AssembledTape::AssembledTape(const Schedule& schedule, AssemblyPlan plan)

@@ -67,9 +67,16 @@ class ColumnAssembly {
     std::size_t scratch = 0;  // that begins here
   };
 
+  struct Stretch {
+    std::size_t begin = 0;
+    std::size_t end = 0;  // behind the last
+  };
+
+  void add_column(const Addition& addition, Stretch within, double* result) const;
+
   AssemblyPlan plan_;
   std::vector<Addition> additions_;  // columns that are added at the end
-  std::vector<std::size_t> zeros_;
+  std::vector<Stretch> zeros_;       // entries that no column writes
   std::vector<double> scratch_;
   std::vector<double*> columns_;
 };

@@ -116,10 +116,12 @@ TEST(LongGrids, AreAssembledFromPartsWithoutGap) {
 /// same entries.
 TEST(LongGrids, AreAddedUpByPartsWithoutGap) {
   constexpr std::size_t intervals = 3 * 65536 + 37;
-  const std::vector<ColumnPlace> places{0, 1, 2, 1};
-  ColumnAssembly assembly({places, intervals + 2, intervals});
+  constexpr std::size_t gap = 2 * 65536 + 5;  // entries that no column reaches
+  constexpr std::size_t size = gap + intervals + 2;
+  const std::vector<ColumnPlace> places{gap, gap + 1, gap + 2, gap + 1};
+  ColumnAssembly assembly({places, size, intervals});
   std::array<Eigen::VectorXd, 4> columns;
-  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(intervals) + 2);
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size));
   tests::RandomPoints random;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     columns[c].resize(static_cast<Eigen::Index>(intervals));
@@ -128,7 +130,7 @@ TEST(LongGrids, AreAddedUpByPartsWithoutGap) {
   }
   for (const std::size_t threads : {1U, 2U, 3U}) {
     const Threads there(threads);
-    Eigen::VectorXd found = ProgramNumbers::unwritten(intervals + 2);
+    Eigen::VectorXd found = ProgramNumbers::unwritten(size);
     VectorOut out(found);
     const auto targets = assembly.open(out);
     for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c].data(), intervals, targets[c]);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench::interior_point {
 
@@ -86,20 +87,35 @@ class BarrierBounds {
   Eigen::Index count_ = 0;
 };
 
-/// Calls `visit(i)` for every entry i that has a bound on one side at least. Most have none, and are skipped many at a
-/// time.
+/// Calls `visit(i)` for every entry i that has a bound on one side at least, in ascending order. Most have none, and
+/// are skipped many at a time, those of long vectors by several threads.
 template <class Visit>
 void for_each_bounded(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Visit& visit) {
   constexpr Eigen::Index at_once = 32;
-  for (Eigen::Index begin = 0; begin < lower.size(); begin += at_once) {
-    const Eigen::Index count = std::min(at_once, lower.size() - begin);
-    const double highest_lower = lower.segment(begin, count).maxCoeff();
-    const double lowest_upper = upper.segment(begin, count).minCoeff();
-    if (highest_lower == -unbounded && lowest_upper == unbounded) continue;
-    for (Eigen::Index i = begin; i < begin + count; ++i) {
-      if (lower[i] != -unbounded || upper[i] != unbounded) visit(i);
+  const auto have_bounds = [&](Eigen::Index begin, Eigen::Index count) {
+    return lower.segment(begin, count).maxCoeff() != -unbounded || upper.segment(begin, count).minCoeff() != unbounded;
+  };
+  const auto visit_some = [&](Eigen::Index first, Eigen::Index length) {
+    for (Eigen::Index begin = first; begin < first + length; begin += at_once) {
+      const Eigen::Index count = std::min(at_once, first + length - begin);
+      if (!have_bounds(begin, count)) continue;
+      for (Eigen::Index i = begin; i < begin + count; ++i) {
+        if (lower[i] != -unbounded || upper[i] != unbounded) visit(i);
+      }
     }
+  };
+  if (part_count(static_cast<std::size_t>(lower.size()), entries_per_stretch) == 1) {
+    return visit_some(0, lower.size());
   }
+  struct Stretch {
+    Eigen::Index begin = 0;
+    Eigen::Index length = 0;
+  };
+  std::array<Stretch, most_parts> some{};  // those with bounds; the others are left empty
+  for_stretches(lower.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
+    if (have_bounds(begin, length)) some[s] = {begin, length};
+  });
+  for (const Stretch& stretch : some) visit_some(stretch.begin, stretch.length);
 }
 
 }  // namespace dmocbench::interior_point

@@ -24,12 +24,13 @@ void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Ei
   });
 }
 
-std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
-  std::vector<Eigen::Index> inequalities;
-  for (Eigen::Index i = 0; i < program.constraint_lower().size(); ++i) {
-    if (program.constraint_lower()[i] != program.constraint_upper()[i]) inequalities.push_back(i);
-  }
-  return inequalities;
+/// Whether a variable that may move has a bound.
+bool has_bounded_variables(const NonlinearProgram& program) {
+  const Eigen::VectorXd& lower = program.variable_lower();
+  const Eigen::VectorXd& upper = program.variable_upper();
+  bool has_some = false;
+  for_each_bounded(lower, upper, [&](Eigen::Index i) { has_some = has_some || lower[i] != upper[i]; });
+  return has_some;
 }
 
 /// Eigen's own indexing copies the indices.
@@ -38,10 +39,11 @@ void select(const Eigen::VectorXd& from, const std::vector<Eigen::Index>& entrie
   for (Eigen::Index j = 0; j < to.size(); ++j) to[j] = from[entries[static_cast<std::size_t>(j)]];
 }
 
-Primal bounds_of(const Eigen::VectorXd& variables, const Eigen::VectorXd& rows,
+/// Those of the variables are left empty where none of them counts.
+Primal bounds_of(const Eigen::VectorXd& variables, bool are_bounded, const Eigen::VectorXd& rows,
                  const std::vector<Eigen::Index>& inequalities) {
   Primal bounds;
-  bounds.x = variables;
+  if (are_bounded) copy_to(bounds.x, variables);
   select(rows, inequalities, bounds.s);
   return bounds;
 }
@@ -50,10 +52,11 @@ Primal bounds_of(const Eigen::VectorXd& variables, const Eigen::VectorXd& rows,
 
 BarrierProgram::BarrierProgram(NonlinearProgram& program)
     : program_(program),
-      inequalities_(inequalities_of(program)),
+      inequalities_(inequality_rows(program)),
       fixed_(fixed_variables(program)),
-      lower_(bounds_of(program.variable_lower(), program.constraint_lower(), inequalities_)),
-      upper_(bounds_of(program.variable_upper(), program.constraint_upper(), inequalities_)),
+      has_bounded_variables_(has_bounded_variables(program)),
+      lower_(bounds_of(program.variable_lower(), has_bounded_variables_, program.constraint_lower(), inequalities_)),
+      upper_(bounds_of(program.variable_upper(), has_bounded_variables_, program.constraint_upper(), inequalities_)),
       bounds_(lower_, upper_),
       transposed_jacobian_(kkt::MatrixProduct::transposed(program.jacobian_structure())) {
   resize_unwritten(gradient_, static_cast<Eigen::Index>(program.variable_count()));
@@ -64,14 +67,16 @@ BarrierProgram::BarrierProgram(NonlinearProgram& program)
 
 void BarrierProgram::read_bounds() {
   if (has_bounds()) {
-    lower_.x = program_.variable_lower();
-    upper_.x = program_.variable_upper();
+    if (has_bounded_variables_) {
+      copy_to(lower_.x, program_.variable_lower());
+      copy_to(upper_.x, program_.variable_upper());
+    }
     select(program_.constraint_lower(), inequalities_, lower_.s);
     select(program_.constraint_upper(), inequalities_, upper_.s);
     bounds_.read(lower_, upper_);
   }
-  if (equality_values_.size() == 0 && program_.constraint_lower().isZero(0.0)) return;
-  equality_values_ = program_.constraint_lower();
+  if (equality_values_.size() == 0 && largest_of(program_.constraint_lower()) == 0.0) return;
+  copy_to(equality_values_, program_.constraint_lower());
   for (const Eigen::Index i : inequalities_) equality_values_[i] = 0.0;
 }
 
@@ -117,11 +122,10 @@ void BarrierProgram::differentiate(const Eigen::VectorXd& x) {
 void BarrierProgram::evaluate_hessian(const Iterate& at) { program_.hessian(at.x, 1.0, at.multipliers, hessian_); }
 
 bool BarrierProgram::gradient_of_lagrangian(const Eigen::VectorXd& multipliers, Primal& result) const {
-  copy_to(result.x, gradient_);
-  transposed_jacobian_.add(jacobian_, multipliers, result.x);
+  const bool is_usable = kkt::set_to_sum_of_products(
+      result.x, gradient_, {{.matrix = transposed_jacobian_, .values = jacobian_, .vector = multipliers}});
   select(multipliers, inequalities_, result.s);
   result.s = -result.s;
-  const bool is_usable = is_finite(result.x);
   for (const Eigen::Index i : fixed_) result.x[i] = 0.0;
   return is_usable;
 }

@@ -74,7 +74,8 @@ class BarrierProgram {
   NonlinearProgram& program_;
   std::vector<Eigen::Index> inequalities_;
   std::vector<Eigen::Index> fixed_;
-  Primal lower_;
+  bool has_bounded_variables_;
+  Primal lower_;  // of x: empty without bounded variables
   Primal upper_;
   BarrierBounds bounds_;
   Eigen::VectorXd equality_values_;  // 0 of inequalities; empty if all are zero

@@ -124,8 +124,8 @@ class InteriorPointRun final : public PreparedRun {
     if (options_.verbose) fmt::print("{} iterations, {} linear systems\n", iterations_, newton_.factorisations());
     solution.status = status;
     solution.message = message_;
-    solution.primal = at_.x;
-    solution.multipliers = at_.multipliers;
+    copy_to(solution.primal, at_.x);
+    copy_to(solution.multipliers, at_.multipliers);
     solution.barrier_parameter = program_.has_bounds() ? std::optional(mu_) : std::nullopt;
     solution.major_iterations = iterations_;
     solution.linear_systems = newton_.factorisations();

@@ -53,7 +53,7 @@ bool NewtonStep::compute(const Iterate& at, double mu, const Primal& gradient, c
   if (program_.has_bounds()) {
     copy_to(gradient_.x, gradient.x);
     gradient_.s = gradient.s;
-    sigma_.x.setZero();
+    set_zero(sigma_.x, sigma_.x.size());
     sigma_.s.setZero();
     program_.bounds().add_barrier(at, mu, sigma_, gradient_);
   }
@@ -94,7 +94,7 @@ bool NewtonStep::feasibility_step(const Iterate& at, double mu, const Eigen::Vec
 }
 
 void NewtonStep::estimate_multipliers(Iterate& at) {
-  at.multipliers.setZero();
+  set_zero(at.multipliers, at.multipliers.size());
   if (program_.has_bounds()) {
     copy_to(gradient_.x, program_.gradient());
     gradient_.s.setZero();
@@ -102,13 +102,13 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
   }
   const Eigen::VectorXd& gradient = program_.has_bounds() ? gradient_.x : program_.gradient();
   // The multipliers of a zero gradient are zero, as where the cost is a square of controls and the guess has none.
-  if (gradient.isZero(0.0) && gradient_.s.isZero(0.0)) return;
-  sigma_.x.setZero();
+  if (largest_of(gradient) == 0.0 && gradient_.s.isZero(0.0)) return;
+  set_zero(sigma_.x, sigma_.x.size());
   sigma_.s.setZero();
-  if (no_constraints_.size() == 0) no_constraints_.setZero(at.multipliers.size());
+  if (no_constraints_.size() == 0) set_zero(no_constraints_, at.multipliers.size());
   Iterate& step = of_least_squares_;
   if (!solve_least_squares(gradient, no_constraints_, step)) return;
-  if (step.multipliers.lpNorm<Eigen::Infinity>() <= constants::lambda_max) at.multipliers = step.multipliers;
+  if (largest_of(step.multipliers) <= constants::lambda_max) copy_to(at.multipliers, step.multipliers);
 }
 
 double NewtonStep::directional_derivative(const Iterate& at, double mu, const Iterate& step) const {
@@ -157,7 +157,7 @@ bool NewtonStep::solve(const Eigen::VectorXd& hessian, double shift, const Eigen
 /// With the unit matrix in place of the Hessian.
 bool NewtonStep::solve_least_squares(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints,
                                      Iterate& step) {
-  if (no_hessian_.size() == 0) no_hessian_.setZero(program_.hessian().size());
+  if (no_hessian_.size() == 0) set_zero(no_hessian_, program_.hessian().size());
   shift_.clear();
   return solve(no_hessian_, 1.0, gradient, constraints, step);
 }

@@ -1,7 +1,12 @@
 #include "methods/solvers/kkt/linearisation.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench {
 
@@ -24,6 +29,27 @@ std::vector<bool> where_bounds_are(bool equal, const Eigen::VectorXd& lower, con
   return result;
 }
 
+/// The entries whose two bounds are equal, or those whose bounds are not. They are few, and the rest is skipped many at
+/// a time.
+std::vector<Eigen::Index> where_bounds_agree(bool equal, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  constexpr Eigen::Index at_once = 64;
+  std::array<std::vector<Eigen::Index>, most_parts> found;
+  for_stretches(lower.size(), [&](std::size_t s, Eigen::Index first, Eigen::Index length) {
+    for (Eigen::Index begin = first; begin < first + length; begin += at_once) {
+      const Eigen::Index count = std::min(at_once, first + length - begin);
+      const Eigen::Index equal_ones =
+          (lower.segment(begin, count).array() == upper.segment(begin, count).array()).count();
+      if (equal_ones == (equal ? 0 : count)) continue;
+      for (Eigen::Index i = begin; i < begin + count; ++i) {
+        if ((lower[i] == upper[i]) == equal) found[s].push_back(i);
+      }
+    }
+  });
+  std::vector<Eigen::Index> all = std::move(found[0]);
+  for (std::size_t s = 1; s < found.size(); ++s) all.insert(all.end(), found[s].begin(), found[s].end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<bool> free_variables(const NonlinearProgram& program) {
@@ -31,11 +57,11 @@ std::vector<bool> free_variables(const NonlinearProgram& program) {
 }
 
 std::vector<Eigen::Index> fixed_variables(const NonlinearProgram& program) {
-  std::vector<Eigen::Index> fixed;
-  for (Eigen::Index i = 0; i < program.variable_lower().size(); ++i) {
-    if (program.variable_lower()[i] == program.variable_upper()[i]) fixed.push_back(i);
-  }
-  return fixed;
+  return where_bounds_agree(true, program.variable_lower(), program.variable_upper());
+}
+
+std::vector<Eigen::Index> inequality_rows(const NonlinearProgram& program) {
+  return where_bounds_agree(false, program.constraint_lower(), program.constraint_upper());
 }
 
 std::vector<bool> equality_rows(const NonlinearProgram& program) {

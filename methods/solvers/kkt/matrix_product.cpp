@@ -1,6 +1,7 @@
 #include "methods/solvers/kkt/matrix_product.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "methods/runtime/long_vectors.hpp"
@@ -10,7 +11,7 @@ namespace dmocbench::kkt {
 namespace {
 
 /// Entries of the result that stay in the first cache.
-constexpr Eigen::Index at_once = 1024;
+constexpr Eigen::Index at_once = 512;
 
 PatternRun transpose_of(const PatternRun& run) {
   return {run.entry, run.column, run.row, run.column_step, run.row_step, run.length};
@@ -62,14 +63,33 @@ MatrixProduct MatrixProduct::symmetric(const BlockPattern& lower_triangle) {
   return MatrixProduct(terms);
 }
 
-void MatrixProduct::add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const {
-  for_stretches(result.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+MatrixProduct MatrixProduct::diagonal(Eigen::Index size) {
+  return MatrixProduct({{.row_step = 1, .column_step = 1, .length = size}});
+}
+
+bool set_to_sum_of_products(Eigen::VectorXd& result, const Eigen::VectorXd& start,
+                            std::initializer_list<MatrixTerm> terms) {
+  resize_unwritten(result, start.size());
+  const double zeros = sum_of_stretches(result.size(), [&](Eigen::Index begin, Eigen::Index length) {
+    double zeros_of_stretch = 0.0;
     for (Eigen::Index from = begin; from < begin + length; from += at_once) {
       const Eigen::Index to = std::min(from + at_once, begin + length);
-      for (const PatternRun& run : along_) add_part(run, from, to, values, vector, result);
+      if (&start != &result) std::copy_n(start.data() + from, to - from, result.data() + from);
+      for (const MatrixTerm& term : terms) {
+        for (const PatternRun& run : term.matrix.along_) add_part(run, from, to, term.values, term.vector, result);
+      }
+      zeros_of_stretch += vector_loops().sum_of_zeros(result.data() + from, to - from);
     }
+    return zeros_of_stretch;
   });
-  for (const PatternRun& run : into_) result[run.row] += sum_of_run(run, values, vector);
+  bool is_finite = zeros == 0.0;
+  for (const MatrixTerm& term : terms) {
+    for (const PatternRun& run : term.matrix.into_) {
+      result[run.row] += sum_of_run(run, term.values, term.vector);
+      is_finite = is_finite && std::isfinite(result[run.row]);
+    }
+  }
+  return is_finite;
 }
 
 }  // namespace dmocbench::kkt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,8 +9,9 @@
 
 namespace dmocbench::kkt {
 
-/// Adds the product of a sparse matrix and a vector, in stretches of the result that stay in the first cache while all
-/// runs of the matrix that reach them are added.
+struct MatrixTerm;
+
+/// How a sparse matrix is multiplied by a vector, run by run of its pattern.
 class MatrixProduct {
  public:
   /// J x.
@@ -19,14 +21,29 @@ class MatrixProduct {
   /// H x of a symmetric matrix, from its lower triangle, whose runs lie on the diagonal or do not touch it.
   [[nodiscard]] static MatrixProduct symmetric(const BlockPattern& lower_triangle);
 
-  /// result += matrix · vector; `values`: one per entry of the pattern.
-  void add(const Eigen::VectorXd& values, const Eigen::VectorXd& vector, Eigen::VectorXd& result) const;
+  /// diag(values) x.
+  [[nodiscard]] static MatrixProduct diagonal(Eigen::Index size);
 
  private:
+  friend bool set_to_sum_of_products(Eigen::VectorXd& result, const Eigen::VectorXd& start,
+                                     std::initializer_list<MatrixTerm> terms);
+
   explicit MatrixProduct(const std::vector<PatternRun>& terms);
 
   std::vector<PatternRun> along_;  // entry after entry of the result
   std::vector<PatternRun> into_;   // all into one entry of it
 };
+
+/// matrix · vector; `values`: one per entry of the pattern.
+struct MatrixTerm {
+  const MatrixProduct& matrix;
+  const Eigen::VectorXd& values;
+  const Eigen::VectorXd& vector;
+};
+
+/// result = start + Σ terms, in stretches that stay in the first cache until everything that reaches them is added;
+/// false if a number of the result is not finite. `start` may be the result itself.
+bool set_to_sum_of_products(Eigen::VectorXd& result, const Eigen::VectorXd& start,
+                            std::initializer_list<MatrixTerm> terms);
 
 }  // namespace dmocbench::kkt

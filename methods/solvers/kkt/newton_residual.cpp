@@ -1,6 +1,7 @@
 #include "methods/solvers/kkt/newton_residual.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "methods/runtime/long_vectors.hpp"
@@ -15,7 +16,12 @@ namespace {
 constexpr double share_of_terms = 1e-6;
 
 double largest_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return a.size() > 0 ? a.cwiseProduct(b).lpNorm<Eigen::Infinity>() : 0.0;
+  if (a.size() == 0) return 0.0;
+  std::array<double, most_parts> largest{};
+  for_stretches(a.size(), [&](std::size_t s, Eigen::Index begin, Eigen::Index length) {
+    largest[s] = a.segment(begin, length).cwiseProduct(b.segment(begin, length)).lpNorm<Eigen::Infinity>();
+  });
+  return *std::ranges::max_element(largest);
 }
 
 double ratio(double left, double allowed) { return left > 0.0 ? left / allowed : 0.0; }
@@ -23,7 +29,8 @@ double ratio(double left, double allowed) { return left > 0.0 ? left / allowed :
 }  // namespace
 
 NewtonResidual::NewtonResidual(const NonlinearProgram& program)
-    : hessian_(MatrixProduct::symmetric(program.hessian_structure())),
+    : diagonal_(MatrixProduct::diagonal(static_cast<Eigen::Index>(program.variable_count()))),
+      hessian_(MatrixProduct::symmetric(program.hessian_structure())),
       jacobian_(MatrixProduct::plain(program.jacobian_structure())),
       transposed_jacobian_(MatrixProduct::transposed(program.jacobian_structure())),
       floors_(program.rounding_floors()),
@@ -33,24 +40,29 @@ void NewtonResidual::compute(const KktMatrix& matrix, const KktRightHandSide& ri
   const Eigen::VectorXd& gradient = right_hand_side.gradient;
   largest_gradient_ = largest_of(gradient);
   largest_constraint_ = largest_of(right_hand_side.constraints);
-  resize_unwritten(gradient_, gradient.size());
-  for_stretches(gradient.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-    gradient_.segment(begin, length) =
-        gradient.segment(begin, length) +
-        matrix.diagonal.segment(begin, length).cwiseProduct(step.primal.segment(begin, length));
-  });
-  hessian_.add(matrix.hessian, step.primal, gradient_);
-  transposed_jacobian_.add(matrix.jacobian, step.multipliers, gradient_);
+  is_finite_ = set_to_sum_of_products(gradient_, gradient,
+                                      {{diagonal_, matrix.diagonal, step.primal},
+                                       {hessian_, matrix.hessian, step.primal},
+                                       {transposed_jacobian_, matrix.jacobian, step.multipliers}});
   for (const Eigen::Index i : fixed_) gradient_[i] = 0.0;
-  copy_to(constraints_, right_hand_side.constraints);
-  if (matrix.compliance.size() > 0) constraints_ -= matrix.compliance.cwiseProduct(step.multipliers);
-  jacobian_.add(matrix.jacobian, step.primal, constraints_);
+  const MatrixTerm along{jacobian_, matrix.jacobian, step.primal};
+  if (matrix.compliance.size() == 0) {
+    is_finite_ = set_to_sum_of_products(constraints_, right_hand_side.constraints, {along}) && is_finite_;
+    return;
+  }
+  resize_unwritten(constraints_, step.multipliers.size());
+  for_stretches(constraints_.size(), [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+    constraints_.segment(begin, length) =
+        right_hand_side.constraints.segment(begin, length) -
+        matrix.compliance.segment(begin, length).cwiseProduct(step.multipliers.segment(begin, length));
+  });
+  is_finite_ = set_to_sum_of_products(constraints_, constraints_, {along}) && is_finite_;
 }
 
 double NewtonResidual::excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const {
   const double gradient = largest_of(gradient_);
   const double constraint = largest_of(constraints_);
-  if (!is_finite(gradient_) || !is_finite(constraints_)) return std::numeric_limits<double>::infinity();
+  if (!is_finite_) return std::numeric_limits<double>::infinity();
   const double of_gradient = accuracy * largest_gradient_;
   const double of_constraint = accuracy * largest_constraint_;
   // The right-hand side usually allows more than is left; then the other limits need no pass over the matrix.

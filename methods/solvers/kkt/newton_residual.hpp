@@ -31,6 +31,7 @@ class NewtonResidual {
   [[nodiscard]] double excess(const KktMatrix& matrix, const KktStep& step, double accuracy) const;
 
  private:
+  MatrixProduct diagonal_;
   MatrixProduct hessian_;
   MatrixProduct jacobian_;
   MatrixProduct transposed_jacobian_;
@@ -40,6 +41,7 @@ class NewtonResidual {
   Eigen::VectorXd constraints_;
   double largest_gradient_ = 0.0;  // of the right-hand side
   double largest_constraint_ = 0.0;
+  bool is_finite_ = true;
 };
 
 }  // namespace dmocbench::kkt

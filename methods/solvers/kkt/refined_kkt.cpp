@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/kkt/sparse_kkt.hpp"
 
 namespace dmocbench::kkt {
@@ -76,20 +77,20 @@ bool RefinedKkt::refine(KktSystem& kkt, const KktMatrix& matrix, const KktRightH
     excess = excess_of_step();
   }
   for (int i = 0; i < most_refinements && excess > 1.0; ++i) {
-    primal_correction_.resizeLike(step.primal);
-    multiplier_correction_.resizeLike(step.multipliers);
+    resize_unwritten(primal_correction_, step.primal.size());
+    resize_unwritten(multiplier_correction_, step.multipliers.size());
     ++refinements_;
     if (kkt.solve(matrix, residual_.value(), {primal_correction_, multiplier_correction_}) !=
         FactorisationStatus::solved) {
       break;
     }
-    step.primal += primal_correction_;
-    step.multipliers += multiplier_correction_;
+    set_to_sum(step.primal, step.primal, 1.0, primal_correction_);
+    set_to_sum(step.multipliers, step.multipliers, 1.0, multiplier_correction_);
     const double before = excess;
     excess = excess_of_step();
     if (!(excess <= before)) {
-      step.primal -= primal_correction_;
-      step.multipliers -= multiplier_correction_;
+      set_to_sum(step.primal, step.primal, -1.0, primal_correction_);
+      set_to_sum(step.multipliers, step.multipliers, -1.0, multiplier_correction_);
       excess = before;
     }
     if (!(excess <= worthwhile * before)) break;

@@ -3,6 +3,7 @@
 #include "methods/solvers/kkt/newton_residual.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "methods/transcription/transcription.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "tests/support/system_choice.hpp"
+#include "tests/support/threads.hpp"
 
 namespace dmocbench::kkt {
 namespace {
@@ -71,10 +73,10 @@ TEST(Products, AreThoseOfDenseMatrices) {
     const Eigen::VectorXd x = random.vector(columns);
     const Eigen::VectorXd multipliers = random.vector(rows);
     Eigen::VectorXd product = multipliers;
-    MatrixProduct::plain(pattern).add(values, x, product);
+    set_to_sum_of_products(product, product, {{MatrixProduct::plain(pattern), values, x}});
     EXPECT_LT((product - multipliers - matrix * x).lpNorm<Eigen::Infinity>(), 1e-13);
     Eigen::VectorXd transposed = x;
-    MatrixProduct::transposed(pattern).add(values, multipliers, transposed);
+    set_to_sum_of_products(transposed, transposed, {{MatrixProduct::transposed(pattern), values, multipliers}});
     EXPECT_LT((transposed - x - matrix.transpose() * multipliers).lpNorm<Eigen::Infinity>(), 1e-13);
   }
 }
@@ -89,9 +91,37 @@ TEST(Products, OfSymmetricMatricesAreThoseOfDenseOnes) {
     const Eigen::VectorXd x = random.vector(size);
     const Eigen::VectorXd before = random.vector(size);
     Eigen::VectorXd sum = before;
-    MatrixProduct::symmetric(pattern).add(values, x, sum);
+    set_to_sum_of_products(sum, sum, {{MatrixProduct::symmetric(pattern), values, x}});
     const Eigen::VectorXd wanted = before + written_as_dense(pattern, values, size, size, true) * x;
     EXPECT_LT((sum - wanted).lpNorm<Eigen::Infinity>(), 1e-13);
+  }
+}
+
+/// A diagonal and its neighbour of whole numbers, of which sums are exact, longer than several stretches.
+TEST(Products, OfLongVectorsHaveEveryEntry) {
+  constexpr Eigen::Index size = 5 * 65536 + 37;
+  BlockPattern pattern;
+  pattern.append({.row_step = 1, .column_step = 1, .length = size});
+  pattern.append({.entry = size, .row = 1, .row_step = 1, .column_step = 1, .length = size - 1});
+  Eigen::VectorXd values(2 * size - 1);
+  for (Eigen::Index e = 0; e < values.size(); ++e) values[e] = static_cast<double>(1 + e % 7);
+  Eigen::VectorXd x(size);
+  for (Eigen::Index i = 0; i < size; ++i) x[i] = static_cast<double>(1 + i % 11);
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(size, 100.0);
+  Eigen::VectorXd wanted = start + values.head(size).cwiseProduct(x);
+  wanted.tail(size - 1) += values.tail(size - 1).cwiseProduct(x.head(size - 1));
+  const MatrixProduct matrix = MatrixProduct::plain(pattern);
+  for (const std::size_t threads : {1U, 2U, 3U}) {
+    const tests::Threads there(threads);
+    Eigen::VectorXd sum;
+    EXPECT_TRUE(set_to_sum_of_products(sum, start, {{matrix, values, x}}));
+    EXPECT_EQ(sum, wanted) << threads << " threads";
+  }
+  for (const Eigen::Index i : {Eigen::Index{0}, size / 2, size - 1}) {
+    Eigen::VectorXd with_gap = x;
+    with_gap[i] = std::numeric_limits<double>::quiet_NaN();
+    Eigen::VectorXd sum;
+    EXPECT_FALSE(set_to_sum_of_products(sum, start, {{matrix, values, with_gap}})) << "entry " << i;
   }
 }
 

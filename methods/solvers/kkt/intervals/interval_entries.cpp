@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "methods/runtime/long_vectors.hpp"
+
 namespace dmocbench::kkt {
 
 namespace {
@@ -83,7 +85,11 @@ class EntryTable {
   static Eigen::Index equal_bounds(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, std::size_t first,
                                    Eigen::Index length) {
     const auto begin = static_cast<Eigen::Index>(first);
-    return (lower.segment(begin, length).array() == upper.segment(begin, length).array()).count();
+    const double equal = sum_of_stretches(length, [&](Eigen::Index from, Eigen::Index count) {
+      const auto some = lower.segment(begin + from, count).array() == upper.segment(begin + from, count).array();
+      return static_cast<double>(some.count());
+    });
+    return static_cast<Eigen::Index>(equal);
   }
 
   int unknown_of(const PlaceRun& run) {
@@ -170,10 +176,11 @@ class EntryTable {
     const std::optional<Target> to = is_hessian ? hessian_target(row, column) : jacobian_target(row, column);
     const Eigen::Index begin = to ? std::clamp<Eigen::Index>(-to->first, 0, run.length) : run.length;
     const Eigen::Index end = to ? std::clamp(made_.intervals - to->first, begin, run.length) : run.length;
-    for (Eigen::Index i = 0; i < run.length; ++i) {
-      if (begin <= i && i < end) continue;
+    const auto add_to_ends = [&](Eigen::Index i) {
       made_.ends.push_back({source, run.entry + i, run.row + i * run.row_step, run.column + i * run.column_step});
-    }
+    };
+    for (Eigen::Index i = 0; i < begin; ++i) add_to_ends(i);
+    for (Eigen::Index i = end; i < run.length; ++i) add_to_ends(i);
     if (!to || begin == end) return;
     const auto moves = [&](const Member& m, Eigen::Index step) {
       return (m.kind != Place::Kind::border) == (step == 1);
