@@ -1,8 +1,10 @@
 #include "bench/claims/claim.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <iterator>
 
 namespace dmocbench {
 
@@ -119,10 +121,12 @@ std::string evidence_of(const Claim& claim, const std::string& problem) {
   return files;
 }
 
+std::string id_of(const Claim& claim, const std::string& problem) { return problem + "/" + claim.id; }
+
 JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const std::string& problem) {
   const ReadFields fields;
   Finding finding = finding_of([&] { return claim.judge(tables, problem); });
-  return {.id = problem + "/" + claim.id,
+  return {.id = id_of(claim, problem),
           .where = claim.where.on(problem),
           .figure = claim.figure.on(problem),
           .whose = claim.whose,
@@ -178,18 +182,22 @@ Selection midpoint(const Selection& rows, const std::string& method) {
 }
 
 std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
+  return judge_claims(tables, [](const std::string&) { return true; });
+}
+
+std::vector<JudgedClaim> judge_claims(const ResultTables& tables,
+                                      const std::function<bool(const std::string& id)>& is_chosen) {
   std::vector<JudgedClaim> judged;
   for (const Claims& chapter : chapters()) {
     for (const std::string& problem : problems_of(chapter)) {
       for (const Claim& claim : chapter) {
         if (std::ranges::find(claim.problems, problem) == claim.problems.end()) continue;
         if (!claim.needs.empty() && !tables.has(claim.needs)) continue;
-        judged.push_back(judge_claim(claim, tables, problem));
+        if (is_chosen(id_of(claim, problem))) judged.push_back(judge_claim(claim, tables, problem));
       }
     }
   }
-  const std::vector<JudgedClaim> misprints = judge_misprints(tables);
-  judged.insert(judged.end(), misprints.begin(), misprints.end());
+  std::ranges::copy_if(judge_misprints(tables), std::back_inserter(judged), is_chosen, &JudgedClaim::id);
   return judged;
 }
 

@@ -122,6 +122,10 @@ struct JudgedClaim {
 /// about all grids "differs", never better.
 [[nodiscard]] std::vector<JudgedClaim> judge_claims(const ResultTables& tables);
 
+/// The same for some claims only: those whose name in the written table ("orbital_transfer/state_slope") is chosen.
+[[nodiscard]] std::vector<JudgedClaim> judge_claims(const ResultTables& tables,
+                                                    const std::function<bool(const std::string& id)>& is_chosen);
+
 // The claims by topic, each topic's predicates and the numbers that decide in one file.
 
 using Claims = std::vector<Claim>;

@@ -68,17 +68,18 @@ class WorkerTeam {
  public:
   /// `helpers` threads besides the caller's.
   explicit WorkerTeam(std::size_t helpers) {
-    for (std::size_t i = 0; i < helpers; ++i) threads_.emplace_back([this] { serve(); });
+    try {
+      for (std::size_t i = 0; i < helpers; ++i) threads_.emplace_back([this] { serve(); });
+    } catch (...) {
+      dismiss();  // those that there are, or nobody could wait for their end
+      throw;
+    }
   }
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
   WorkerTeam(WorkerTeam&&) = delete;
   WorkerTeam& operator=(WorkerTeam&&) = delete;
-  ~WorkerTeam() {
-    is_over_ = true;
-    state_ += one_call;
-    state_.notify_all();
-  }
+  ~WorkerTeam() { dismiss(); }
 
   [[nodiscard]] std::size_t helpers() const noexcept { return threads_.size(); }
 
@@ -100,6 +101,13 @@ class WorkerTeam {
   static constexpr State one_inside = 2;
   static constexpr State one_call = 2 * 1024 * one_inside;
   static_assert(most_threads <= one_call / one_inside - 1);
+
+  /// Lets the threads end.
+  void dismiss() {
+    is_over_ = true;
+    state_ += one_call;
+    state_.notify_all();
+  }
 
   static State inside(State state) { return state % one_call / one_inside; }
   static State call_of(State state) { return state - state % one_call; }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <ranges>
 #include <set>
@@ -121,21 +122,27 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     std::erase(columns, column);
     return judge_with(name, columns, rows_.at(name));
   }
-  /// Another table in the place of one; the others are those that were read.
+  /// Another table in the place of one; the others are those that were read. Judges the claims that read this table,
+  /// and those that do not tell what they read.
   [[nodiscard]] Judgements judge_with(const std::string& name, const ColumnNames& columns, const Rows& rows) {
     const DeclaredTable& declared = *std::ranges::find(declared_tables(), name, &DeclaredTable::name);
     write(name, columns, rows);
     tables_.read_table(folder(), declared);
-    Judgements judged = judgements_of(tables_);
+    Judgements judged = judgements_of(tables_, [&](const std::string& id) {
+      const std::vector<ReadRows>& read = whole_.at(id).rows;
+      return read.empty() || std::ranges::count(read, name + ".csv", &ReadRows::table) > 0;
+    });
     write(name, columns_.at(name), rows_.at(name));
     tables_.read_table(folder(), declared);
     return judged;
   }
   /// Of all tables as they are now.
   [[nodiscard]] Judgements judge() const { return judgements_of(ResultTables::read(folder())); }
-  static Judgements judgements_of(const ResultTables& tables) {
+  static bool every(const std::string&) { return true; }
+  static Judgements judgements_of(const ResultTables& tables,
+                                  const std::function<bool(const std::string&)>& is_chosen = every) {
     Judgements judged;
-    for (const JudgedClaim& claim : judge_claims(tables)) judged[claim.id] = claim;
+    for (const JudgedClaim& claim : judge_claims(tables, is_chosen)) judged[claim.id] = claim;
     return judged;
   }
 
