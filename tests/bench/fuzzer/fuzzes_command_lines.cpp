@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct Settings {
   std::string folder;
-  long long lines = 200;
+  long long lines = 120;
   std::uint64_t seed = 1;
   double limit = 4.0;
   long long only = -1;
