@@ -62,7 +62,11 @@ std::string problem_html(const Problem& problem, const ResultsFolder& results) {
   std::string html = fmt::format("<article id=\"{}\"><h3>{}</h3>\n<p>{}</p>\n", anchor("problem", name),
                                  escaped(in_words(name)), escaped(card.description));
   html += motion_picture_html(name, motions_of(results, name));
-  html += statement_html(problem) + "<dl>\n" + optimum_html(card, lowest);
+  // A formula may be wider than the page: all of them scroll together, by keyboard too.
+  html +=
+      fmt::format("<div class=\"statement\" role=\"region\" tabindex=\"0\" aria-label=\"statement of {}\">\n{}</div>\n",
+                  escaped(in_words(name)), statement_html(problem));
+  html += "<dl>\n" + optimum_html(card, lowest);
   if (!card.source.empty()) html += fmt::format("<dt>Source<dd>{}\n", escaped(card.source));
   html += "</dl>\n";
   const std::optional<double> optimum = card.reference ? card.reference->objective : lowest;

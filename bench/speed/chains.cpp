@@ -251,8 +251,7 @@ int run_chains(CommandLine& line, const std::vector<std::string>& command) {
                "setup_seconds", "setup_seconds_lower", "setup_seconds_upper"});
   for (const auto& chain : chains) table.append(chain->row());
   write_file(out / "speed_chains.csv", table.csv());
-  write_file(out / "speed_chains.md", page_of(table, command));
-  fmt::print("{}\n", (out / "speed_chains.md").string());
+  write_page(out / "speed_chains.md", page_of(table, command));
   return 0;
 }
 
@@ -261,8 +260,7 @@ int run_chains(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return dmocbench::run_program(
-      "chains", "Chains of links: what an interval takes in an iteration, over n.", argc, argv,
-      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_chains(line, command); });
+  return dmocbench::speed::run_page_program("chains",
+                                            "Chains of links: what an interval takes in an iteration, over n.", argc,
+                                            argv, dmocbench::speed::run_chains);
 }

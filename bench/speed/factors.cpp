@@ -312,8 +312,7 @@ int run_factors(CommandLine& line, const std::vector<std::string>& command) {
                                     {"us_per_iteration", "µs per iteration"},
                                     {"evaluation_share", "share of derivatives", 2},
                                     {"status", "status"}});
-  write_file(out / "speed_factors.md", page);
-  fmt::print("{}\n", (out / "speed_factors.md").string());
+  write_page(out / "speed_factors.md", page);
   return 0;
 }
 
@@ -322,8 +321,6 @@ int run_factors(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return dmocbench::run_program(
-      "factors", "What makes interior_point faster than Ipopt, factor by factor.", argc, argv,
-      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_factors(line, command); });
+  return dmocbench::speed::run_page_program("factors", "What makes interior_point faster than Ipopt, factor by factor.",
+                                            argc, argv, dmocbench::speed::run_factors);
 }

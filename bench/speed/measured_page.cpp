@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiment/metadata.hpp"
+#include "bench/experiment/result_file.hpp"
 
 namespace dmocbench::speed {
 
@@ -44,6 +45,17 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
         "time is below a target.\n";
   }
   return head + "\n";
+}
+
+void write_page(const std::filesystem::path& file, const std::string& page) {
+  write_file(file, page);
+  fmt::print("{}\n", file.string());
+}
+
+int run_page_program(const std::string& name, const std::string& description, int argc, char** argv,
+                     const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run) {
+  const std::vector<std::string> command(argv, argv + argc);
+  return run_program(name, description, argc, argv, [&](CommandLine& line) { return run(line, command); });
 }
 
 std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns) {

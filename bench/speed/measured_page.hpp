@@ -1,8 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "bench/experiment/command_line.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
@@ -18,6 +21,14 @@ struct PageColumn {
   int digits = 3;
 };
 [[nodiscard]] std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns);
+
+/// Writes a page whole and prints where it is. Throws `Error` if it cannot be written.
+void write_page(const std::filesystem::path& file, const std::string& page);
+
+/// A program that writes such a page, as `run_program`; `run` is given the command line as it was typed, too.
+[[nodiscard]] int run_page_program(
+    const std::string& name, const std::string& description, int argc, char** argv,
+    const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run);
 
 /// Whether other programs wanted a processor when this was first asked, which a program does before it measures.
 [[nodiscard]] bool is_busy();

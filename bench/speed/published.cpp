@@ -239,8 +239,7 @@ int run_published(CommandLine& line, const std::vector<std::string>& command) {
   if (is_asked_for("beam")) {
     for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
   }
-  write_file(out / "speed_published.md", page);
-  fmt::print("{}\n", (out / "speed_published.md").string());
+  write_page(out / "speed_published.md", page);
   return 0;
 }
 
@@ -249,8 +248,7 @@ int run_published(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return dmocbench::run_program(
-      "published", "Times that others have published beside ours on this machine.", argc, argv,
-      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_published(line, command); });
+  return dmocbench::speed::run_page_program("published",
+                                            "Times that others have published beside ours on this machine.", argc, argv,
+                                            dmocbench::speed::run_published);
 }

@@ -231,8 +231,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
     page += fmt::format("## N = {}\n\n", cells.front().text("intervals"));
     page += cells_table(cells, ipopt, then);
   }
-  write_file(out, page);
-  fmt::print("{}\n", out.string());
+  write_page(out, page);
   return 0;
 }
 
@@ -241,8 +240,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return dmocbench::run_program(
+  return dmocbench::speed::run_page_program(
       "robustness_page", "What interior_point solves of the library beside Ipopt, as a page for readers.", argc, argv,
-      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_page(line, command); });
+      dmocbench::speed::run_page);
 }

@@ -261,8 +261,7 @@ int run_threads(CommandLine& line, const std::vector<std::string>& command) {
                                     {"linear_systems", "systems", 9},
                                     {"same_digits", "same digits"},
                                     {"status", "status"}});
-  write_file(out / "speed_threads.md", page);
-  fmt::print("{}\n", (out / "speed_threads.md").string());
+  write_page(out / "speed_threads.md", page);
   return 0;
 }
 
@@ -271,8 +270,7 @@ int run_threads(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return dmocbench::run_program(
+  return dmocbench::speed::run_page_program(
       "threads", "What a second thread gains in whole solves, beside what the machine gives.", argc, argv,
-      [&](dmocbench::CommandLine& line) { return dmocbench::speed::run_threads(line, command); });
+      dmocbench::speed::run_threads);
 }
