@@ -19,6 +19,7 @@
 #include "bench/experiment/problem_libraries.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/runtime/instruction_set.hpp"
+#include "methods/runtime/native_code_use.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
@@ -70,6 +71,9 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
 #endif
   description["flags"] = DMOCBENCH_FLAGS;
   description["instruction_set"] = std::string(name_of(preferred_instruction_set()));
+  if (const NativeCodeUse use = preferred_native_code_use(); use != NativeCodeUse::when_worthwhile) {
+    description["native_code"] = std::string(name_of_use(use));
+  }
   description["processor"] = processor();
   description["cores"] = ::sysconf(_SC_NPROCESSORS_ONLN);
   description["memory_gib"] = memory_in_gibibytes();

@@ -6,12 +6,23 @@
 #include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/kernels.hpp"
 #include "methods/error.hpp"
+#include "methods/expression/native_code.hpp"
 #include "methods/expression/replay.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
 
 namespace {
+
+/// The tapes of residual, Jacobian and Hessian, and one tape for the three.
+void register_tapes(const BenchmarkedFormulas& point, const std::string& way, InstructionSet set, NativeCodeUse use) {
+  const std::string name(name_of(set));
+  IntervalBenchmark benchmark{.way = way, .formulas = point.formulas(), .instruction_set = name};
+  register_quantities(benchmark, point, [&](std::size_t i) { return by_tape(point, *point.schedules()[i], set, use); });
+  const Schedule all = fused(point);
+  benchmark.quantity = "fused";
+  register_benchmark(benchmark, checked_evaluation(point, all, "the tape on " + name, by_tape(point, all, set, use)));
+}
 
 void register_replays(const BenchmarkedFormulas& point) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -78,13 +89,8 @@ HandFunctions hand_written(const std::string& problem, InstructionSet set) {
 void register_expression_benchmarks(const FormulasOfPaper& paper) {
   for (const auto& point : paper) {
     for (const InstructionSet set : available_instruction_sets()) {
-      const std::string name(name_of(set));
-      IntervalBenchmark benchmark{.way = "tape", .formulas = point->formulas(), .instruction_set = name};
-      register_quantities(benchmark, *point,
-                          [&](std::size_t i) { return by_tape(*point, *point->schedules()[i], set); });
-      const Schedule all = fused(*point);
-      benchmark.quantity = "fused";
-      register_benchmark(benchmark, checked_evaluation(*point, all, "the tape on " + name, by_tape(*point, all, set)));
+      register_tapes(*point, "tape", set, NativeCodeUse::never);
+      if (has_native_code(set)) register_tapes(*point, "native", set, NativeCodeUse::always);
     }
     register_replays(*point);
   }

@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/compound_steps.hpp"
+#include "methods/expression/late_code.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {
@@ -66,7 +67,7 @@ std::uint32_t place_in_slots(const std::vector<CompoundStep>& compounds, std::ui
 
 }  // namespace
 
-Tape::Tape(const Schedule& schedule, InstructionSet set)
+Tape::Tape(const Schedule& schedule, InstructionSet set, NativeCodeUse use)
     : input_count_(schedule.input_count()),
       output_count_(schedule.outputs().size()),
       operation_count_(schedule.operation_count()),
@@ -101,6 +102,11 @@ Tape::Tape(const Schedule& schedule, InstructionSet set)
                              .operands = {source},
                              .exponent = 0.0});
   }
+  const bool has_code = use != NativeCodeUse::never && has_native_code(set);
+  if (!has_code || operation_count_ == 0 || operation_count_ > LateCode::most_operations) return;
+  late_code_ = std::make_shared<LateCode>(
+      schedule, TapeSeries{places, first_output(), static_cast<std::uint32_t>(series_count())}, set,
+      use == NativeCodeUse::always ? 0 : LateCode::worthwhile_intervals(operation_count_));
 }
 
 std::vector<std::uint32_t> Tape::place_values(const Schedule& schedule, const std::vector<CompoundStep>& compounds) {
@@ -130,14 +136,25 @@ Tape::Workspace::Workspace(const Tape& tape)
     : serial_(tape.serial_),
       // NOLINTNEXTLINE(*-avoid-c-arrays)
       memory_(std::make_unique_for_overwrite<Series[]>(tape.first_output() + tape.slot_count_)),
-      series_(tape.first_output() + tape.output_count_ + tape.slot_count_) {
+      series_(tape.series_count()) {
   Series* next = memory_.get();
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const bool is_output = i >= tape.first_output() && i < tape.first_output() + tape.output_count_;
     if (!is_output) series_[i] = (next++)->numbers.data();
   }
   for (std::size_t i = 0; i < tape.constants_.size(); ++i) std::fill_n(series_[i], block_width, tape.constants_[i]);
+  if (const NativeCode* code = tape.late_code_ ? tape.late_code_->get() : nullptr) {
+    add_slots_for(*code, tape.series_count());
+  }
 }
+
+void Tape::Workspace::add_slots_for(const NativeCode& code, std::size_t series_before) {
+  slots_of_code_ = std::make_unique_for_overwrite<Series[]>(code.slots);  // NOLINT(*-avoid-c-arrays)
+  series_.resize(series_before + code.slots);
+  for (std::size_t i = 0; i < code.slots; ++i) series_[series_before + i] = slots_of_code_[i].numbers.data();
+}
+
+bool Tape::is_native() const noexcept { return late_code_ && late_code_->get() != nullptr; }
 
 void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                     Workspace& workspace) const {
@@ -156,10 +173,19 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     std::fill_n(spread, block_width, *inputs[input.index].data);
     workspace.series_[input.position] = spread;
   }
+  const NativeCode* code = late_code_ ? late_code_->get_for(end - begin) : nullptr;
+  if (code != nullptr && workspace.series_.size() != series_count() + code->slots) {
+    workspace.add_slots_for(*code, series_count());
+  }
   const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
-    kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), std::min(block_width, end - first));
+    const std::size_t width = std::min(block_width, end - first);
+    if (code != nullptr && width >= code->vector_width) {
+      code->run(kernel, workspace.series_.data(), width);
+    } else {
+      kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
+    }
   }
 }
 

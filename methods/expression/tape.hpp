@@ -10,18 +10,22 @@
 #include "methods/expression/schedule.hpp"
 #include "methods/expression/tape_kernel.hpp"
 #include "methods/runtime/instruction_set.hpp"
+#include "methods/runtime/native_code_use.hpp"
 
 namespace dmocbench {
 
+class LateCode;
 struct CompoundStep;
+struct NativeCode;
 
 /// A schedule compiled for evaluation over all intervals of a grid.
 ///
 /// The code is straight-line and runs on a block of intervals at a time: every instruction is a loop over `block_width`
 /// numbers, which becomes vector instructions. A sum or product with a single reader is computed together with that
 /// reader, in registers (`compound_steps`). All other values live in slots, which are reused as soon as a value is
-/// dead, so that a block stays in the first-level cache. A tape is immutable: threads may share it, each with its own
-/// `Workspace`.
+/// dead, so that a block stays in the first-level cache. A tape that is evaluated often becomes machine code, which
+/// keeps values in registers and gives the same ones bit by bit (`NativeCode`). To its users a tape is immutable:
+/// threads may share it, each with its own `Workspace`.
 class Tape {
  public:
   /// Intervals evaluated together.
@@ -47,6 +51,7 @@ class Tape {
 
    private:
     friend class Tape;
+    void add_slots_for(const NativeCode& code, std::size_t series_before);
     // Aligned to cache lines, which are as long as the widest registers: a load or store across two lines takes twice
     // as long.
     struct alignas(64) Series {
@@ -54,20 +59,23 @@ class Tape {
     };
     std::uint64_t serial_;  // of the tape
     // Not cleared. Of constants, inputs that are the same for all intervals, and slots.
-    std::unique_ptr<Series[]> memory_;  // NOLINT(*-avoid-c-arrays)
+    std::unique_ptr<Series[]> memory_;         // NOLINT(*-avoid-c-arrays)
+    std::unique_ptr<Series[]> slots_of_code_;  // NOLINT(*-avoid-c-arrays): once there is machine code
     std::vector<double*> series_;
   };
 
   Tape() = default;
   /// Makes a schedule ready to be evaluated with the instructions of this set.
-  explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set());
+  explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set(),
+                NativeCodeUse use = preferred_native_code_use());
 
   /// Evaluates intervals 0 .. count - 1, or from `begin` to `end` - 1.
   ///
   /// `inputs[i]` holds the values of input i and is read at the entries of these intervals only; inputs that the
   /// schedule does not read may be null. `outputs[j]` receives the values of output j, each at the entry of its
-  /// interval. Outputs must not overlap inputs or each other. Allocates nothing. Throws `Error` if there are too few
-  /// inputs or outputs, or if the workspace belongs to another tape.
+  /// interval. Outputs must not overlap inputs or each other. Allocates nothing, but for the evaluation that turns the
+  /// tape into machine code and the next one by every workspace. Throws `Error` if there are too few inputs or outputs,
+  /// or if the workspace belongs to another tape.
   void evaluate(std::size_t count, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
@@ -84,6 +92,8 @@ class Tape {
   [[nodiscard]] std::size_t operation_count() const noexcept { return operation_count_; }
   /// The number of slots, of `block_width` numbers each, for intermediate values.
   [[nodiscard]] std::size_t slot_count() const noexcept { return slot_count_; }
+  /// Whether it has become machine code.
+  [[nodiscard]] bool is_native() const noexcept;
   /// The set whose instructions it uses.
   [[nodiscard]] InstructionSet instruction_set() const noexcept { return set_; }
 
@@ -99,10 +109,12 @@ class Tape {
   [[nodiscard]] std::uint32_t first_output() const noexcept {
     return static_cast<std::uint32_t>(constants_.size() + read_inputs_.size());
   }
+  [[nodiscard]] std::size_t series_count() const noexcept { return first_output() + output_count_ + slot_count_; }
   void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
                       Workspace& workspace) const;
 
-  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots.
+  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots, at last
+  // those of machine code.
   std::vector<TapeInstruction> instructions_;
   std::vector<double> constants_;
   std::vector<ReadInput> read_inputs_;
@@ -112,6 +124,7 @@ class Tape {
   std::size_t operation_count_ = 0;
   std::uint64_t serial_ = 0;  // tells tapes apart; a copy is the same tape
   InstructionSet set_ = InstructionSet::baseline;
+  std::shared_ptr<LateCode> late_code_;  // null if it stays interpreted
 };
 
 }  // namespace dmocbench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "methods/expression/schedule.hpp"
+#include "methods/expression/tape_kernel.hpp"
+
+namespace dmocbench {
+
+/// What machine code does with vectors: arithmetic, and copying a value to a series.
+enum class VectorOperation : std::uint8_t { add, subtract, multiply, divide, square_root, exclusive_or, copy };
+
+/// One of them. Operands are values of a `NativePlan`; the second one of a square root or a copy says nothing.
+struct VectorStep {
+  VectorOperation operation = VectorOperation::add;  ///< what is computed
+  std::uint32_t result = 0;                          ///< the new value; of a copy the series that gets it
+  std::uint32_t left = 0;                            ///< the first operand
+  std::uint32_t right = 0;                           ///< the second operand
+};
+
+/// Number of operands: 1 or 2.
+[[nodiscard]] constexpr std::size_t operand_count(VectorOperation operation) noexcept {
+  return operation == VectorOperation::square_root || operation == VectorOperation::copy ? 1 : 2;
+}
+
+/// Arithmetic, and the functions that read its results.
+struct NativeStage {
+  std::vector<VectorStep> arithmetic;      ///< becomes machine code, which keeps values in registers
+  std::vector<TapeInstruction> functions;  ///< sin, exp, ...: left to the kernel of the tape, series by series
+};
+
+/// Which series of a tape's table hold what.
+struct TapeSeries {
+  std::vector<std::uint32_t> of_steps;  ///< those of constants and inputs, by their steps; nothing for other steps
+  std::uint32_t first_output = 0;       ///< that of the first output, before those of the others
+  std::uint32_t first_slot = 0;         ///< the first one that a plan may use for what it keeps
+};
+
+/// A schedule as stages: a function is carried out as soon as what it reads can be known, everything else as late as
+/// possible, so that few values pass from stage to stage. Those that do have a series of their own.
+struct NativePlan {
+  /// Where a value is found that is in no register.
+  struct Home {
+    std::optional<double> constant;       ///< its value, if it is a constant
+    std::optional<std::uint32_t> series;  ///< of inputs, of results of functions and of what has been stored
+  };
+  std::vector<Home> homes;          ///< by values: the steps of the schedule, and constants that operations need
+  std::vector<NativeStage> stages;  ///< one after the other
+  std::size_t slots = 0;            ///< series from `first_slot` on that pass from stage to stage
+};
+
+/// The plan for a schedule and the table of series of its tape.
+[[nodiscard]] NativePlan native_plan(const Schedule& schedule, const TapeSeries& table);
+
+}  // namespace dmocbench

@@ -1,0 +1,172 @@
+#include "methods/expression/register_allocation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace dmocbench {
+
+namespace {
+
+constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
+
+/// The step that reads the operands of a step next, after that step.
+struct NextReaders {
+  std::uint32_t of_left = never;
+  std::uint32_t of_right = never;
+};
+
+bool commutes(VectorOperation operation) {
+  return operation == VectorOperation::add || operation == VectorOperation::multiply;
+}
+
+class RegisterAllocator {
+ public:
+  RegisterAllocator(const std::vector<VectorStep>& steps, const std::vector<NativePlan::Home>& homes,
+                    std::size_t registers)
+      : steps_(steps), homes_(homes), values_(homes.size()), holders_(registers, never), next_readers_(steps.size()) {
+    for (std::size_t i = steps.size(); i-- > 0;) {
+      const VectorStep& step = steps[i];
+      next_readers_[i].of_left = values_[step.left].next_reader;
+      if (operand_count(step.operation) > 1) next_readers_[i].of_right = values_[step.right].next_reader;
+      values_[step.left].next_reader = static_cast<std::uint32_t>(i);
+      values_[step.right].next_reader = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  MachineSteps allocate() {
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (steps_[i].operation == VectorOperation::copy) {
+        copy(steps_[i], next_readers_[i]);
+      } else {
+        compute(steps_[i], next_readers_[i]);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Value {
+    std::uint32_t register_number = never;
+    std::uint32_t stack_place = never;
+    std::uint32_t next_reader = never;  // a step
+  };
+
+  void copy(const VectorStep& step, const NextReaders& next) {
+    const OperandPlace source = loaded(step.left, step);
+    emit({VectorOperation::copy, {OperandPlace::Kind::series, step.result}, source, source});
+    has_been_read(step.left, next.of_left);
+    free_stack_place_of_dead(step.left);
+  }
+
+  void compute(VectorStep step, NextReaders next) {
+    const bool is_binary = operand_count(step.operation) > 1;
+    // The operand that is in memory and read no more is the right one, if it may be.
+    if (is_binary && commutes(step.operation) && !is_loaded(step.left) &&
+        (is_loaded(step.right) || next.of_left == never)) {
+      std::swap(step.left, step.right);
+      std::swap(next.of_left, next.of_right);
+    }
+    const OperandPlace left = loaded(step.left, step);
+    OperandPlace right = left;
+    if (is_binary) {
+      const bool stays_in_memory = !is_loaded(step.right) && next.of_right == never;
+      right = stays_in_memory ? in_memory(step.right) : loaded(step.right, step);
+    }
+    has_been_read(step.left, next.of_left);
+    if (is_binary) has_been_read(step.right, next.of_right);
+    const OperandPlace result = free_register({never, never});
+    give(step.result, result.number);
+    emit({step.operation, result, left, right});
+    // Not before: a value that leaves its register for the result must not go where an operand still is.
+    free_stack_place_of_dead(step.left);
+    if (is_binary) free_stack_place_of_dead(step.right);
+  }
+
+  [[nodiscard]] bool is_loaded(std::uint32_t value) const { return values_[value].register_number != never; }
+
+  /// The register of an operand of a step, loaded if necessary.
+  OperandPlace loaded(std::uint32_t value, const VectorStep& step) {
+    if (!is_loaded(value)) {
+      const OperandPlace place = free_register({step.left, step.right});
+      emit({VectorOperation::copy, place, in_memory(value), {}});
+      give(value, place.number);
+    }
+    return {OperandPlace::Kind::in_register, values_[value].register_number};
+  }
+
+  /// A register that nobody holds. Values other than those that must stay leave theirs, the one that is needed last.
+  OperandPlace free_register(std::pair<std::uint32_t, std::uint32_t> staying) {
+    const auto need_of = [&](std::uint32_t holder) -> std::uint64_t {
+      if (holder == never) return std::uint64_t{never} + 1;  // free already
+      return holder == staying.first || holder == staying.second ? 0 : values_[holder].next_reader;
+    };
+    const auto last = std::ranges::max_element(holders_, {}, need_of);
+    if (*last != never) evict(*last);
+    return {OperandPlace::Kind::in_register, static_cast<std::uint32_t>(last - holders_.begin())};
+  }
+
+  void evict(std::uint32_t value) {
+    const OperandPlace place{OperandPlace::Kind::in_register, values_[value].register_number};
+    if (!has_home(value) && values_[value].stack_place == never) {
+      values_[value].stack_place = free_stack_place();
+      emit({VectorOperation::copy, in_memory(value), place, {}});
+    }
+    release_register(value);
+  }
+
+  void give(std::uint32_t value, std::uint32_t register_number) {
+    values_[value].register_number = register_number;
+    holders_[register_number] = value;
+  }
+  void release_register(std::uint32_t value) {
+    if (!is_loaded(value)) return;
+    holders_[values_[value].register_number] = never;
+    values_[value].register_number = never;
+  }
+
+  /// A value that no further step reads leaves its register.
+  void has_been_read(std::uint32_t value, std::uint32_t next_reader) {
+    values_[value].next_reader = next_reader;
+    if (next_reader == never) release_register(value);
+  }
+  void free_stack_place_of_dead(std::uint32_t value) {
+    if (values_[value].next_reader != never || values_[value].stack_place == never) return;
+    free_stack_places_.push_back(values_[value].stack_place);
+    values_[value].stack_place = never;
+  }
+
+  std::uint32_t free_stack_place() {
+    if (free_stack_places_.empty()) return static_cast<std::uint32_t>(result_.stack_places++);
+    const std::uint32_t place = free_stack_places_.back();
+    free_stack_places_.pop_back();
+    return place;
+  }
+
+  [[nodiscard]] bool has_home(std::uint32_t value) const { return homes_[value].constant || homes_[value].series; }
+
+  [[nodiscard]] OperandPlace in_memory(std::uint32_t value) const {
+    if (homes_[value].constant) return {OperandPlace::Kind::constant, value};
+    if (homes_[value].series) return {OperandPlace::Kind::series, *homes_[value].series};
+    return {OperandPlace::Kind::stack, values_[value].stack_place};
+  }
+
+  void emit(const MachineStep& step) { result_.steps.push_back(step); }
+
+  const std::vector<VectorStep>& steps_;
+  const std::vector<NativePlan::Home>& homes_;
+  std::vector<Value> values_;
+  std::vector<std::uint32_t> holders_;  // by registers; `never` where one is free
+  std::vector<NextReaders> next_readers_;
+  std::vector<std::uint32_t> free_stack_places_;
+  MachineSteps result_;
+};
+
+}  // namespace
+
+MachineSteps allocate_registers(const NativeStage& stage, const std::vector<NativePlan::Home>& homes,
+                                std::size_t registers) {
+  return RegisterAllocator(stage.arithmetic, homes, registers).allocate();
+}
+
+}  // namespace dmocbench
