@@ -109,8 +109,8 @@ int run(int argc, char** argv) {
       "shooting",
       "The programs of DMOC, multiple shooting and single shooting (rk4, one step per interval) at one optimum: "
       "shooting.csv holds their sizes and the condition of their KKT matrices. How often they are solved from cold "
-      "starts, "
-      "and how accurate they are, tell cold_start and convergence with --method multiple_shooting,single_shooting.",
+      "starts, and how accurate they are, tell cold_start and convergence with --method "
+      "multiple_shooting,single_shooting.",
       argc, argv, measure_all);
 }
 

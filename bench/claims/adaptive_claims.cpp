@@ -145,8 +145,7 @@ Claims adaptive_claims() {
                  "to 3",
        .judge = effective,
        .condition = "true errors are those against the indirect solution, above rounding; of answers whose largest "
-                    "relative error is "
-                    "at most 1 %",
+                    "relative error is at most 1 %",
        .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
       {.id = "adapted_grids_need_fewer_intervals",
        .problems = uneven_problems,

@@ -112,9 +112,8 @@ std::string times_section(const ComparedRun& first, const ComparedRun& second) {
   if (html.empty() && unjudged == 0) return "";
   return fmt::format(
              "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by that in A, with an interval of 99 % "
-             "from "
-             "the rounds of both. The runs were not made in turn: what else the machine did during one of them is in "
-             "the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
+             "from the rounds of both. The runs were not made in turn: what else the machine did during one of them is "
+             "in the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
              unjudged, fewest_rounds) +
          html + "</section>\n";
 }

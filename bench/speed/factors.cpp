@@ -231,15 +231,11 @@ const std::vector<Step>& steps() {
 
 constexpr const char* words_of_page =
     "DMOC with the midpoint rule, from the problem's own guess; all solve the same program with the same derivatives "
-    "and "
-    "stop by one rule. Medians over rounds in which every way solves once, with 99 % intervals (bootstrap). A factor "
-    "is "
-    "the ratio of the seconds before and after a change, round by round, and the product of the ratio of iterations, "
-    "which no load changes, and that of the time per iteration. Lanes and sizes are switched in both orders: where "
-    "their "
-    "factors differ between the orders, they act together. Ipopt takes no order of elimination from outside, so the "
-    "first "
-    "two steps have one order only.\n\n";
+    "and stop by one rule. Medians over rounds in which every way solves once, with 99 % intervals (bootstrap). A "
+    "factor is the ratio of the seconds before and after a change, round by round, and the product of the ratio of "
+    "iterations, which no load changes, and that of the time per iteration. Lanes and sizes are switched in both "
+    "orders: where their factors differ between the orders, they act together. Ipopt takes no order of elimination "
+    "from outside, so the first two steps have one order only.\n\n";
 
 int run_factors(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path out = "results";

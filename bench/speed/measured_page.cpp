@@ -39,10 +39,8 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
   if (is_busy()) {
     head +=
         "\nOther work kept the machine busy: times are upper bounds, and ratios are those of this load, because a "
-        "solve of "
-        "a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged but that "
-        "a "
-        "time is below a target.\n";
+        "solve of a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged "
+        "but that a time is below a target.\n";
   }
   return head + "\n";
 }

@@ -63,8 +63,7 @@ std::string iterations_in_words(const std::vector<SolvePair>& pairs) {
   const auto above = std::ranges::count_if(ratios, [](double ratio) { return ratio > bearable; });
   return fmt::format(
       "Iterations of interior_point over those of Ipopt, of the {} that both solve: median {:.3g}, quartiles {:.3g} "
-      "and "
-      "{:.3g}, largest {:.3g}; above {} in {:.1f} %.\n\n",
+      "and {:.3g}, largest {:.3g}; above {} in {:.1f} %.\n\n",
       ratios.size(), *quantile(ratios, 0.5), *quantile(ratios, 0.25), *quantile(ratios, 0.75), ratios.back(), bearable,
       100.0 * static_cast<double>(above) / static_cast<double>(ratios.size()));
 }
@@ -83,8 +82,7 @@ std::string lost_since(const std::vector<SolvePair>& pairs) {
   if (unsettled > 0) {
     text += fmt::format(
         "Of these, {} have a KKT residual within the tolerance as before and are \"not confirmed\" because a Newton "
-        "step "
-        "would still move the answer, which earlier builds did not ask.\n\n",
+        "step would still move the answer, which earlier builds did not ask.\n\n",
         unsettled);
   }
   return text;

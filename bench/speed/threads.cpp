@@ -189,15 +189,10 @@ class Measured {
 constexpr const char* words_of_page =
     "Whole solves by `interior_point` from the problem's own guess, midpoint rule, tolerance 1e-10: the time of the "
     "solver, with the search for structure, without making the program and judging the answer. A gain is the ratio of "
-    "the "
-    "seconds on one thread and on several, solved in turn, round by round: its median with the 99 % interval "
-    "(bootstrap). "
-    "Answers are judged by their residuals; `same digits` says whether those on one thread and on several are the same "
-    "to the last "
-    "digit. The first table is what "
-    "the machine gives to threads that share nothing but itself: times the work of one thread that they do in its "
-    "time. A "
-    "solve is a mixture of such work.\n\n";
+    "the seconds on one thread and on several, solved in turn, round by round: its median with the 99 % interval "
+    "(bootstrap). Answers are judged by their residuals; `same digits` says whether those on one thread and on several "
+    "are the same to the last digit. The first table is what the machine gives to threads that share nothing but "
+    "itself: times the work of one thread that they do in its time. A solve is a mixture of such work.\n\n";
 
 int run_threads(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path out = "results";

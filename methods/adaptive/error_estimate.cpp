@@ -163,8 +163,7 @@ void require_smooth_optimum(const Transcription& program, const LinearisedCondit
                 [&](Eigen::Index i) { return 1.0 / at.compliance[i]; })) {
     throw Error(
         "the error can only be estimated where no bound and no inequality is active along the optimum; widen the "
-        "bounds, "
-        "or choose the grid yourself");
+        "bounds, or choose the grid yourself");
   }
 }
 
