@@ -68,7 +68,7 @@ class Programs {
   Solution solve(const std::string& method, long long intervals, NonlinearProgram& program,
                  const Eigen::VectorXd& start) {
     run_.show(name_ + " " + method + " N = " + std::to_string(intervals));
-    const Solution solution = solver_->solve(program, start);
+    Solution solution = solver_->solve(program, start);
     Measured row{.scheme = {name_, method, "gauss", 1},
                  .status = std::string(name_of(solution.status)),
                  .intervals = intervals,

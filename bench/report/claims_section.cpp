@@ -34,9 +34,9 @@ std::string claim_html(const Row& claim, const ResultsFolder& results) {
 
 /// A choice among the values of a property of claims; JavaScript shows it.
 std::string choice_html(const std::string& label, const std::string& key, const std::set<std::string>& values) {
-  std::string html = fmt::format("<label>{} <select data-filter=\"{}\"><option value=\"\">all</option>", label, key);
+  std::string html = fmt::format(R"(<label>{} <select data-filter="{}"><option value="">all</option>)", label, key);
   for (const std::string& value : values)
-    html += fmt::format("<option value=\"{0}\">{1}</option>", escaped(value), escaped(in_words(value)));
+    html += fmt::format(R"(<option value="{0}">{1}</option>)", escaped(value), escaped(in_words(value)));
   return html + "</select></label>\n";
 }
 

@@ -21,10 +21,9 @@ namespace {
 /// A table of HTML with the same cells in each row.
 std::string cells(const std::string& label, const std::vector<std::string>& heads,
                   const std::vector<std::vector<std::string>>& rows) {
-  std::string html =
-      fmt::format("<div class=\"scroll wrapped\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table><thead><tr>",
-                  escaped(label));
-  for (const std::string& head : heads) html += fmt::format("<th scope=\"col\">{}", escaped(head));
+  std::string html = fmt::format(
+      R"(<div class="scroll wrapped" role="region" tabindex="0" aria-label="{}"><table><thead><tr>)", escaped(label));
+  for (const std::string& head : heads) html += fmt::format(R"(<th scope="col">{})", escaped(head));
   html += "</thead><tbody>\n";
   for (const std::vector<std::string>& row : rows) {
     html += "<tr>";
