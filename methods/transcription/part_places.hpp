@@ -21,10 +21,10 @@ namespace dmocbench {
 
 /// The arrays of a program that its parts make up.
 struct ProgramArrays {
-  std::size_t variables = 0;
-  std::size_t constraints = 0;
-  std::size_t jacobian = 0;  ///< entries
-  std::size_t hessian = 0;   ///< entries
+  std::size_t variables = 0;    ///< entries of the gradient
+  std::size_t constraints = 0;  ///< entries of a
+  std::size_t jacobian = 0;     ///< entries of its array
+  std::size_t hessian = 0;      ///< entries of its array
 };
 
 /// Where a part with these local unknowns and rows stands in a program; `jacobian` and `hessian` are the places of its
