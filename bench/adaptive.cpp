@@ -85,9 +85,8 @@ int run(int argc, char** argv) {
   return run_program(
       "adaptive",
       "Grids adapted to an accuracy by an estimate of the error: adaptive_effectivity.csv holds the estimate against "
-      "the "
-      "true error, which is that against the indirect solution; adaptive.csv tells how many intervals reach 1e-8 on "
-      "adapted and on uniform grids, and how long the whole way takes; adaptive_steps.csv has the steps.",
+      "the true error, which is that against the indirect solution; adaptive.csv tells how many intervals reach 1e-8 "
+      "on adapted and on uniform grids, and how long the whole way takes; adaptive_steps.csv has the steps.",
       argc, argv, measure_all);
 }
 

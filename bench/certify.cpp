@@ -158,9 +158,8 @@ class Certify final : public Experiment {
              .description =
                  "The least cost by routes that share as little as possible: two tableaus on two grids each, the "
                  "finest answer's intervals replayed one by one, and the indirect method where it applies. "
-                 "NAME_references.csv has "
-                 "a row per problem: the routes, how many digits they share, and whether they confirm the reference "
-                 "that the problem states.",
+                 "NAME_references.csv has a row per problem: the routes, how many digits they share, and whether they "
+                 "confirm the reference that the problem states.",
              .options = {.problems = {"all"}, .methods = {"dmoc"}, .intervals = "64,128"},
              .problems_are_independent = true,
              .polishes = true}) {}

@@ -22,11 +22,10 @@ class ColdStart final : public Experiment {
             {.name = "cold_start",
              .description =
                  "Solves every case cold: from the problem's guess and from perturbed guesses, the same for all "
-                 "methods. "
-                 "NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on the best "
-                 "branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds to there. "
-                 "NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of evaluations alone "
-                 "where solves are those of a batch). A start that is lost keeps its row and counts.",
+                 "methods. NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on "
+                 "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
+                 "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
+                 "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts.",
              .options = {.problems = {"all"},
                          .solvers = {"interior_point", "ipopt", "sqp"},
                          .intervals = "64",

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "bench/derivatives/measured_derivatives.hpp"
+#include "bench/experiment/even_draws.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "methods/error.hpp"
 
@@ -18,9 +19,7 @@ constexpr int most_iterations = 150;
 /// Multipliers around 1 of either sign, the same on every run.
 Eigen::VectorXd fixed_multipliers(std::size_t constraints) {
   std::mt19937 engine(20090101U);
-  constexpr double half_range = 2147483648.0;
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints),
-                                      [&] { return static_cast<double>(engine()) / half_range - 1.0; });
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(constraints), [&] { return 2.0 * even(engine) - 1.0; });
 }
 
 class Derivatives final : public Experiment {

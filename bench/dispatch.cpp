@@ -18,8 +18,7 @@ namespace {
 
 constexpr const char* description =
     "DMOC against collocation: dmocbench EXPERIMENT OPTIONS... runs an experiment, dmocbench EXPERIMENT --help tells "
-    "of "
-    "its options and columns, dmocbench figures RESULTS draws what is in a results folder.";
+    "of its options and columns, dmocbench figures RESULTS draws what is in a results folder.";
 
 void print_programs(std::span<const Program> programs) {
   fmt::print("{}\n\n", description);

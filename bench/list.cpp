@@ -93,7 +93,7 @@ void print_reference(const Problem& problem) {
 
 /// The card's words, unless they are those of the default and the problem has a guess of its own.
 std::string guess_in_words(const Problem& problem) {
-  const std::string words = problem.card().guess;
+  std::string words = problem.card().guess;
   if (words != ProblemCard().guess) return words;
   for (const double share : {0.0, 0.3, 0.6, 1.0}) {
     const double t = share * problem.horizon();

@@ -164,9 +164,8 @@ int measure_all(CommandLine& line) {
 int run(int argc, char** argv) {
   return run_program(
       "low_thrust",
-      "The orbital transfer with many revolutions and few steps in each: errors of cost, state and control against "
-      "a certified optimum, momentum against the work of the thrust, and the replay of the controls, over the steps "
-      "per "
+      "The orbital transfer with many revolutions and few steps in each: errors of cost, state and control against a "
+      "certified optimum, momentum against the work of the thrust, and the replay of the controls, over the steps per "
       "revolution, by one Gauss stage (low_thrust.csv; the optima in low_thrust_reference.csv).",
       argc, argv, measure_all);
 }

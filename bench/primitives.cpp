@@ -153,10 +153,9 @@ int run(int argc, char** argv) {
   return run_program(
       "primitives",
       "Roadmaps of short DMOC solves between trims or states: nodes, edges and time to build; the time of a search; "
-      "the "
-      "cost of the path found, before and after a full solve that starts there, beside the optimum that the problem "
-      "states and the best of many perturbed guesses in the same total time (primitives.csv; motions and nodes in "
-      "primitives_picture.csv).",
+      "the cost of the path found, before and after a full solve that starts there, beside the optimum that the "
+      "problem states and the best of many perturbed guesses in the same total time (primitives.csv; motions and nodes "
+      "in primitives_picture.csv).",
       argc, argv, measure_all);
 }
 

@@ -68,7 +68,7 @@ std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std:
 }
 
 /// All methods through one kind of sequence, step by step in turn, so that other load of the machine slows all alike.
-void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options, std::vector<Step>& steps) {
+void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options, std::vector<SequenceStep>& steps) {
   for (int step = 0; step < options.steps; ++step) {
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
       throw_if_interrupted();
@@ -78,13 +78,13 @@ void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options,
   }
 }
 
-std::vector<Step> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
-                              StartProvider& starts, const SolverOptions& solver_options) {
+std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
+                                      StartProvider& starts, const SolverOptions& solver_options) {
   if (problem->bounds().horizon.is_free()) {
     throw Error(fmt::format("{} has a free horizon, which does not recede; choose another problem", problem->name()));
   }
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
-  std::vector<Step> steps;
+  std::vector<SequenceStep> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
   const SequenceChoices choices{
       .repeats = options.repeats,
@@ -144,10 +144,10 @@ int run_sequences(CommandLine& line) {
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);
-  std::vector<Step> steps;
+  std::vector<SequenceStep> steps;
   for (const auto& problem : problems) {
     run.show(problem->name());
-    const std::vector<Step> of_problem = run_problem(options, problem, starts, solver_options);
+    const std::vector<SequenceStep> of_problem = run_problem(options, problem, starts, solver_options);
     steps.insert(steps.end(), of_problem.begin(), of_problem.end());
   }
   const Table summary = sequence_summary(steps);

@@ -68,7 +68,7 @@ class Programs {
   Solution solve(const std::string& method, long long intervals, NonlinearProgram& program,
                  const Eigen::VectorXd& start) {
     run_.show(name_ + " " + method + " N = " + std::to_string(intervals));
-    const Solution solution = solver_->solve(program, start);
+    Solution solution = solver_->solve(program, start);
     Measured row{.scheme = {name_, method, "gauss", 1},
                  .status = std::string(name_of(solution.status)),
                  .intervals = intervals,
@@ -109,8 +109,8 @@ int run(int argc, char** argv) {
       "shooting",
       "The programs of DMOC, multiple shooting and single shooting (rk4, one step per interval) at one optimum: "
       "shooting.csv holds their sizes and the condition of their KKT matrices. How often they are solved from cold "
-      "starts, "
-      "and how accurate they are, tell cold_start and convergence with --method multiple_shooting,single_shooting.",
+      "starts, and how accurate they are, tell cold_start and convergence with --method "
+      "multiple_shooting,single_shooting.",
       argc, argv, measure_all);
 }
 

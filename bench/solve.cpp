@@ -52,8 +52,7 @@ class Solve final : public Experiment {
                     .description =
                         "Solves and writes the motion: NAME_nodes.csv (t, q, v, p, psi), NAME_stages.csv (t, u) and "
                         "NAME_picture.csv; with several cases each NAME carries the case's label. Figures are drawn of "
-                        "motions "
-                        "whose NAME is motion_PROBLEM.",
+                        "motions whose NAME is motion_PROBLEM.",
                     .options = {.intervals = "128", .start = "guess"},
                     .takes_costates = true,
                     .takes_parts = false}) {}

@@ -10,6 +10,7 @@
 #include "bench/experiment/table_run.hpp"
 #include "bench/step_control/controlled_steps.hpp"
 #include "bench/step_control/optimal_steps.hpp"
+#include "bench/structure/energy_columns.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
 
@@ -69,26 +70,15 @@ const Columns<Momentum> momentum_columns =
                       {"defect", "", "max over k of |J_k - J_0 - work|",
                        from(&Momentum::result, &ControlledSteps::Momentum::defect)}};
 
-const Columns<EnergyOfPeriod> energy_columns =
-    choice_columns<EnergyOfPeriod>() +
-    Columns<EnergyOfPeriod>{
-        steps_per_period<EnergyOfPeriod>(),
-        {"period", "", "number of the period, from 0", from(&EnergyOfPeriod::result, &PeriodEnergy::period)},
-        {"energy_smallest", "", "smallest error of the energy", from(&EnergyOfPeriod::result, &PeriodEnergy::smallest)},
-        {"energy_mean", "", "mean error over the period", from(&EnergyOfPeriod::result, &PeriodEnergy::mean)},
-        {"energy_largest", "", "largest error of the energy", from(&EnergyOfPeriod::result, &PeriodEnergy::largest)}};
+const Columns<EnergyOfPeriod> energy_columns = choice_columns<EnergyOfPeriod>() +
+                                               Columns<EnergyOfPeriod>{steps_per_period<EnergyOfPeriod>()} +
+                                               period_energy_columns(&EnergyOfPeriod::result);
 
-constexpr auto behaviour = &EnergyOfPeriods::result;
 const Columns<EnergyOfPeriods> behaviour_columns =
     choice_columns<EnergyOfPeriods>() +
-    Columns<EnergyOfPeriods>{
-        steps_per_period<EnergyOfPeriods>(),
-        {"periods", "", "number of periods", &EnergyOfPeriods::periods},
-        {"oscillation", "", "max - min over the first ten periods", from(behaviour, &EnergyBehaviour::oscillation)},
-        {"range", "", "max - min over all periods", from(behaviour, &EnergyBehaviour::range)},
-        {"drift_per_period", "", "of the mean, by least squares", from(behaviour, &EnergyBehaviour::drift_per_period)},
-        {"standard_error", "", "of the drift", from(behaviour, &EnergyBehaviour::standard_error)},
-        {"change", "", "last mean minus first mean", from(behaviour, &EnergyBehaviour::change)}};
+    Columns<EnergyOfPeriods>{steps_per_period<EnergyOfPeriods>(),
+                             {"periods", "", "number of periods", &EnergyOfPeriods::periods}} +
+    energy_behaviour_columns(&EnergyOfPeriods::result);
 
 constexpr auto period_error = &PeriodError::result;
 const Columns<PeriodError> error_columns =

@@ -2,6 +2,7 @@
 // Energy").
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/table_run.hpp"
+#include "bench/structure/energy_columns.hpp"
 #include "bench/structure/energy_tables.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/long_time_energy.hpp"
@@ -10,7 +11,6 @@
 #include "bench/structure/simulated_tables.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/transcription/element.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::structure_program {
 
@@ -41,24 +41,12 @@ Columns<Record> ellipse_columns() {
 }
 
 const Columns<EnergyOfPeriod> period_columns =
-    ellipse_columns<EnergyOfPeriod>() +
-    Columns<EnergyOfPeriod>{
-        {"period", "", "number of the period, from 0", from(&EnergyOfPeriod::energy, &PeriodEnergy::period)},
-        {"energy_smallest", "", "smallest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::smallest)},
-        {"energy_mean", "", "mean error over the period", from(&EnergyOfPeriod::energy, &PeriodEnergy::mean)},
-        {"energy_largest", "", "largest error of the energy", from(&EnergyOfPeriod::energy, &PeriodEnergy::largest)}};
+    ellipse_columns<EnergyOfPeriod>() + period_energy_columns(&EnergyOfPeriod::energy);
 
-constexpr auto orbit_energy = &EnergyOfPeriods::energy;
 const Columns<EnergyOfPeriods> behaviour_columns =
     ellipse_columns<EnergyOfPeriods>() +
-    Columns<EnergyOfPeriods>{
-        {"periods", "", "number of periods", &EnergyOfPeriods::periods},
-        {"oscillation", "", "max - min over the first ten periods", from(orbit_energy, &EnergyBehaviour::oscillation)},
-        {"range", "", "max - min over all watched periods", from(orbit_energy, &EnergyBehaviour::range)},
-        {"drift_per_period", "", "of the mean, by least squares",
-         from(orbit_energy, &EnergyBehaviour::drift_per_period)},
-        {"standard_error", "", "of the drift", from(orbit_energy, &EnergyBehaviour::standard_error)},
-        {"change", "", "last mean minus first mean", from(orbit_energy, &EnergyBehaviour::change)}};
+    Columns<EnergyOfPeriods>{{"periods", "", "number of periods", &EnergyOfPeriods::periods}} +
+    energy_behaviour_columns(&EnergyOfPeriods::energy);
 
 const Columns<EnergyOrder> order_columns =
     scheme_columns<EnergyOrder>() +

@@ -60,11 +60,11 @@ Finding effective(const ResultTables& tables, const std::string& /*problem*/) {
 /// The rows of a problem, method and kind of grid that reached the accuracy; there is at least one.
 Selection reached(const ResultTables& tables, const std::string& problem, const std::string& method,
                   const std::string& grid) {
-  const Selection rows = tables.rows("adaptive", problem)
-                             .where("method", method)
-                             .where("grid", grid)
-                             .where("status", "solved")
-                             .with_number("intervals");
+  Selection rows = tables.rows("adaptive", problem)
+                       .where("method", method)
+                       .where("grid", grid)
+                       .where("status", "solved")
+                       .with_number("intervals");
   require(!rows.empty(), "adaptive.csv has no {} grid of {} by {} that reaches the accuracy", grid, problem, method);
   return rows;
 }
@@ -145,8 +145,7 @@ Claims adaptive_claims() {
                  "to 3",
        .judge = effective,
        .condition = "true errors are those against the indirect solution, above rounding; of answers whose largest "
-                    "relative error is "
-                    "at most 1 %",
+                    "relative error is at most 1 %",
        .evidence = {"adaptive_effectivity.csv", "figures/adaptive_effectivity.svg"}},
       {.id = "adapted_grids_need_fewer_intervals",
        .problems = uneven_problems,

@@ -23,7 +23,7 @@ Selection of_truncations(const Selection& slopes, const std::string& quantity, s
 
 /// The number behind the last "_" of a quantity.
 double truncation_of(const Row& row) {
-  const std::string quantity = row.text("quantity");
+  const std::string& quantity = row.text("quantity");
   return std::stod(quantity.substr(quantity.rfind('_') + 1));
 }
 

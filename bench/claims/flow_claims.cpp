@@ -51,7 +51,7 @@ std::string beside_tangent(const Selection& rows) {
 }
 
 Selection simulations(const ResultTables& tables, const char* force) {
-  const Selection rows = tables.rows("structure_momentum").where("force", force);
+  Selection rows = tables.rows("structure_momentum").where("force", force);
   require(!rows.where("method", "dmoc").empty(),
           "structure_momentum.csv has no simulation by dmoc with a force {} the group action", force);
   return rows;

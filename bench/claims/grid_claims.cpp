@@ -173,8 +173,19 @@ Finding reference_step(const ResultTables& tables, const std::string& problem) {
 Claims grid_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const Wording figure{"fig:kepler_error", "fig:twolink_error"};
-  const char* const second_order = "O(h^2) for all three methods";
-  const char* const against_512 = "O(h^2) for all three methods, against N = 512";
+  const auto order_two = [&](const char* id, Problems problems, const std::string& table, const char* quantity,
+                             const std::string& reference) {
+    return Claim{
+        .id = id,
+        .problems = std::move(problems),
+        .where = section,
+        .figure = figure,
+        .whose = Whose::paper,
+        .states = reference.empty() ? "O(h^2) for all three methods" : "O(h^2) for all three methods, against N = 512",
+        .judge = is_of_order_two(table, quantity),
+        .evidence = {table + "_slopes.csv", table + ".csv",
+                     fmt::format("figures/{{}}_{}_error{}.svg", quantity, reference)}};
+  };
   const auto objective = [](Problems problems, Wording where, Wording shown_in, Whose whose) {
     return Claim{.id = "objective_evolution",
                  .problems = std::move(problems),
@@ -187,38 +198,10 @@ Claims grid_claims() {
                  .evidence = {"objective.csv", "convergence_indirect_reference.csv", "figures/{}_objective.svg"}};
   };
   return {
-      {.id = "state_slope",
-       .problems = of_paper,
-       .where = section,
-       .figure = figure,
-       .whose = Whose::paper,
-       .states = second_order,
-       .judge = is_of_order_two("convergence", "state"),
-       .evidence = {"convergence_slopes.csv", "convergence.csv", "figures/{}_state_error.svg"}},
-      {.id = "control_slope",
-       .problems = of_paper,
-       .where = section,
-       .figure = figure,
-       .whose = Whose::paper,
-       .states = second_order,
-       .judge = is_of_order_two("convergence", "control"),
-       .evidence = {"convergence_slopes.csv", "convergence.csv", "figures/{}_control_error.svg"}},
-      {.id = "state_slope_against_512",
-       .problems = only_two_link,
-       .where = section,
-       .figure = figure,
-       .whose = Whose::paper,
-       .states = against_512,
-       .judge = is_of_order_two("convergence_512", "state"),
-       .evidence = {"convergence_512_slopes.csv", "convergence_512.csv", "figures/{}_state_error_512.svg"}},
-      {.id = "control_slope_against_512",
-       .problems = only_two_link,
-       .where = section,
-       .figure = figure,
-       .whose = Whose::paper,
-       .states = against_512,
-       .judge = is_of_order_two("convergence_512", "control"),
-       .evidence = {"convergence_512_slopes.csv", "convergence_512.csv", "figures/{}_control_error_512.svg"}},
+      order_two("state_slope", of_paper, "convergence", "state", ""),
+      order_two("control_slope", of_paper, "convergence", "control", ""),
+      order_two("state_slope_against_512", only_two_link, "convergence_512", "state", "_512"),
+      order_two("control_slope_against_512", only_two_link, "convergence_512", "control", "_512"),
       objective(only_orbit, "section 4.2.2, for the other problem", "", Whose::ours),
       objective(only_two_link, "section 4.2.2", "fig:twolink_obj a)", Whose::paper),
       {.id = "variable_ratio",

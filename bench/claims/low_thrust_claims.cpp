@@ -22,7 +22,7 @@ Selection over_steps(const Selection& of_revolutions, const char* method, const 
     constexpr double above = 10.0;
     return row.needed(error) > above * std::pow(10.0, -row.needed("reference_digits"));
   };
-  const Selection rows =
+  Selection rows =
       of_revolutions.where("method", method).usable().where(says_something).sorted_by("steps_per_revolution");
   require(rows.size() >= 3, "low_thrust.csv has {} usable rows of {} with {} revolutions; three are needed",
           rows.size(), method, of_revolutions.front().text("revolutions"));

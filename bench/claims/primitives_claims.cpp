@@ -63,9 +63,8 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
   }
   return found(all_best ? verdict_on_time(rows) : ClaimVerdict::differs,
                "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and no "
-               "start "
-               "among those that the same time allows in a lesser one; the path itself costs more than that by {}; "
-               "the slowest plan takes at most {:.2g} ms",
+               "start among those that the same time allows in a lesser one; the path itself costs more than that by "
+               "{}; the slowest plan takes at most {:.2g} ms",
                best, rows.size(), 100.0 * same_cost, shares_of(rows, "excess_before"), slowest)
       .because(others.empty() ? "" : fmt::format("not on {}", fmt::join(others, ", ")))
       .as_sure_as("99 % of the times of searches");

@@ -44,6 +44,7 @@ std::vector<ReadRows> read_rows(const ReadFields& fields) {
   std::map<std::string, RowsOfTable> tables;
   for (const auto& [place, row] : fields.rows()) sort_in(place, row, tables);
   std::vector<ReadRows> result;
+  result.reserve(tables.size());
   for (const auto& [table, rows] : tables) result.push_back(rows_behind(table, rows));
   return result;
 }

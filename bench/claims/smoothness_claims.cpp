@@ -79,7 +79,7 @@ Finding state_bound_orders(const ResultTables& tables, const std::string& /*prob
 
 /// The smallest curvature of DMOC over the grids, coarsest first.
 Selection curvatures(const ResultTables& tables, const std::string& problem) {
-  const Selection rows = tables.rows("coercivity", problem).where("method", "dmoc").sorted_by("intervals");
+  Selection rows = tables.rows("coercivity", problem).where("method", "dmoc").sorted_by("intervals");
   require(rows.size() >= 3, "coercivity.csv has {} rows of dmoc for {}; three are needed", rows.size(), problem);
   return rows;
 }

@@ -12,7 +12,7 @@ constexpr const char* in_outlook = "section 5, KMLTMD";
 
 /// The rows of a table with steps chosen in one way; at least one.
 Selection by_rule(const Selection& rows, const char* rule, const char* table) {
-  const Selection found = rows.where("rule", rule);
+  Selection found = rows.where("rule", rule);
   require(!found.empty(), "{}.csv has no row with {} steps", table, rule);
   return found;
 }

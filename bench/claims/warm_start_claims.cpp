@@ -65,7 +65,7 @@ std::vector<StepRatios> all_ratios(const ResultTables& tables, const std::string
     for (const std::string method : {"hamiltonian", "tangent"}) {
       const Selection others = midpoint(of_sequence, method);
       require(!others.empty(), "sequence.csv has no {} of {} by {}", sequence, problem, method);
-      all.push_back(ratios_of(dmoc, others, method + ", " + sequence));
+      all.push_back(ratios_of(dmoc, others, fmt::format("{}, {}", method, sequence)));
     }
   }
   return all;

@@ -82,8 +82,8 @@ DerivativeReference reference_derivatives(const Transcription& program, const Ei
   };
   const Layout& layout = program.layout();
   add(program.functions(), layout.unknown_places(), layout.row_places(), layout.intervals());
-  if (program.end_functions()) {
-    add(*program.end_functions(), layout.end_unknown_places(), layout.end_row_places(), 1);
+  if (const std::optional<EndFunctions>& ends = program.end_functions()) {
+    add(*ends, layout.end_unknown_places(), layout.end_row_places(), 1);
   }
   return {std::move(jacobian).values(), std::move(hessian).values()};
 }

@@ -71,6 +71,7 @@ std::vector<std::vector<std::size_t>> turns_of(const std::vector<Case>& cases) {
     grids[{c.problem->name(), c.tableau, c.stages, c.intervals()}].push_back(i);
   }
   std::vector<std::vector<std::size_t>> turns;
+  turns.reserve(grids.size());
   for (auto& [grid, numbers] : grids) turns.push_back(std::move(numbers));
   return turns;
 }

@@ -21,11 +21,11 @@
 #include "bench/experiment/progress_line.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/start_provider.hpp"
-#include "bench/experiment/written_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/counted.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
+#include "methods/tables/table_file.hpp"
 
 namespace dmocbench {
 
@@ -335,7 +335,7 @@ class Run {
         throw Error(fmt::format("the rows of {} are lost: {} has vanished", cases_[spans[i].first].problem->name(),
                                 file.string()));
       }
-      const Table table = Table::from_csv(read_file(file));
+      const Table table = read_table(file);
       std::filesystem::remove(file);
       std::size_t number = spans[i].first;
       for (const Row& row : table.rows()) {

@@ -106,7 +106,7 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files, con
                             nlohmann::ordered_json& metadata) {
   const Json noted = metadata.value("tables", Json::object());
   Json tables = describe_tables(files);
-  for (auto& [file, told] : tables.items()) {
+  for (const auto& [file, told] : tables.items()) {
     const Json of_file = noted.value(file, Json::object());
     const auto columns = told.at("columns").get<std::vector<std::string>>();  // an entry more may move the others
     std::vector<DeclaredColumn> declarations;

@@ -136,7 +136,7 @@ std::vector<std::size_t> PartsOfRun::missing() const {
   return numbers;
 }
 
-void PartsOfRun::take_rows(const PartFile& file, RowsOfCases& rows) const {
+void PartsOfRun::take_rows(const PartFile& file, RowsOfCases& rows) {
   const Table table = Table::from_csv(file.table);
   for (const Row& row : table.rows()) {
     const auto number = static_cast<std::size_t>(row.needed(case_column));

@@ -47,7 +47,7 @@ class PartsOfRun {
  private:
   [[nodiscard]] std::filesystem::path file_of(const Part& part) const;
   [[nodiscard]] bool is_there(const Part& part) const;
-  void take_rows(const PartFile& file, RowsOfCases& rows) const;
+  static void take_rows(const PartFile& file, RowsOfCases& rows);
 
   Experiment& experiment_;
   const std::vector<Case>& cases_;

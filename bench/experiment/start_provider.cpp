@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/experiment/even_draws.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/experiment/written_tables.hpp"
@@ -96,12 +97,6 @@ bool do_jumps_fall(const Problem& problem, const Trajectory& coarse, const Traje
   const double before = accuracy(problem, coarse).relative_jump;
   const double after = accuracy(problem, fine).relative_jump;
   return after < solver_floor || after <= before * std::pow(2.0, 0.5 - order_of_jumps(fine.tableau));
-}
-
-/// Evenly distributed between -1 and 1, the same numbers with every standard library.
-double even(std::mt19937_64& engine) {
-  constexpr int kept_bits = 53;
-  return std::ldexp(static_cast<double>(engine() >> (64 - kept_bits)), 1 - kept_bits) - 1.0;
 }
 
 /// The range of every q_i along a motion; 1 where it does not move.
@@ -329,7 +324,7 @@ Motion perturbed(const Motion& motion, double amplitude, std::uint64_t seed, std
   Eigen::MatrixXd amplitudes(range.size(), modes);
   for (Eigen::Index k = 0; k < modes; ++k) {
     for (Eigen::Index i = 0; i < range.size(); ++i) {
-      amplitudes(i, k) = amplitude * range[i] * even(engine) / static_cast<double>(k + 1);
+      amplitudes(i, k) = amplitude * range[i] * (2.0 * even(engine) - 1.0) / static_cast<double>(k + 1);
     }
   }
   return bent(motion, amplitudes);

@@ -73,6 +73,7 @@ std::vector<std::string> joining_run(const PartFile& part, const std::vector<std
 void run_in_place(const std::vector<std::string>& command_line) {
   std::vector<char*> words;
   std::vector<std::string> copies = command_line;
+  words.reserve(copies.size() + 1);
   for (std::string& word : copies) words.push_back(word.data());
   words.push_back(nullptr);
   std::fflush(nullptr);

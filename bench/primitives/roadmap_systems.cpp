@@ -1,10 +1,6 @@
 #include "bench/primitives/roadmap_systems.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 
 namespace dmocbench {
 
@@ -22,12 +18,7 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
 }
 
 const RoadmapSystem& roadmap_system(const std::string& problem) {
-  const std::vector<RoadmapSystem>& systems = roadmap_systems();
-  const auto place = std::ranges::find(systems, problem, &RoadmapSystem::problem);
-  if (place != systems.end()) return *place;
-  std::vector<std::string> names;
-  for (const RoadmapSystem& each : systems) names.push_back(each.problem);
-  throw Error(fmt::format("there is no roadmap of '{}'; choose from {}", problem, fmt::join(names, ", ")));
+  return one_of(roadmap_systems(), &RoadmapSystem::problem, problem, "there is no roadmap of");
 }
 
 }  // namespace dmocbench

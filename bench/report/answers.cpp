@@ -55,6 +55,7 @@ std::string answer_html(const Question& question, const Table& claims) {
   const std::vector<const Row*> answers = claims_named(claims, question.claim);
   if (answers.empty()) return "";
   std::vector<std::string> measured;
+  measured.reserve(answers.size());
   for (const Row* const claim : answers) {
     measured.push_back(fmt::format("{} {}: {}", linked(*claim), badge(claim->text("verdict")),
                                    escaped(first_clauses(claim->text("measured"), question.clauses))));
@@ -63,6 +64,7 @@ std::string answer_html(const Question& question, const Table& claims) {
                                  fmt::join(measured, "; "));
   std::vector<std::string> verdicts;
   const std::vector<const Row*> beside = claims_named(claims, question.beside);
+  verdicts.reserve(beside.size());
   for (const Row* const claim : beside)
     verdicts.push_back(fmt::format("{} {}", linked(*claim), badge(claim->text("verdict"))));
   if (!verdicts.empty())

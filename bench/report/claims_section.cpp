@@ -17,8 +17,7 @@ std::string claim_html(const Row& claim, const ResultsFolder& results) {
   const auto [problem, name] = problem_and_name(claim.text("claim"));
   std::string html = fmt::format(
       "<details class=\"claim\" id=\"{}\" data-verdict=\"{}\" data-problem=\"{}\" data-whose=\"{}\"><summary>{} "
-      "<b>{}</b> "
-      "<i>{}</i> {}</summary>\n<dl>",
+      "<b>{}</b> <i>{}</i> {}</summary>\n<dl>",
       anchor("claim", claim.text("claim")), escaped(claim.text("verdict")), escaped(problem),
       escaped(claim.text("whose")), badge(claim.text("verdict")), escaped(in_words(name)), escaped(in_words(problem)),
       escaped(claim.text("states")));
@@ -35,9 +34,9 @@ std::string claim_html(const Row& claim, const ResultsFolder& results) {
 
 /// A choice among the values of a property of claims; JavaScript shows it.
 std::string choice_html(const std::string& label, const std::string& key, const std::set<std::string>& values) {
-  std::string html = fmt::format("<label>{} <select data-filter=\"{}\"><option value=\"\">all</option>", label, key);
+  std::string html = fmt::format(R"(<label>{} <select data-filter="{}"><option value="">all</option>)", label, key);
   for (const std::string& value : values)
-    html += fmt::format("<option value=\"{0}\">{1}</option>", escaped(value), escaped(in_words(value)));
+    html += fmt::format(R"(<option value="{0}">{1}</option>)", escaped(value), escaped(in_words(value)));
   return html + "</select></label>\n";
 }
 
@@ -75,8 +74,7 @@ std::string claims_section(const ResultsFolder& results) {
   if (claims.rows().empty()) return "";
   std::string html =
       "<section id=\"claims\"><h2>Claims</h2>\n<p>A predicate on the tables decides on every verdict. Each line opens "
-      "what was measured, why, by "
-      "which rows of which tables, and the commands that make it again.</p>\n" +
+      "what was measured, why, by which rows of which tables, and the commands that make it again.</p>\n" +
       counts_html(claims) + filter_html(claims);
   for (const Row& claim : claims.rows()) html += claim_html(claim, results);
   return html + "</section>\n";

@@ -21,10 +21,9 @@ namespace {
 /// A table of HTML with the same cells in each row.
 std::string cells(const std::string& label, const std::vector<std::string>& heads,
                   const std::vector<std::vector<std::string>>& rows) {
-  std::string html =
-      fmt::format("<div class=\"scroll wrapped\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table><thead><tr>",
-                  escaped(label));
-  for (const std::string& head : heads) html += fmt::format("<th scope=\"col\">{}", escaped(head));
+  std::string html = fmt::format(
+      R"(<div class="scroll wrapped" role="region" tabindex="0" aria-label="{}"><table><thead><tr>)", escaped(label));
+  for (const std::string& head : heads) html += fmt::format(R"(<th scope="col">{})", escaped(head));
   html += "</thead><tbody>\n";
   for (const std::vector<std::string>& row : rows) {
     html += "<tr>";
@@ -112,9 +111,8 @@ std::string times_section(const ComparedRun& first, const ComparedRun& second) {
   if (html.empty() && unjudged == 0) return "";
   return fmt::format(
              "<section id=\"times\"><h2>Times</h2>\n<p>The median time in B by that in A, with an interval of 99 % "
-             "from "
-             "the rounds of both. The runs were not made in turn: what else the machine did during one of them is in "
-             "the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
+             "from the rounds of both. The runs were not made in turn: what else the machine did during one of them is "
+             "in the ratio. {} solves were timed in fewer than {} rounds and are not judged.</p>\n",
              unjudged, fewest_rounds) +
          html + "</section>\n";
 }

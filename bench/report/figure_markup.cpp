@@ -135,23 +135,22 @@ std::string figure_markup(const std::string& file, const std::string& prefix, co
   remove_between(svg, " id=\"gnuplot_plot_", "\"");
   remove_unused_marks(svg);
   svg = without_blanks(svg);
-  for (const char* const said_by_style :
-       {" font-family=\"sans-serif\"", " xml:space=\"preserve\"", " stroke-linecap=\"butt\" stroke-linejoin=\"miter\""})
+  for (const char* const said_by_style : {R"( font-family="sans-serif")", R"( xml:space="preserve")",
+                                          R"( stroke-linecap="butt" stroke-linejoin="miter")"})
     replace_all(svg, said_by_style, "");
   svg = with_short_numbers(packed_svg(without_empty_groups(svg)));
   replace_all(svg, "gpPt", "p");
-  replace_all(svg, "<g fill=\"none\" color=\"black\" stroke=\"currentColor\" stroke-width=\"1.00\">",
-              "<g class=\"k\">");
-  replace_all(svg, "<g fill=\"none\" color=\"gray\" stroke=\"currentColor\" stroke-width=\"1.00\">", "<g class=\"y\">");
-  replace_all(svg, " stroke=\"none\" fill=\"#202020\"", " class=\"t\"");
-  replace_all(svg, " stroke=\"none\" fill=\"black\"", " class=\"b\"");
+  replace_all(svg, R"(<g fill="none" color="black" stroke="currentColor" stroke-width="1.00">)", R"(<g class="k">)");
+  replace_all(svg, R"(<g fill="none" color="gray" stroke="currentColor" stroke-width="1.00">)", R"(<g class="y">)");
+  replace_all(svg, R"( stroke="none" fill="#202020")", R"( class="t")");
+  replace_all(svg, R"( stroke="none" fill="black")", R"( class="b")");
   for (const std::string quote : {"'", "\""}) {
-    replace_all(svg, " id=" + quote, " id=" + quote + prefix);
-    replace_all(svg, "href=" + quote + "#", "href=" + quote + "#" + prefix);
+    replace_all(svg, " id=" + quote, fmt::format(" id={}{}", quote, prefix));
+    replace_all(svg, fmt::format("href={}#", quote), fmt::format("href={}#{}", quote, prefix));
   }
   replace_all(svg, "url(#", "url(#" + prefix);
   replace_all(svg, "xlink:href", "href");
-  replace_all(svg, "<svg", fmt::format("<svg role=\"img\" aria-label=\"{}\"", escaped(title)));
+  replace_all(svg, "<svg", fmt::format(R"(<svg role="img" aria-label="{}")", escaped(title)));
   return svg;
 }
 

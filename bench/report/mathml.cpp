@@ -266,7 +266,7 @@ class Typesetter {
     // A number before the fraction, unless nothing else stands above.
     if (above.empty())
       return fmt::format("<mfrac>{}{}</mfrac>", mathml_of_number(product.coefficient), part_of_fraction(below));
-    const std::string fraction = fmt::format("<mfrac>{}{}</mfrac>", part_of_fraction(above), part_of_fraction(below));
+    std::string fraction = fmt::format("<mfrac>{}{}</mfrac>", part_of_fraction(above), part_of_fraction(below));
     if (product.coefficient == 1.0) return fraction;
     return mathml_of_number(product.coefficient) + std::string(times) + fraction;
   }

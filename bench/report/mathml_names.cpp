@@ -84,7 +84,7 @@ std::string decimal(double value) {
   const std::size_t exponent = digits.find('e');
   if (exponent == std::string::npos) return fmt::format("<mn>{}</mn>", digits);
   const int power = std::stoi(digits.substr(exponent + 1));
-  const std::string ten = fmt::format("<msup><mn>10</mn>{}</msup>", mathml_of_number(power));
+  std::string ten = fmt::format("<msup><mn>10</mn>{}</msup>", mathml_of_number(power));
   if (digits.substr(0, exponent) == "1") return ten;
   return fmt::format("<mrow><mn>{}</mn><mo>×</mo>{}</mrow>", digits.substr(0, exponent), ten);
 }

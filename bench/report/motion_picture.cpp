@@ -160,7 +160,7 @@ Frame frame_of(const std::vector<DrawnMotion>& motions) {
 std::string path_of(const MovingPoint& point, const std::string& kind) {
   std::string places;
   for (std::size_t k = 0; k < point.x.size(); ++k) places += fmt::format("{:.5g},{:.5g} ", point.x[k], -point.y[k]);
-  return fmt::format("<polyline class=\"path {}\" points=\"{}\"/>", kind, places);
+  return fmt::format(R"(<polyline class="path {}" points="{}"/>)", kind, places);
 }
 
 /// The rods at some instants, so that a picture that stands still shows the motion.
@@ -177,7 +177,7 @@ std::string rods_of(const DrawnMotion& motion) {
       y = point.y[k];
     }
   }
-  return lines.empty() ? "" : fmt::format("<path class=\"instants\" d=\"{}\"/>", lines);
+  return lines.empty() ? "" : fmt::format(R"(<path class="instants" d="{}"/>)", lines);
 }
 
 /// All that can be seen without JavaScript.
@@ -188,13 +188,13 @@ std::string drawing_of(const std::vector<DrawnMotion>& motions, const std::strin
       "<svg role=\"img\" aria-label=\"{}\" viewBox=\"{:.5g} {:.5g} {:.5g} {:.5g}\" "
       "data-radius=\"{:.4g}\">",
       escaped(title), frame.left, -frame.top, frame.right - frame.left, frame.top - frame.bottom, radius);
-  if (frame.holds_origin()) svg += fmt::format("<circle class=\"origin\" r=\"{:.4g}\"/>", 0.6 * radius);
+  if (frame.holds_origin()) svg += fmt::format(R"(<circle class="origin" r="{:.4g}"/>)", 0.6 * radius);
   svg += rods_of(motions.front());
   for (std::size_t i = 0; i < motions.size(); ++i) {
     for (const MovingPoint& point : motions[i].points) svg += path_of(point, fmt::format("method-{}", i));
   }
   for (const MovingPoint& point : motions.front().points) {
-    svg += fmt::format("<circle class=\"ending\" cx=\"{:.5g}\" cy=\"{:.5g}\" r=\"{:.4g}\"/>", point.x.back(),
+    svg += fmt::format(R"(<circle class="ending" cx="{:.5g}" cy="{:.5g}" r="{:.4g}"/>)", point.x.back(),
                        -point.y.back(), radius);
   }
   return svg + "</svg>\n";
@@ -221,7 +221,7 @@ std::string strips_of(const std::vector<const ReportedMotion*>& motions, const s
     }
     if (!(largest > least)) continue;
     const double bottom = static_cast<double>(++strips) * (height + gap);
-    svg += fmt::format("<text x=\"0\" y=\"{:.0f}\">{} from {:.4g} to {:.4g}</text>", bottom - height - 6.0,
+    svg += fmt::format(R"(<text x="0" y="{:.0f}">{} from {:.4g} to {:.4g}</text>)", bottom - height - 6.0,
                        escaped(columns[column]), least, largest);
     for (std::size_t i = 0; i < motions.size(); ++i) {
       const std::vector<double> t = column_of(motions[i]->picture, columns.front());
@@ -232,7 +232,7 @@ std::string strips_of(const std::vector<const ReportedMotion*>& motions, const s
         places += fmt::format("{:.1f},{:.1f} ", width * (t[k] - t.front()) / (t.back() - t.front()),
                               bottom - height * (values[k] - least) / (largest - least));
       }
-      svg += fmt::format("<polyline class=\"path method-{}\" points=\"{}\"/>", i, places);
+      svg += fmt::format(R"(<polyline class="path method-{}" points="{}"/>)", i, places);
     }
   }
   if (strips == 0) return "";
@@ -258,7 +258,7 @@ std::string motion_picture_html(const std::string& problem, const std::vector<co
                        [](const ReportedMotion* motion) { return motion->picture.rows().size() >= 2; });
   if (shown.empty()) return "";
   const std::string title = in_words(problem) + ", its motion";
-  const std::string begin = fmt::format("<figure class=\"motion\" id=\"{}\">", anchor("motion", problem));
+  const std::string begin = fmt::format(R"(<figure class="motion" id="{}">)", anchor("motion", problem));
   const std::string end = fmt::format("<figcaption>{}{}</figcaption></figure>\n", escaped(in_words(problem)),
                                       legend_of(shown).empty() ? "" : " by " + legend_of(shown));
   std::vector<DrawnMotion> drawn;

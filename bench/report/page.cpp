@@ -28,12 +28,12 @@ std::string page_of(const std::string& title, const std::vector<std::pair<std::s
   }
   // Nothing is fetched from anywhere, whatever a table holds; images that figures hold are in the page.
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src "
-      "'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n<title>{}</title>\n"
-      "<style>\n{}</style></head>\n<body><nav "
-      "aria-label=\"sections\">{}</nav>\n<main>\n{}</main>\n<script>\n{}</script></body></html>\n",
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" "
+      "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+      "<title>{}</title>\n<style>\n{}</style></head>\n<body><nav aria-label=\"sections\">{}</nav>\n"
+      "<main>\n{}</main>\n<script>\n{}</script></body></html>\n",
       escaped(title), style_of_page, navigation, content, script_of_page);
 }
 

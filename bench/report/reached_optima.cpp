@@ -64,6 +64,7 @@ std::vector<ReachedOptimum> reached_optima(const ResultsFolder& results, const s
     reached.smallest_difference = std::min(reached.smallest_difference.value_or(difference), difference);
   });
   std::vector<ReachedOptimum> all;
+  all.reserve(methods.size());
   for (const auto& [name, reached] : methods) all.push_back(reached);
   return all;
 }

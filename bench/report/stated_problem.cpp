@@ -47,7 +47,7 @@ std::string indexed(std::string_view name, std::string_view index) {
 
 /// "x(0)".
 std::string at(const std::string& name, const std::string& time) {
-  return fmt::format("<mrow>{}<mo stretchy=\"false\">(</mo>{}<mo stretchy=\"false\">)</mo></mrow>", name, time);
+  return fmt::format(R"(<mrow>{}<mo stretchy="false">(</mo>{}<mo stretchy="false">)</mo></mrow>)", name, time);
 }
 
 /// A letter for every parameter that varies: the usual one if nothing else has it.

@@ -82,6 +82,7 @@ struct WrittenFormulas {
 WrittenFormulas written(const std::vector<StatedFormula>& formulas, const std::vector<std::string>& inputs,
                         const StatedProblem& stated) {
   std::vector<Expression> values;
+  values.reserve(formulas.size());
   for (const StatedFormula& formula : formulas) values.push_back(formula.value);
   const TypesetFormulas typeset_formulas = typeset(values, inputs, stated.letters.size(), stated.free_letter);
   WrittenFormulas result;

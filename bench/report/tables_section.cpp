@@ -56,8 +56,7 @@ std::string tables_section(const ResultsFolder& results, const std::string& fold
   if (results.tables.empty()) return "";
   std::string html =
       "<section id=\"tables\"><h2>Tables</h2>\n<p>A row is one solve where there is a status; rows that were not "
-      "solved are "
-      "marked. A column's unit stands in its head, its meaning above the table.</p>\n";
+      "solved are marked. A column's unit stands in its head, its meaning above the table.</p>\n";
   for (const ReportedTable& table : results.tables) html += table_html(table, results.metadata_of(table.run), folder);
   return html + "</section>\n";
 }

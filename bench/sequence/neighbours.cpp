@@ -1,10 +1,10 @@
 #include "bench/sequence/neighbours.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 #include <utility>
 
+#include "bench/experiment/even_draws.hpp"
 #include "bench/experiment/restated_problem.hpp"
 
 namespace dmocbench {
@@ -36,10 +36,8 @@ class RecedingHorizon final : public Neighbours {
   }
 
  private:
-  /// Evenly in [-1, 1), bit by bit the same everywhere.
-  double even() { return std::ldexp(static_cast<double>(engine_() >> 11U), -52) - 1.0; }
   void disturb(Eigen::VectorXd& values, const Eigen::VectorXd& range) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += even() * range[i];
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] += (2.0 * even(engine_) - 1.0) * range[i];
   }
 
   std::shared_ptr<const Problem> base_;

@@ -1,7 +1,6 @@
 #include "bench/sequence/solved_steps.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -9,6 +8,7 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/sequence/one_interval_later.hpp"
+#include "methods/numerics/quantile.hpp"
 #include "methods/transcription/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -36,12 +36,6 @@ std::pair<Solution, StepSolve> solve_step(PreparedSolve& prepared, const Eigen::
   return {std::move(solution), step};
 }
 
-/// The entry below which a share of ascending numbers lies.
-double quantile(const std::vector<double>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::max<std::size_t>(rank, 1) - 1];
-}
-
 void set_quantiles(Row& row, const std::string& what, std::vector<double> values) {
   if (values.empty()) return;
   std::ranges::sort(values);
@@ -52,16 +46,16 @@ void set_quantiles(Row& row, const std::string& what, std::vector<double> values
 
 /// A number of every solved step that has such a solve.
 template <class Number>
-std::vector<double> numbers_of(const std::vector<const Step*>& steps, Number number) {
+std::vector<double> numbers_of(const std::vector<const SequenceStep*>& steps, Number number) {
   std::vector<double> numbers;
-  for (const Step* step : steps) {
+  for (const SequenceStep* step : steps) {
     if (const std::optional<double> value = number(*step)) numbers.push_back(*value);
   }
   return numbers;
 }
 
-Row summary_of(const std::vector<const Step*>& steps) {
-  const Step& any = *steps.front();
+Row summary_of(const std::vector<const SequenceStep*>& steps) {
+  const SequenceStep& any = *steps.front();
   Row row;
   row.set("problem", any.scheme.problem);
   row.set("method", any.scheme.method);
@@ -70,14 +64,14 @@ Row summary_of(const std::vector<const Step*>& steps) {
   row.set("intervals", any.intervals);
   row.set("sequence", any.sequence);
   row.set("steps", steps.size());
-  row.set("solved", std::ranges::count_if(steps, [](const Step* step) { return is_solved(step->warm); }));
+  row.set("solved", std::ranges::count_if(steps, [](const SequenceStep* step) { return is_solved(step->warm); }));
   const auto of_warm = [&](auto member) {
-    return numbers_of(steps, [member](const Step& step) -> std::optional<double> {
+    return numbers_of(steps, [member](const SequenceStep& step) -> std::optional<double> {
       return is_solved(step.warm) ? std::optional<double>(step.warm.*member) : std::nullopt;
     });
   };
   const auto of_cold = [&](auto member) {
-    return numbers_of(steps, [member](const Step& step) -> std::optional<double> {
+    return numbers_of(steps, [member](const SequenceStep& step) -> std::optional<double> {
       return step.cold && is_solved(*step.cold) ? std::optional<double>((*step.cold).*member) : std::nullopt;
     });
   };
@@ -85,7 +79,7 @@ Row summary_of(const std::vector<const Step*>& steps) {
   set_quantiles(row, "microseconds", of_warm(&StepSolve::microseconds));
   set_quantiles(row, "cold_iterations", of_cold(&StepSolve::iterations));
   set_quantiles(row, "cold_microseconds", of_cold(&StepSolve::microseconds));
-  const std::vector<double> worse = numbers_of(steps, [](const Step& step) -> std::optional<double> {
+  const std::vector<double> worse = numbers_of(steps, [](const SequenceStep& step) -> std::optional<double> {
     const std::optional<bool> is_worse = step.is_warm_worse();
     return is_worse ? std::optional(*is_worse ? 1.0 : 0.0) : std::nullopt;
   });
@@ -98,7 +92,7 @@ Row summary_of(const std::vector<const Step*>& steps) {
 
 }  // namespace
 
-std::optional<bool> Step::is_warm_worse() const {
+std::optional<bool> SequenceStep::is_warm_worse() const {
   if (!cold) return std::nullopt;
   if (!is_solved(*cold)) return false;
   return !is_solved(warm) || warm.iterations > cold->iterations;
@@ -117,7 +111,7 @@ SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> n
       multipliers_(solved.solution.multipliers),
       barrier_parameter_(solved.solution.barrier_parameter) {}
 
-Step SequenceRun::next(bool also_cold) {
+SequenceStep SequenceRun::next(bool also_cold) {
   const std::shared_ptr<const Problem> problem = neighbours_->next(++step_, trajectory_);
   neighbours_->give_values(*program_);
   if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
@@ -125,12 +119,12 @@ Step SequenceRun::next(bool also_cold) {
   const Eigen::VectorXd start = sample(*program_, moved_to_ends(motion, program_->bounds()));
   std::optional<double> mu = barrier_parameter_;  // none: there is no barrier
   if (mu && choices_.barrier_parameter) mu = choices_.barrier_parameter;
-  Step step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
-            .intervals = case_.intervals(),
-            .sequence = neighbours_->name(),
-            .number = step_,
-            .warm = {},
-            .start_barrier_parameter = mu};
+  SequenceStep step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
+                    .intervals = case_.intervals(),
+                    .sequence = neighbours_->name(),
+                    .number = step_,
+                    .warm = {},
+                    .start_barrier_parameter = mu};
   auto [solution, warm] = solve_step(*prepared_, start, multipliers_, mu, choices_.repeats);
   step.warm = warm;
   if (also_cold || !is_solved(warm)) {
@@ -150,25 +144,27 @@ Step SequenceRun::next(bool also_cold) {
   return step;
 }
 
-Table step_table(const std::vector<Step>& steps) {
+Table step_table(const std::vector<SequenceStep>& steps) {
   const auto of_cold = [](auto member) {
-    return [member](const Step& step) { return step.cold ? std::optional((*step.cold).*member) : std::nullopt; };
+    return
+        [member](const SequenceStep& step) { return step.cold ? std::optional((*step.cold).*member) : std::nullopt; };
   };
-  const Columns<Step> columns =
-      scheme_columns<Step>() +
-      Columns<Step>{
-          {"intervals", "", "number of intervals N", &Step::intervals},
-          {"sequence", "", "receding_horizon or homotopy", &Step::sequence},
-          {"step", "", "number of the step, from 1", &Step::number},
-          {"status", "", "of the warm solve", from(&Step::warm, &StepSolve::status)},
-          {"iterations", "", "of the warm solve", from(&Step::warm, &StepSolve::iterations)},
-          {"microseconds", "us", "of the warm solve, the solver alone", from(&Step::warm, &StepSolve::microseconds)},
+  const Columns<SequenceStep> columns =
+      scheme_columns<SequenceStep>() +
+      Columns<SequenceStep>{
+          {"intervals", "", "number of intervals N", &SequenceStep::intervals},
+          {"sequence", "", "receding_horizon or homotopy", &SequenceStep::sequence},
+          {"step", "", "number of the step, from 1", &SequenceStep::number},
+          {"status", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::status)},
+          {"iterations", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::iterations)},
+          {"microseconds", "us", "of the warm solve, the solver alone",
+           from(&SequenceStep::warm, &StepSolve::microseconds)},
           {"start_barrier_parameter", "", "that the warm solve began with; empty where the problem has no barrier",
-           from(&Step::start_barrier_parameter)},
+           from(&SequenceStep::start_barrier_parameter)},
           {"cold_status", "", "of a solve from the guess; empty where none was asked for", of_cold(&StepSolve::status)},
           {"cold_iterations", "", "its iterations", of_cold(&StepSolve::iterations)},
           {"cold_microseconds", "us", "its time", of_cold(&StepSolve::microseconds)},
-          {"objective", "cost", "of the answer", from(&Step::objective)}};
+          {"objective", "cost", "of the answer", from(&SequenceStep::objective)}};
   return table_of(columns, steps);
 }
 
@@ -176,7 +172,7 @@ namespace {
 
 /// What the columns of the summary mean.
 std::map<std::string, std::string> meanings_in_summary() {
-  std::map<std::string, std::string> meanings = meanings_of(scheme_columns<Step>());
+  std::map<std::string, std::string> meanings = meanings_of(scheme_columns<SequenceStep>());
   meanings["intervals"] = "number of intervals N";
   meanings["sequence"] = "receding_horizon or homotopy";
   meanings["steps"] = "number of steps";
@@ -196,10 +192,10 @@ std::map<std::string, std::string> meanings_in_summary() {
 
 }  // namespace
 
-Table sequence_summary(const std::vector<Step>& steps) {
-  std::map<std::tuple<std::string, std::string, std::string>, std::vector<const Step*>> groups;
+Table sequence_summary(const std::vector<SequenceStep>& steps) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::vector<const SequenceStep*>> groups;
   std::vector<std::tuple<std::string, std::string, std::string>> order;
-  for (const Step& step : steps) {
+  for (const SequenceStep& step : steps) {
     const auto key = std::tuple(step.scheme.problem, step.sequence, step.scheme.method);
     auto& group = groups[key];
     if (group.empty()) order.push_back(key);

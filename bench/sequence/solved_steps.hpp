@@ -19,7 +19,7 @@ struct StepSolve {
 };
 
 /// A step of a sequence.
-struct Step {
+struct SequenceStep {
   Scheme scheme;
   std::size_t intervals = 0;
   std::string sequence;
@@ -49,7 +49,7 @@ class SequenceRun {
 
   /// Solves the next problem warm, and cold too if it is asked for or the warm start fails. Where both fail the
   /// sequence ends.
-  [[nodiscard]] Step next(bool also_cold);
+  [[nodiscard]] SequenceStep next(bool also_cold);
   [[nodiscard]] bool is_at_end() const noexcept { return is_at_end_; }
 
  private:
@@ -66,9 +66,9 @@ class SequenceRun {
 };
 
 /// A row per step.
-[[nodiscard]] Table step_table(const std::vector<Step>& steps);
+[[nodiscard]] Table step_table(const std::vector<SequenceStep>& steps);
 /// A row per method and sequence: how many steps were solved, the median, the 99th percentile and the largest number of
 /// iterations and of microseconds of a warm step, the medians of cold ones, the share of steps where warm was worse.
-[[nodiscard]] Table sequence_summary(const std::vector<Step>& steps);
+[[nodiscard]] Table sequence_summary(const std::vector<SequenceStep>& steps);
 
 }  // namespace dmocbench

@@ -16,9 +16,10 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/experiment/solve_case.hpp"
+#include "bench/experiment/even_draws.hpp"
 #include "bench/speed/benchmark_program.hpp"
-#include "bench/summary/ratio_interval.hpp"
+#include "bench/speed/guessed_program.hpp"
+#include "bench/speed/measured_page.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -27,7 +28,6 @@
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/lane_transcription.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -38,26 +38,25 @@ constexpr int intervals = 64;
 constexpr std::size_t most_instances = 4096;
 
 /// Where instances start; all starts are moved with their ends (`ClampedEnds`).
-enum class Start : std::uint8_t {
+enum class StartKind : std::uint8_t {
   cold,     ///< at the guess of the problem
   warm,     ///< at the motion of the problem itself, which is solved before, with its multipliers
   nearest,  ///< at the motion of the nearest instance that is solved before, with its multipliers; the first are warm
 };
 
-std::string name_of(Start start) { return start == Start::cold ? "cold" : start == Start::warm ? "warm" : "nearest"; }
+std::string name_of(StartKind start) {
+  return start == StartKind::cold ? "cold" : start == StartKind::warm ? "warm" : "nearest";
+}
 
 /// A program and its instances: every component of the states at both ends drawn uniformly within 10 % of its value, or
 /// of the way from end to end where that is 0.
 class Instances {
  public:
-  Instances(const std::string& name, Start start) : problem_(make_problem(name)) {
-    program_ =
-        Case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(intervals)}.transcribe();
-    start_ = sample(*program_, guessed_motion(*problem_));
-    ends_ = std::make_unique<ClampedEnds>(*program_);
-    if (start != Start::cold) {
-      const Solution neighbour = make_solver("interior_point")->solve(*program_, start_);
-      start_ = neighbour.primal;
+  Instances(const std::string& name, StartKind start) : made_(make_problem(name), "dmoc", intervals) {
+    ends_ = std::make_unique<ClampedEnds>(*made_.program);
+    if (start != StartKind::cold) {
+      const Solution neighbour = make_solver("interior_point")->solve(*made_.program, made_.start);
+      made_.start = neighbour.primal;
       multipliers_ = neighbour.multipliers;
     }
     for (std::size_t i = 0; i < most_instances; ++i) {
@@ -68,13 +67,13 @@ class Instances {
     }
   }
 
-  [[nodiscard]] Transcription& program() { return *program_; }
-  [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
+  [[nodiscard]] Transcription& program() { return *made_.program; }
+  [[nodiscard]] const Eigen::VectorXd& start() const { return made_.start; }
   /// What was drawn for an instance, between -1 and 1.
   [[nodiscard]] const Eigen::VectorXd& place(std::size_t index) const { return states_[index].place; }
   void fill(std::size_t index, BatchInstance& instance, const Solution* neighbour = nullptr) {
-    instance.start = neighbour == nullptr ? start_ : neighbour->primal;
-    instance.rows = program_->constraint_lower();
+    instance.start = neighbour == nullptr ? made_.start : neighbour->primal;
+    instance.rows = made_.program->constraint_lower();
     instance.multipliers = neighbour == nullptr ? multipliers_ : neighbour->multipliers;
     ends_->write(states_[index].first, states_[index].last, instance.start, instance.rows);
   }
@@ -87,15 +86,15 @@ class Instances {
   };
 
   BoundaryState moved(bool is_first) {
-    const BoundaryState first = problem_->initial_state();
-    const BoundaryState last = problem_->final_state();
+    const BoundaryState first = made_.problem->initial_state();
+    const BoundaryState last = made_.problem->final_state();
     BoundaryState end = is_first ? first : last;
     for (const auto part : {&BoundaryState::q, &BoundaryState::v}) {
       for (Eigen::Index i = 0; i < end.q.size(); ++i) {
         double& value = (end.*part)[i];
         const double size = value != 0.0 ? value : (last.*part)[i] - (first.*part)[i];
         constexpr double share = 0.1;
-        const double unit = 2.0 * static_cast<double>(engine_()) / 4294967296.0 - 1.0;  // the same numbers everywhere
+        const double unit = 2.0 * even(engine_) - 1.0;
         value += share * unit * std::abs(size);
         units_.push_back(unit);
       }
@@ -103,10 +102,8 @@ class Instances {
     return end;
   }
 
-  std::shared_ptr<const Problem> problem_;
-  std::unique_ptr<Transcription> program_;
+  GuessedProgram made_;
   std::unique_ptr<ClampedEnds> ends_;
-  Eigen::VectorXd start_;
   Eigen::VectorXd multipliers_;
   std::vector<Ends> states_;
   std::vector<double> units_;  // of the instance that is drawn
@@ -114,9 +111,9 @@ class Instances {
 };
 
 /// A way to solve them, or to fill them only.
-struct Way {
+struct BatchCase {
   std::string problem;
-  Start start = Start::cold;
+  StartKind start = StartKind::cold;
   std::string name;  ///< batch, fill, or a solver, called in a loop
   std::size_t threads = 1;
   std::size_t instances = most_instances;
@@ -136,12 +133,12 @@ struct Tally {
   }
 };
 
-void solve_in_lanes(Instances& instances, const Way& way, Tally& tally) {
+void solve_in_lanes(Instances& instances, const BatchCase& way, Tally& tally) {
   BatchOptions options;
   options.threads = way.threads;
   const MakeLanes lanes = lanes_of(instances.program());
   const TakeSolution take = [&](std::size_t, const Solution& solution) { tally.add(solution); };
-  if (way.start == Start::nearest) {
+  if (way.start == StartKind::nearest) {
     const auto place = [&](std::size_t index, Eigen::VectorXd& coordinates) {
       if (index < way.instances) coordinates = instances.place(index);
       return index < way.instances;
@@ -160,7 +157,7 @@ void solve_in_lanes(Instances& instances, const Way& way, Tally& tally) {
   tally.batch = solve_batch(instances.program(), lanes, instances.start(), next, take, options);
 }
 
-void solve_in_a_loop(Instances& instances, const Way& way, Tally& tally) {
+void solve_in_a_loop(Instances& instances, const BatchCase& way, Tally& tally) {
   BatchInstance instance;
   for (std::size_t i = 0; i < way.instances; ++i) {
     instances.fill(i, instance);
@@ -188,7 +185,7 @@ void count_batch(benchmark::State& state, const BatchSummary& batch, double turn
 }
 
 /// Every turn solves all instances; its time is that of one of them.
-void run(benchmark::State& state, const Way& way) {
+void run(benchmark::State& state, const BatchCase& way) {
   set_thread_count(1);
   Instances instances(way.problem, way.start);
   Tally tally;
@@ -212,7 +209,7 @@ void run(benchmark::State& state, const Way& way) {
 }
 
 /// PROBLEM/START/WAY/threads_COUNT
-void add(const Way& way) {
+void add(const BatchCase& way) {
   const std::string name = fmt::format("{}/{}/{}/threads_{}", way.problem, name_of(way.start), way.name, way.threads);
   add_benchmark(name, benchmark::kMicrosecond, [way](benchmark::State& state) { run(state, way); })->Iterations(1);
 }
@@ -222,13 +219,13 @@ void register_batches() {
   constexpr std::size_t of_ipopt = 32;
   const std::size_t all_threads = thread_count();
   for (const std::string& problem : paper_problem_names()) {
-    for (const Start start : {Start::cold, Start::warm, Start::nearest}) {
+    for (const StartKind start : {StartKind::cold, StartKind::warm, StartKind::nearest}) {
       const auto variant = [&](const char* name, std::size_t threads, std::size_t instances) {
         add({.problem = problem, .start = start, .name = name, .threads = threads, .instances = instances});
       };
       variant("batch", 1, most_instances);
       if (all_threads > 1) variant("batch", all_threads, most_instances);
-      if (start == Start::nearest) continue;  // whose loops are the warm ones
+      if (start == StartKind::nearest) continue;  // whose loops are the warm ones
       variant("fill", 1, most_instances);
       variant("interior_point", 1, of_interior_point);
       variant("ipopt", 1, of_ipopt);
@@ -252,7 +249,8 @@ Table batch_table(const Benchmarks& benchmarks) {
   Table table(columns);
   std::map<std::string, double> fastest;  // per problem and start: of the batch
   const auto key = [](const Benchmark& of) { return of.label("problem") + of.label("start"); };
-  const auto seconds = [](const Benchmark& of) { return 1e-9 * of.median_of("real_time").value_or(NAN); };
+  constexpr double nanosecond = 1e-9;
+  const auto seconds = [](const Benchmark& of) { return nanosecond * of.median_of("real_time").value_or(NAN); };
   for (const auto& [name, benchmark] : benchmarks) {
     if (benchmark.label("way") != "batch") continue;
     const auto [found, is_new] = fastest.emplace(key(benchmark), seconds(benchmark));
@@ -263,16 +261,14 @@ Table batch_table(const Benchmarks& benchmarks) {
     for (const char* label : {"problem", "start", "way", "threads", "instances"}) {
       row.set(label, benchmark.label(label));
     }
-    const std::vector<double>& times = benchmark.numbers.at("real_time");
-    const RatioInterval interval = ratio_interval(times);
-    row.set("repetitions", static_cast<int>(times.size()));
-    row.set("seconds", seconds(benchmark));
-    row.set("seconds_lower", 1e-9 * interval.lower);
-    row.set("seconds_upper", 1e-9 * interval.upper);
+    std::vector<double> times = benchmark.numbers.at("real_time");
+    for (double& time : times) time *= nanosecond;
+    row.set("repetitions", times.size());
+    set_median(row, "seconds", times);
     if (benchmark.label("way") != "fill") {
       row.set("solves_per_second", 1.0 / seconds(benchmark));
-      row.set("rate_lower", 1e9 / interval.upper);
-      row.set("rate_upper", 1e9 / interval.lower);
+      row.set("rate_lower", 1.0 / row.needed("seconds_upper"));
+      row.set("rate_upper", 1.0 / row.needed("seconds_lower"));
     }
     if (fastest.contains(key(benchmark))) row.set("ratio", seconds(benchmark) / fastest.at(key(benchmark)));
     for (const std::string& counter : counter_names()) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "bench/experiment/even_draws.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/element.hpp"
 #include "methods/transcription/grid.hpp"
@@ -18,8 +19,7 @@ namespace {
 
 /// Numbers around 1, the same on every run: no radius vanishes, and every angle is an ordinary one.
 Eigen::VectorXd random_numbers(std::mt19937_64& generator, std::size_t size) {
-  std::uniform_real_distribution<double> distribution(0.5, 1.5);
-  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return distribution(generator); });
+  return Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(size), [&] { return 0.5 + even(generator); });
 }
 
 Grid uneven_grid() {

@@ -10,14 +10,13 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
-#include "bench/summary/ratio_interval.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -35,33 +34,37 @@ constexpr double seconds_of_a_round = 0.02;
 /// Of an exponent: from here on the highest power shows.
 constexpr int first_fitted = 8;
 
+std::shared_ptr<const Problem> chain_of(int links) {
+  auto problem = make_problem("link_chain");
+  problem->set_parameter("links", links);
+  return problem;
+}
+
 /// The chain at its guess: what an iteration of `interior_point` evaluates, and the system that it then eliminates. A
 /// shift makes the Hessian positive definite, as the solver does where it is not.
 class Chain {
  public:
-  explicit Chain(int links) : links_(links), problem_(make_problem("link_chain")) {
-    problem_->set_parameter("links", links);
-    make_program();
+  explicit Chain(int links) : links_(links), made_(chain_of(links), "dmoc", intervals) {
     if (links > most_iterated) return;
-    primal_ = sample(*program_, guessed_motion(*problem_));
-    const auto constraints = static_cast<Eigen::Index>(program_->constraint_count());
+    const auto constraints = static_cast<Eigen::Index>(made_.program->constraint_count());
     multipliers_ = Eigen::VectorXd::Constant(constraints, small_multiplier);
-    hessian_.resize(static_cast<Eigen::Index>(program_->hessian_structure().size()));
-    jacobian_.resize(static_cast<Eigen::Index>(program_->jacobian_structure().size()));
-    gradient_.resize(primal_.size());
+    hessian_.resize(static_cast<Eigen::Index>(made_.program->hessian_structure().size()));
+    jacobian_.resize(static_cast<Eigen::Index>(made_.program->jacobian_structure().size()));
+    gradient_.resize(made_.start.size());
     residuals_.resize(constraints);
-    shift_ = Eigen::VectorXd::Constant(primal_.size(), large_shift);
-    step_.resize(primal_.size());
+    shift_ = Eigen::VectorXd::Constant(made_.start.size(), large_shift);
+    step_.resize(made_.start.size());
     step_of_multipliers_.resize(constraints);
-    auto made = kkt::IntervalKkt::make(*program_);
+    auto made = kkt::IntervalKkt::make(*made_.program);
     if (!made) throw Error(made.error());
     kkt_ = std::move(*made);
   }
 
   /// A round: the program is made, and iterations follow until the time of a round is over.
   void measure() {
-    if (!setup_seconds_.empty()) make_again();
-    setup_seconds_.push_back(last_setup_);
+    const bool is_first = setup_seconds_.empty();
+    setup_seconds_.push_back(is_first ? made_.setup_seconds
+                                      : GuessedProgram(made_.problem, "dmoc", intervals).setup_seconds);
     if (!kkt_) return;
     std::vector<double> of_evaluation;
     std::vector<double> of_elimination;
@@ -88,14 +91,14 @@ class Chain {
     row.set("intervals", intervals);
     row.set("links", links_);
     row.set("rounds", setup_seconds_.size());
-    const LocalFunctions& functions = program_->functions();
+    const LocalFunctions& functions = made_.program->functions();
     row.set("lagrangian_operations", functions.lagrangian.operation_count());
     row.set("hessian_operations", functions.hessian.schedule.operation_count());
-    set_interval(row, "setup_seconds", setup_seconds_);
+    set_median(row, "setup_seconds", setup_seconds_);
     if (evaluation_.empty()) return row;
     row.set("evaluation_ns", median(evaluation_));
     row.set("elimination_ns", median(elimination_));
-    set_interval(row, "iteration_ns", iteration_);
+    set_median(row, "iteration_ns", iteration_);
     return row;
   }
 
@@ -103,33 +106,12 @@ class Chain {
   static constexpr double small_multiplier = 0.01;
   static constexpr double large_shift = 1e4;
 
-  static void set_interval(Row& row, const std::string& column, const std::vector<double>& values) {
-    const RatioInterval time = ratio_interval(values);
-    row.set(column, median(values));
-    row.set(column + "_lower", time.lower);
-    row.set(column + "_upper", time.upper);
-  }
-
-  [[nodiscard]] std::unique_ptr<Transcription> transcribed() const {
-    return std::make_unique<Transcription>(*problem_, *make_element("dmoc"), make_tableau("gauss", 1),
-                                           Grid::uniform(intervals));
-  }
-  void make_program() {
-    const Clock::time_point begin = Clock::now();
-    program_ = transcribed();
-    last_setup_ = seconds_since(begin);
-  }
-  void make_again() {
-    const Clock::time_point begin = Clock::now();
-    static_cast<void>(transcribed());
-    last_setup_ = seconds_since(begin);
-  }
-
   void evaluate() {
-    program_->constraints(primal_, residuals_);
-    program_->gradient(primal_, gradient_);
-    program_->jacobian(primal_, jacobian_);
-    program_->hessian(primal_, 1.0, multipliers_, hessian_);
+    Transcription& program = *made_.program;
+    program.constraints(made_.start, residuals_);
+    program.gradient(made_.start, gradient_);
+    program.jacobian(made_.start, jacobian_);
+    program.hessian(made_.start, 1.0, multipliers_, hessian_);
   }
 
   void eliminate() {
@@ -139,10 +121,8 @@ class Chain {
   }
 
   int links_;
-  std::unique_ptr<Problem> problem_;
-  std::unique_ptr<Transcription> program_;
+  GuessedProgram made_;
   std::unique_ptr<kkt::IntervalKkt> kkt_;
-  Eigen::VectorXd primal_;
   Eigen::VectorXd multipliers_;
   Eigen::VectorXd hessian_;
   Eigen::VectorXd jacobian_;
@@ -152,7 +132,6 @@ class Chain {
   Eigen::VectorXd no_compliance_;
   Eigen::VectorXd step_;
   Eigen::VectorXd step_of_multipliers_;
-  double last_setup_ = 0.0;
   // A number per round.
   std::vector<double> setup_seconds_;
   std::vector<double> evaluation_;   // nanoseconds
@@ -174,24 +153,18 @@ std::string exponent_of(const Table& table, const std::string& column, const std
                      fitted->standard_error, fitted->points, fitted->finest, fitted->coarsest);
 }
 
-/// What a chain was to stay below, and whether it does; a busy machine shows upper bounds.
-std::string verdict_of(const Table& table, int links, const std::string& column, double target,
-                       const std::string& words) {
+/// Whether a chain stays below a target.
+std::string judged_chain(const Table& table, int links, const std::string& column, double target,
+                         const std::string& words) {
   for (const Row& row : table.rows()) {
     if (row.needed("links") != links) continue;
-    const double lower = row.number(column + "_lower", 0.0);
-    const double upper = row.number(column + "_upper", 0.0);
-    std::string verdict = "undecided";
-    if (upper <= target) {
-      verdict = "below";
-    } else if (is_busy()) {
-      verdict = "not judged on a busy machine";
-    } else if (lower > target) {
-      verdict = "above";
-    }
-    if (row.needed("rounds") < fewest_rounds) verdict = "too few rounds";
-    return fmt::format("- {}, {} links: {:.3g} ({:.3g} to {:.3g}), {:.3g} wanted: {}\n", words, links,
-                       row.needed(column), lower, upper, target, verdict);
+    const RatioInterval time{.ratio = row.needed(column),
+                             .lower = row.needed(column + "_lower"),
+                             .upper = row.needed(column + "_upper"),
+                             .rounds = static_cast<std::size_t>(row.needed("rounds")),
+                             .resampled = {}};
+    return fmt::format("- {}, {} links: {:.3g} ({:.3g} to {:.3g}), {:.3g} wanted: {}\n", words, links, time.ratio,
+                       time.lower, time.upper, target, verdict_on_target(time, target));
   }
   return "";
 }
@@ -224,8 +197,8 @@ std::string page_of(const Table& table, const std::vector<std::string>& command)
   page += exponent_of(table, "iteration_ns", "time of both");
   page += exponent_of(table, "setup_seconds", "time of making the program");
   page += "\n## Targets\n\n";
-  page += verdict_of(table, 10, "iteration_ns", 6000.0, "nanoseconds per interval and iteration");
-  page += verdict_of(table, longest, "setup_seconds", 1.0, "seconds to make the program");
+  page += judged_chain(table, 10, "iteration_ns", 6000.0, "nanoseconds per interval and iteration");
+  page += judged_chain(table, longest, "setup_seconds", 1.0, "seconds to make the program");
   return page;
 }
 

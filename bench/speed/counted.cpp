@@ -3,14 +3,13 @@
 #include <exception>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <valgrind/callgrind.h>
 
 #include "bench/experiment/command_line.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/program/forwarding_program.hpp"
@@ -18,7 +17,6 @@
 #include "methods/runtime/parsed.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -80,16 +78,10 @@ class Slowed final : public ForwardingProgram {
 void count(const CountedSolve& solve, int extra) {
   const std::shared_ptr<Problem> problem = make_problem(solve.problem);
   if (!solve.parameter.empty()) problem->set_parameter(solve.parameter, solve.value);
-  const auto program = Case{.problem = problem,
-                            .method = solve.method,
-                            .tableau = "gauss",
-                            .stages = solve.stages,
-                            .grid = Grid::uniform(intervals)}
-                           .transcribe();
-  const Eigen::VectorXd guess = sample(*program, guessed_motion(*problem));
-  const Solution optimum = make_solver("interior_point")->solve(*program, guess);
+  const GuessedProgram made(problem, solve.method, intervals, solve.stages);
+  const Solution optimum = make_solver("interior_point")->solve(*made.program, made.start);
   if (!is_solved(optimum.status)) throw Error(fmt::format("{} is not solved: {}", solve.name(), optimum.message));
-  const Eigen::VectorXd start = 0.95 * optimum.primal + 0.05 * guess;
+  const Eigen::VectorXd start = 0.95 * optimum.primal + 0.05 * made.start;
 
   int asked = 0;
   SolverOptions options;
@@ -99,8 +91,8 @@ void count(const CountedSolve& solve, int extra) {
     return asked++ == iterations;
   };
   const auto solver = make_solver("interior_point", options);
-  Slowed slowed(*program, extra);
-  CountedProgram counted(extra > 0 ? static_cast<NonlinearProgram&>(slowed) : *program);
+  Slowed slowed(*made.program, extra);
+  CountedProgram counted(extra > 0 ? static_cast<NonlinearProgram&>(slowed) : *made.program);
   const auto run = solver->prepare(counted);
   if (!run) throw Error(fmt::format("{} is not eliminated interval by interval", solve.name()));
   Solution solution;

@@ -1,11 +1,11 @@
 // What makes interior_point faster than Ipopt, factor by factor: one thing is changed at a time, in rounds that take
 // turns.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +14,11 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "bench/speed/one_lane_kernel.hpp"
 #include "bench/summary/ratio_interval.hpp"
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/instruction_set.hpp"
@@ -27,7 +28,6 @@
 #include "methods/solvers/kkt/refined_kkt.hpp"
 #include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/transcription/derivative_back_end.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -92,12 +92,7 @@ const std::vector<Way>& ways() {
   return known;
 }
 
-const Way& way_named(const std::string& name) {
-  for (const Way& way : ways()) {
-    if (way.name == name) return way;
-  }
-  throw Error("there is no way " + name);
-}
+const Way& way_named(const std::string& name) { return one_of(ways(), &Way::name, name, "there is no way"); }
 
 /// What one way took for one program, round after round.
 struct Times {
@@ -109,22 +104,16 @@ struct Times {
 };
 using TimesByWay = std::map<std::string, Times>;
 
-struct Program {
+/// A program that several ways solve.
+struct SharedProgram {
   std::string problem;
   int intervals = 0;
   std::string derivatives = "tape";
 };
 
 /// Solves a program by every way, in turn.
-TimesByWay measure(const Program& of, const std::vector<std::string>& names, int rounds, double tolerance) {
-  const auto problem = std::shared_ptr<const Problem>(make_problem(of.problem));
-  const auto program = Case{.problem = problem,
-                            .method = "dmoc",
-                            .tableau = "gauss",
-                            .derivatives = of.derivatives,
-                            .grid = Grid::uniform(of.intervals)}
-                           .transcribe();
-  const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
+TimesByWay measure(const SharedProgram& of, const std::vector<std::string>& names, int rounds, double tolerance) {
+  const GuessedProgram made(make_problem(of.problem), "dmoc", of.intervals, 1, of.derivatives);
   SolverOptions options;
   options.tolerance = tolerance;
   options.most_seconds = 60.0;
@@ -134,7 +123,7 @@ TimesByWay measure(const Program& of, const std::vector<std::string>& names, int
       const Way& way = way_named(name);
       set_thread_count(way.threads);
       Times& of_way = times[name];
-      of_way.solution = way.make(options)->solve(*program, start);
+      of_way.solution = way.make(options)->solve(*made.program, made.start);
       of_way.seconds.push_back(of_way.solution.seconds);
       of_way.evaluation_seconds.push_back(of_way.solution.evaluation_seconds);
     }
@@ -149,17 +138,18 @@ bool are_same(const Times& a, const Times& b) {
          std::abs(a.solution.objective - b.solution.objective) <= equal * std::abs(b.solution.objective);
 }
 
-void set_program(Row& row, const Program& of) {
+void set_program(Row& row, const SharedProgram& of) {
   row.set("problem", of.problem);
   row.set("intervals", of.intervals);
   row.set("derivatives", of.derivatives);
 }
 
 /// A row per way: its time, its iterations, the time of one, and the share of derivatives.
-void append_ways(Table& table, const Program& of, const TimesByWay& times, const std::vector<std::string>& names) {
+void append_ways(Table& table, const SharedProgram& of, const TimesByWay& times,
+                 const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const Times& measured = times.at(name);
-    const RatioInterval seconds = ratio_interval(measured.seconds);
+    const double seconds = median(measured.seconds);
     Row row;
     set_program(row, of);
     row.set("way", name);
@@ -168,33 +158,31 @@ void append_ways(Table& table, const Program& of, const TimesByWay& times, const
     row.set("status", std::string(name_of(measured.solution.status)));
     row.set("iterations", measured.iterations());
     row.set("linear_systems", measured.solution.linear_systems);
-    row.set("seconds", seconds.ratio);
-    row.set("seconds_lower", seconds.lower);
-    row.set("seconds_upper", seconds.upper);
-    row.set("us_per_iteration", 1e6 * seconds.ratio / std::max(1.0, measured.iterations()));
-    row.set("evaluation_share", median(measured.evaluation_seconds) / seconds.ratio);
+    set_median(row, "seconds", measured.seconds);
+    row.set("us_per_iteration", 1e6 * seconds / std::max(1.0, measured.iterations()));
+    row.set("evaluation_share", median(measured.evaluation_seconds) / seconds);
     table.append(std::move(row));
   }
 }
 
 /// One thing that is changed.
-struct Step {
+struct Change {
   std::string order;
   std::string what;
   std::string from;
   std::string to;
 };
 
-/// The factor of a step, split into iterations and time per iteration; only a verdict where costs differ.
-void append_step(Table& table, const Program& of, const TimesByWay& times, const Step& step) {
-  const Times& from = times.at(step.from);
-  const Times& to = times.at(step.to);
+/// The factor of a change, split into iterations and time per iteration; only a verdict where costs differ.
+void append_change(Table& table, const SharedProgram& of, const TimesByWay& times, const Change& change) {
+  const Times& from = times.at(change.from);
+  const Times& to = times.at(change.to);
   Row row;
   set_program(row, of);
-  row.set("order", step.order);
-  row.set("changed", step.what);
-  row.set("from", step.from);
-  row.set("to", step.to);
+  row.set("order", change.order);
+  row.set("changed", change.what);
+  row.set("from", change.from);
+  row.set("to", change.to);
   if (!are_same(from, to)) {
     row.set("verdict", "not both solved with equal costs");
   } else {
@@ -215,8 +203,8 @@ void append_step(Table& table, const Program& of, const TimesByWay& times, const
   table.append(std::move(row));
 }
 
-const std::vector<Step>& steps() {
-  static const std::vector<Step> all{
+const std::vector<Change>& changes() {
+  static const std::vector<Change> all{
       {"both", "the method", "ipopt", "mumps"},
       {"both", "the order of elimination", "mumps", "dissection"},
       {"lanes first", "elimination by intervals", "dissection", "one_lane"},
@@ -231,15 +219,78 @@ const std::vector<Step>& steps() {
 
 constexpr const char* words_of_page =
     "DMOC with the midpoint rule, from the problem's own guess; all solve the same program with the same derivatives "
-    "and "
-    "stop by one rule. Medians over rounds in which every way solves once, with 99 % intervals (bootstrap). A factor "
-    "is "
-    "the ratio of the seconds before and after a change, round by round, and the product of the ratio of iterations, "
-    "which no load changes, and that of the time per iteration. Lanes and sizes are switched in both orders: where "
-    "their "
-    "factors differ between the orders, they act together. Ipopt takes no order of elimination from outside, so the "
-    "first "
-    "two steps have one order only.\n\n";
+    "and stop by one rule. Medians over rounds in which every way solves once, with 99 % intervals (bootstrap). A "
+    "factor is the ratio of the seconds before and after a change, round by round, and the product of the ratio of "
+    "iterations, which no load changes, and that of the time per iteration. Lanes and sizes are switched in both "
+    "orders: where their factors differ between the orders, they act together. Ipopt takes no order of elimination "
+    "from outside, so the first two steps have one order only.\n\n";
+
+/// The table of ways, and that of factors.
+struct MeasuredFactors {
+  Table of_ways{std::vector<std::string>{"problem", "intervals", "derivatives", "way", "words", "rounds", "status",
+                                         "iterations", "linear_systems", "seconds", "seconds_lower", "seconds_upper",
+                                         "us_per_iteration", "evaluation_share"}};
+  Table of_changes{std::vector<std::string>{"problem", "intervals", "derivatives", "order", "changed", "from", "to",
+                                            "factor", "ratio_lower", "ratio_upper", "round_ratios", "of_iterations",
+                                            "of_time_per_iteration", "of_time_lower", "of_time_upper", "verdict"}};
+
+  /// Solves a program by all ways that the changes name.
+  void measure_program(const SharedProgram& of, const std::vector<Change>& of_program, int rounds, double tolerance) {
+    std::vector<std::string> names;
+    for (const Way& way : ways()) {
+      const auto names_it = [&](const Change& change) { return change.from == way.name || change.to == way.name; };
+      if (std::ranges::any_of(of_program, names_it)) names.push_back(way.name);
+    }
+    const TimesByWay times = measure(of, names, rounds, tolerance);
+    append_ways(of_ways, of, times, names);
+    for (const Change& change : of_program) append_change(of_changes, of, times, change);
+  }
+};
+
+MeasuredFactors measure_all(int rounds) {
+  constexpr double tolerance = 1e-10;
+  constexpr double of_differences = 1e-6;  // differences reach no lower one: all back ends get one that they can
+  MeasuredFactors measured;
+  for (const std::string& problem : paper_problem_names()) {
+    measured.measure_program({problem, 1024}, changes(), rounds, tolerance);
+    measured.measure_program({problem, 65536}, {{"threads", "two threads", "sized", "two_threads"}}, rounds, tolerance);
+    for (const std::string& derivatives : derivative_back_end_names()) {
+      measured.measure_program({problem, 128, derivatives}, {{"back ends", "the solver", "ipopt", "sized"}}, rounds,
+                               of_differences);
+    }
+  }
+  return measured;
+}
+
+std::string tables_on_page(const MeasuredFactors& measured) {
+  return "## Factors\n\n" +
+         page_table(measured.of_changes.rows(), {{"problem", "problem"},
+                                                 {"intervals", "N", 9},
+                                                 {"derivatives", "derivatives"},
+                                                 {"order", "order"},
+                                                 {"changed", "changed"},
+                                                 {"factor", "factor"},
+                                                 {"ratio_lower", "from"},
+                                                 {"ratio_upper", "to"},
+                                                 {"of_iterations", "of iterations"},
+                                                 {"of_time_per_iteration", "of time per iteration"},
+                                                 {"of_time_lower", "from"},
+                                                 {"of_time_upper", "to"},
+                                                 {"verdict", "verdict"}}) +
+         "## Times\n\n" +
+         page_table(measured.of_ways.rows(), {{"problem", "problem"},
+                                              {"intervals", "N", 9},
+                                              {"derivatives", "derivatives"},
+                                              {"words", "by"},
+                                              {"seconds", "seconds"},
+                                              {"seconds_lower", "from"},
+                                              {"seconds_upper", "to"},
+                                              {"iterations", "iterations", 9},
+                                              {"linear_systems", "systems", 9},
+                                              {"us_per_iteration", "µs per iteration"},
+                                              {"evaluation_share", "share of derivatives", 2},
+                                              {"status", "status"}});
+}
 
 int run_factors(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path out = "results";
@@ -251,68 +302,11 @@ int run_factors(CommandLine& line, const std::vector<std::string>& command) {
   if (preferred_instruction_set() == InstructionSet::baseline)
     throw Error("one lane is compiled for processors with AVX2");
   const OutputFolder folder(out);
-
-  Table table({"problem", "intervals", "derivatives", "way", "words", "rounds", "status", "iterations",
-               "linear_systems", "seconds", "seconds_lower", "seconds_upper", "us_per_iteration", "evaluation_share"});
-  Table factors({"problem", "intervals", "derivatives", "order", "changed", "from", "to", "factor", "ratio_lower",
-                 "ratio_upper", "round_ratios", "of_iterations", "of_time_per_iteration", "of_time_lower",
-                 "of_time_upper", "verdict"});
-  constexpr double tolerance = 1e-10;
-  const std::vector<std::string> on_one{"ipopt",       "mumps",          "dissection", "one_lane",
-                                        "eight_lanes", "one_lane_sized", "sized"};
-  const std::vector<std::string> on_two{"sized", "two_threads"};
-  const std::vector<std::string> solvers{"ipopt", "sized"};
-  for (const std::string& problem : paper_problem_names()) {
-    const Program usual{problem, 1024};
-    const TimesByWay times = measure(usual, on_one, rounds, tolerance);
-    append_ways(table, usual, times, on_one);
-    for (const Step& step : steps()) append_step(factors, usual, times, step);
-
-    const Program long_one{problem, 65536};
-    const TimesByWay on_threads = measure(long_one, on_two, rounds, tolerance);
-    append_ways(table, long_one, on_threads, on_two);
-    append_step(factors, long_one, on_threads, {"threads", "two threads", "sized", "two_threads"});
-
-    // Differences cannot reach the usual tolerance: all back ends get one that they can.
-    constexpr double of_differences = 1e-6;
-    for (const std::string& derivatives : derivative_back_end_names()) {
-      const Program differentiated{problem, 128, derivatives};
-      const TimesByWay by_back_end = measure(differentiated, solvers, rounds, of_differences);
-      append_ways(table, differentiated, by_back_end, solvers);
-      append_step(factors, differentiated, by_back_end, {"back ends", "the solver", "ipopt", "sized"});
-    }
-  }
-  write_file(out / "speed_factors.csv", table.csv());
-  write_file(out / "speed_factors_steps.csv", factors.csv());
-  std::string page = page_head("Why interior_point is faster than Ipopt, factor by factor", command) + words_of_page;
-  page += "## Factors\n\n";
-  page += page_table(factors.rows(), {{"problem", "problem"},
-                                      {"intervals", "N", 9},
-                                      {"derivatives", "derivatives"},
-                                      {"order", "order"},
-                                      {"changed", "changed"},
-                                      {"factor", "factor"},
-                                      {"ratio_lower", "from"},
-                                      {"ratio_upper", "to"},
-                                      {"of_iterations", "of iterations"},
-                                      {"of_time_per_iteration", "of time per iteration"},
-                                      {"of_time_lower", "from"},
-                                      {"of_time_upper", "to"},
-                                      {"verdict", "verdict"}});
-  page += "## Times\n\n";
-  page += page_table(table.rows(), {{"problem", "problem"},
-                                    {"intervals", "N", 9},
-                                    {"derivatives", "derivatives"},
-                                    {"words", "by"},
-                                    {"seconds", "seconds"},
-                                    {"seconds_lower", "from"},
-                                    {"seconds_upper", "to"},
-                                    {"iterations", "iterations", 9},
-                                    {"linear_systems", "systems", 9},
-                                    {"us_per_iteration", "µs per iteration"},
-                                    {"evaluation_share", "share of derivatives", 2},
-                                    {"status", "status"}});
-  write_page(out / "speed_factors.md", page);
+  const MeasuredFactors measured = measure_all(rounds);
+  write_file(out / "speed_factors.csv", measured.of_ways.csv());
+  write_file(out / "speed_factors_steps.csv", measured.of_changes.csv());
+  write_page(out / "speed_factors.md", page_head("Why interior_point is faster than Ipopt, factor by factor", command) +
+                                           words_of_page + tables_on_page(measured));
   return 0;
 }
 

@@ -38,8 +38,13 @@ template <class Function, class Formulas>
 [[gnu::always_inline]] inline void for_each_interval(std::size_t intervals, const HandColumns& columns,
                                                      const Function& function, const Formulas& formulas) {
   constexpr std::size_t width = 64;
-  alignas(64) std::array<double, width> theta_1{}, theta_2{}, difference{}, sine{}, cosine{}, function_1{},
-      function_2{};
+  alignas(64) std::array<double, width> theta_1{};
+  alignas(64) std::array<double, width> theta_2{};
+  alignas(64) std::array<double, width> difference{};
+  alignas(64) std::array<double, width> sine{};
+  alignas(64) std::array<double, width> cosine{};
+  alignas(64) std::array<double, width> function_1{};
+  alignas(64) std::array<double, width> function_2{};
   const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step] = first<7>(columns.in);
   for (std::size_t begin = 0; begin < intervals; begin += width) {
     const std::size_t count = std::min(width, intervals - begin);

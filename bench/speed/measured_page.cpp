@@ -39,10 +39,8 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
   if (is_busy()) {
     head +=
         "\nOther work kept the machine busy: times are upper bounds, and ratios are those of this load, because a "
-        "solve of "
-        "a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged but that "
-        "a "
-        "time is below a target.\n";
+        "solve of a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged "
+        "but that a time is below a target.\n";
   }
   return head + "\n";
 }
@@ -56,6 +54,20 @@ int run_page_program(const std::string& name, const std::string& description, in
                      const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run) {
   const std::vector<std::string> command(argv, argv + argc);
   return run_program(name, description, argc, argv, [&](CommandLine& line) { return run(line, command); });
+}
+
+void set_median(Row& row, const std::string& column, std::span<const double> of_rounds) {
+  const RatioInterval interval = ratio_interval(of_rounds);
+  row.set(column, interval.ratio);
+  row.set(column + "_lower", interval.lower);
+  row.set(column + "_upper", interval.upper);
+}
+
+std::string verdict_on_target(const RatioInterval& time, double target) {
+  if (time.rounds < fewest_rounds) return "too few rounds";
+  if (time.upper <= target) return "below";
+  if (is_busy()) return "not judged on a busy machine";
+  return time.lower > target ? "above" : "undecided";
 }
 
 std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns) {

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/experiment/command_line.hpp"
+#include "bench/summary/ratio_interval.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
@@ -29,6 +31,14 @@ void write_page(const std::filesystem::path& file, const std::string& page);
 [[nodiscard]] int run_page_program(
     const std::string& name, const std::string& description, int argc, char** argv,
     const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run);
+
+/// Sets COLUMN, COLUMN_lower and COLUMN_upper: the median of what was measured round by round, with its 99 % interval
+/// (bootstrap). Throws `Error` as `ratio_interval` does.
+void set_median(Row& row, const std::string& column, std::span<const double> of_rounds);
+
+/// Whether a time stays below a target: "below", "above", "undecided", or why nothing is said. A busy machine shows
+/// upper bounds, which say nothing against the program.
+[[nodiscard]] std::string verdict_on_target(const RatioInterval& time, double target);
 
 /// Whether other programs wanted a processor when this was first asked, which a program does before it measures.
 [[nodiscard]] bool is_busy();

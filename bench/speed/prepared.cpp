@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/speed_tables.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
@@ -39,27 +40,24 @@ constexpr double microseconds = 1e6;  // of a second
 /// A program with a start. A cold one is the problem's guess; a warm one is the motion, with its multipliers, that is
 /// optimal for an end state of which every entry that is not zero is by one percent smaller, moved to the ends.
 struct StartedProgram {
-  std::unique_ptr<Problem> problem;
-  std::unique_ptr<Transcription> program;
+  GuessedProgram made;
   Eigen::VectorXd start;
   Eigen::VectorXd multipliers;
 
   explicit StartedProgram(const RepeatedSolve& solve)
-      : problem(make_problem(solve.problem)),
-        program(std::make_unique<Transcription>(*problem, *make_element(solve.method), make_tableau("gauss", 1),
-                                                Grid::uniform(solve.intervals))),
-        start(sample(*program, guessed_motion(*problem))) {
+      : made(make_problem(solve.problem), solve.method, solve.intervals), start(made.start) {
     if (!solve.is_warm) return;
-    BoundaryState end = problem->final_state();
+    Transcription& program = *made.program;
+    BoundaryState end = made.problem->final_state();
     end.q *= 0.99;
     end.v *= 0.99;
-    program->set_final_state(end);
-    const Solution neighbour = make_solver("interior_point")->solve(*program, start);
+    program.set_final_state(end);
+    const Solution neighbour = make_solver("interior_point")->solve(program, made.start);
     if (!is_solved(neighbour.status)) throw Error("the neighbour of the warm start is not solved");
     multipliers = neighbour.multipliers;
-    const Motion motion = smooth_motion(read_trajectory(*program, neighbour.primal, multipliers));
-    program->set_final_state(problem->final_state());
-    start = sample(*program, moved_to_ends(motion, program->bounds()));
+    const Motion motion = smooth_motion(read_trajectory(program, neighbour.primal, multipliers));
+    program.set_final_state(made.problem->final_state());
+    start = sample(program, moved_to_ends(motion, program.bounds()));
   }
 };
 
@@ -71,7 +69,7 @@ double seconds_per_interval(const RepeatedSolve& solve) {
   const auto [entry, is_new] = known.try_emplace({solve.problem, solve.method}, 0.0);
   if (!is_new) return entry->second;
   const StartedProgram long_one({solve.problem, solve.method, many, false});
-  PreparedSolve prepared(*long_one.program);
+  PreparedSolve prepared(*long_one.made.program);
   std::vector<double> seconds;
   for (int i = 0; i < turns; ++i) seconds.push_back(prepared.solve(long_one.start).seconds);
   entry->second = median(seconds) / many / prepared.solution().major_iterations.value_or(1);
@@ -92,8 +90,8 @@ void run(benchmark::State& state, const RepeatedSolve& solve) {
   SolverOptions options;
   options.start_multipliers = given.multipliers;
   const auto solver = make_solver("interior_point", options);
-  PreparedSolve prepared(*given.program);
-  PreparedSolve by_residuals(*given.program, "interior_point", {}, PreparedSolve::Judgement::residuals_only);
+  PreparedSolve prepared(*given.made.program);
+  PreparedSolve by_residuals(*given.made.program, "interior_point", {}, PreparedSolve::Judgement::residuals_only);
   static_cast<void>(prepared.solve(given.start, given.multipliers));
   static_cast<void>(by_residuals.solve(given.start, given.multipliers));
   Solution plain;
@@ -101,7 +99,7 @@ void run(benchmark::State& state, const RepeatedSolve& solve) {
   std::vector<double> prepared_seconds;
   std::vector<double> residual_seconds;
   for ([[maybe_unused]] auto turn : state) {
-    plain_seconds.push_back(seconds_of([&] { plain = solver->solve(*given.program, given.start); }));
+    plain_seconds.push_back(seconds_of([&] { plain = solver->solve(*given.made.program, given.start); }));
     prepared_seconds.push_back(seconds_of([&] { static_cast<void>(prepared.solve(given.start, given.multipliers)); }));
     residual_seconds.push_back(
         seconds_of([&] { static_cast<void>(by_residuals.solve(given.start, given.multipliers)); }));

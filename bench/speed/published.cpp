@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,13 +11,10 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
-#include "bench/summary/ratio_interval.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
-#include "methods/numerics/median.hpp"
-#include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
@@ -33,7 +29,7 @@ struct OwnSolve {
   std::string problem;
   std::string method;
   int intervals = 0;
-  double target = 0.0;  ///< seconds that we set out to stay below; 0 for none
+  double target = 0.0;  ///< seconds that its time is judged by; 0 for none
   int stages = 1;
   bool is_straight = false;  ///< starts at the straight line between the ends and not at the problem's guess
 };
@@ -55,38 +51,22 @@ const std::vector<OwnSolve>& own_solves() {
   return solves;
 }
 
-/// Whether a time is below a target. A busy machine shows upper bounds, which say nothing against the program.
-std::string verdict(const RatioInterval& time, double target) {
-  if (time.rounds < fewest_rounds) return "too few rounds";
-  if (time.upper <= target) return "below";
-  if (is_busy()) return "not judged on a busy machine";
-  return time.lower > target ? "above" : "undecided";
-}
-
 /// A program of ours, made once and solved in every round.
-class Measured {
+class TimedRival {
  public:
-  explicit Measured(OwnSolve solve) : solve_(std::move(solve)), problem_(make_problem(solve_.problem)) {
-    const auto begin = Clock::now();
-    program_ = Case{.problem = problem_,
-                    .method = solve_.method,
-                    .tableau = "gauss",
-                    .stages = solve_.stages,
-                    .grid = Grid::uniform(solve_.intervals)}
-                   .transcribe();
-    setup_seconds_ = seconds_since(begin);
-    const Motion straight{.at = [this](double t) { return problem_->Problem::guess(t); },
-                          .horizon = problem_->horizon()};
-    start_ = sample(*program_, solve_.is_straight ? straight : guessed_motion(*problem_));
+  explicit TimedRival(OwnSolve solve)
+      : solve_(std::move(solve)), made_(make_problem(solve_.problem), solve_.method, solve_.intervals, solve_.stages) {
+    const Problem& problem = *made_.problem;
+    const Motion straight{.at = [&](double t) { return problem.Problem::guess(t); }, .horizon = problem.horizon()};
+    if (solve_.is_straight) made_.start = sample(*made_.program, straight);
   }
 
   void solve() {
-    solution_ = make_solver("interior_point")->solve(*program_, start_);
+    solution_ = make_solver("interior_point")->solve(*made_.program, made_.start);
     seconds_.push_back(solution_.seconds);
   }
 
   [[nodiscard]] Row row() const {
-    const RatioInterval time = ratio_interval(seconds_);
     Row row;
     row.set("problem", solve_.problem);
     row.set("intervals", solve_.intervals);
@@ -95,28 +75,23 @@ class Measured {
     row.set("where", "here");
     row.set("machine", fmt::format("here, {} threads", thread_count()));
     row.set("rounds", seconds_.size());
-    row.set("setup_seconds", setup_seconds_);
+    row.set("setup_seconds", made_.setup_seconds);
     row.set("iterations", solution_.major_iterations);
     row.set("status", std::string(name_of(solution_.status)));
     if (!is_solved(solution_.status)) return row;
-    row.set("seconds", median(seconds_));
-    row.set("seconds_lower", time.lower);
-    row.set("seconds_upper", time.upper);
+    set_median(row, "seconds", seconds_);
     row.set("smallest_seconds", std::ranges::min(seconds_));
-    row.set("objective", solution_.objective / problem_->cost_scale());
+    row.set("objective", solution_.objective / made_.problem->cost_scale());
     if (solve_.target > 0.0) {
       row.set("target", solve_.target);
-      row.set("verdict", verdict(time, solve_.target));
+      row.set("verdict", verdict_on_target(ratio_interval(seconds_), solve_.target));
     }
     return row;
   }
 
  private:
   OwnSolve solve_;
-  std::shared_ptr<const Problem> problem_;
-  std::unique_ptr<Transcription> program_;
-  double setup_seconds_ = 0.0;
-  Eigen::VectorXd start_;
+  GuessedProgram made_;
   Solution solution_;
   std::vector<double> seconds_;
 };
@@ -134,10 +109,8 @@ std::string order_of_beam(const std::string& method) {
   std::vector<GridError> errors;
   const auto problem = std::shared_ptr<const Problem>(make_problem("beam"));
   for (const int intervals : {160, 320, 640, 1280, 2560}) {
-    const auto program =
-        Case{.problem = problem, .method = method, .tableau = "gauss", .grid = Grid::uniform(intervals)}.transcribe();
-    const Solution solution =
-        make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(*problem)));
+    const GuessedProgram made(problem, method, intervals);
+    const Solution solution = make_solver("interior_point")->solve(*made.program, made.start);
     if (!is_solved(solution.status)) continue;
     errors.push_back(
         {1.0 / intervals, std::abs(solution.objective / problem->cost_scale() - problem->card().reference->objective)});
@@ -167,6 +140,58 @@ std::vector<Row> published_rows(const std::filesystem::path& file, const std::ve
   return rows;
 }
 
+constexpr const char* words_of_page =
+    "Rows that name a source were measured elsewhere, on other machines, by other discretisations and to other "
+    "tolerances; they are divided by nothing. Ours: `interior_point`, tolerance 1e-10, medians with their 99 % "
+    "intervals (bootstrap), the time of the solver without making the program, which has a column. `cost off`: from "
+    "the problem's reference, as a share of it.\n\n";
+
+/// The rows of others and of us, those of one problem and number of intervals beside each other.
+Table table_of(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {
+  Table table({"position", "problem",       "intervals",     "who",           "where",      "machine",   "rounds",
+               "seconds",  "seconds_lower", "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error",
+               "status",   "target",        "verdict",       "tolerance",     "differs",    "source"});
+  const auto are_beside = [](const Row& row, const Row& other) {
+    return row.text("problem") == other.text("problem") && row.text("intervals") == other.text("intervals");
+  };
+  int position = 0;
+  const Row* first = nullptr;  // of those beside each other
+  for (const Row& other : others) {
+    if (first != nullptr && are_beside(*first, other)) continue;
+    first = &other;
+    ++position;
+    const auto take = [&](Row row) {
+      if (!are_beside(row, other)) return;
+      row.set("position", position);
+      set_cost_error(row);
+      table.append(std::move(row));
+    };
+    for (const Row& row : others) take(row);
+    for (const auto& rival : ours) take(rival->row());
+  }
+  return table;
+}
+
+std::string table_on_page(const Table& table) {
+  return page_table(table.rows(), {{"problem", "problem"},
+                                   {"intervals", "N", 9},
+                                   {"who", "by"},
+                                   {"machine", "on"},
+                                   {"seconds", "seconds"},
+                                   {"seconds_lower", "from"},
+                                   {"seconds_upper", "to"},
+                                   {"smallest_seconds", "smallest"},
+                                   {"setup_seconds", "making"},
+                                   {"iterations", "iterations", 9},
+                                   {"objective", "cost", 10},
+                                   {"cost_error", "cost off", 2},
+                                   {"status", "status"},
+                                   {"target", "target"},
+                                   {"verdict", "verdict"},
+                                   {"differs", "what differs"},
+                                   {"source", "source"}});
+}
+
 int run_published(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path published = "bench/speed/published.csv";
   std::filesystem::path out = "results";
@@ -187,55 +212,16 @@ int run_published(CommandLine& line, const std::vector<std::string>& command) {
   const OutputFolder folder(out);
   set_thread_count(static_cast<std::size_t>(threads));
 
-  std::vector<std::unique_ptr<Measured>> ours;
+  std::vector<std::unique_ptr<TimedRival>> ours;
   for (const OwnSolve& solve : own_solves()) {
-    if (is_asked_for(solve.problem)) ours.push_back(std::make_unique<Measured>(solve));
+    if (is_asked_for(solve.problem)) ours.push_back(std::make_unique<TimedRival>(solve));
   }
   for (int round = 0; round < rounds; ++round) {
-    for (const auto& measured : ours) measured->solve();
+    for (const auto& rival : ours) rival->solve();
   }
-
-  Table table({"position", "problem",       "intervals",     "who",           "where",      "machine",   "rounds",
-               "seconds",  "seconds_lower", "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error",
-               "status",   "target",        "verdict",       "tolerance",     "differs",    "source"});
-  std::vector<std::string> groups;
-  for (const Row& other : others) {
-    const std::string group = other.text("problem") + " " + other.text("intervals");
-    if (!groups.empty() && groups.back() == group) continue;
-    groups.push_back(group);
-    const auto take = [&](Row row) {
-      if (row.text("problem") + " " + row.text("intervals") != group) return;
-      row.set("position", groups.size());
-      set_cost_error(row);
-      table.append(std::move(row));
-    };
-    for (const Row& row : others) take(row);
-    for (const auto& measured : ours) take(measured->row());
-  }
+  const Table table = table_of(others, ours);
   write_file(out / "speed_published.csv", table.csv());
-  std::string page = page_head("Published times beside ours", command);
-  page +=
-      "Rows that name a source were measured elsewhere, on other machines, by other discretisations and to other "
-      "tolerances; they are divided by nothing. Ours: `interior_point`, tolerance 1e-10, medians with their 99 % "
-      "intervals (bootstrap), the time of the solver without making the program, which has a column. `cost off`: from "
-      "the problem's reference, as a share of it.\n\n";
-  page += page_table(table.rows(), {{"problem", "problem"},
-                                    {"intervals", "N", 9},
-                                    {"who", "by"},
-                                    {"machine", "on"},
-                                    {"seconds", "seconds"},
-                                    {"seconds_lower", "from"},
-                                    {"seconds_upper", "to"},
-                                    {"smallest_seconds", "smallest"},
-                                    {"setup_seconds", "making"},
-                                    {"iterations", "iterations", 9},
-                                    {"objective", "cost", 10},
-                                    {"cost_error", "cost off", 2},
-                                    {"status", "status"},
-                                    {"target", "target"},
-                                    {"verdict", "verdict"},
-                                    {"differs", "what differs"},
-                                    {"source", "source"}});
+  std::string page = page_head("Published times beside ours", command) + words_of_page + table_on_page(table);
   if (is_asked_for("beam")) {
     for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
   }

@@ -9,11 +9,11 @@
 #include <fmt/ranges.h>
 
 #include "bench/experiment/command_line.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "bench/summary/paired_solves.hpp"
-#include "bench/summary/quantile.hpp"
 #include "methods/error.hpp"
+#include "methods/numerics/quantile.hpp"
+#include "methods/tables/table_file.hpp"
 
 namespace dmocbench::speed {
 
@@ -63,8 +63,7 @@ std::string iterations_in_words(const std::vector<SolvePair>& pairs) {
   const auto above = std::ranges::count_if(ratios, [](double ratio) { return ratio > bearable; });
   return fmt::format(
       "Iterations of interior_point over those of Ipopt, of the {} that both solve: median {:.3g}, quartiles {:.3g} "
-      "and "
-      "{:.3g}, largest {:.3g}; above {} in {:.1f} %.\n\n",
+      "and {:.3g}, largest {:.3g}; above {} in {:.1f} %.\n\n",
       ratios.size(), *quantile(ratios, 0.5), *quantile(ratios, 0.25), *quantile(ratios, 0.75), ratios.back(), bearable,
       100.0 * static_cast<double>(above) / static_cast<double>(ratios.size()));
 }
@@ -83,8 +82,7 @@ std::string lost_since(const std::vector<SolvePair>& pairs) {
   if (unsettled > 0) {
     text += fmt::format(
         "Of these, {} have a KKT residual within the tolerance as before and are \"not confirmed\" because a Newton "
-        "step "
-        "would still move the answer, which earlier builds did not ask.\n\n",
+        "step would still move the answer, which earlier builds did not ask.\n\n",
         unsettled);
   }
   return text;
@@ -186,8 +184,9 @@ std::string starts_section(const Selection& starts) {
   return text;
 }
 
-Table read_table(const std::filesystem::path& file) {
-  Table table = Table::from_csv(read_file(file));
+/// A table whose rows know their places, for errors.
+Table placed_table(const std::filesystem::path& file) {
+  Table table = read_table(file);
   table.name_places(file.filename().string());
   return table;
 }
@@ -204,8 +203,8 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
   line.parse();
   if (solves.empty()) throw Error("--solves: name the table of `profile` that the page is made of");
   static_cast<void>(is_busy());
-  const Table table = read_table(solves);
-  const Table before = earlier.empty() ? Table() : read_table(earlier);
+  const Table table = placed_table(solves);
+  const Table before = earlier.empty() ? Table() : placed_table(earlier);
   const Selection now = Selection(table).where("solver", ours);
   const Selection ipopt = Selection(table).where("solver", other);
   const Selection then = Selection(before).where("solver", ours);
@@ -226,7 +225,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
   page += "Cells that interior_point solved before and does not now: ";
   page += lost_since(paired_solves(now, then, columns_of_cell));
   page += iterations_in_words(beside_ipopt);
-  if (!starts.empty()) page += starts_section(read_table(starts));
+  if (!starts.empty()) page += starts_section(placed_table(starts));
   for (const Selection& cells : now.group_by({"intervals"})) {
     page += fmt::format("## N = {}\n\n", cells.front().text("intervals"));
     page += cells_table(cells, ipopt, then);

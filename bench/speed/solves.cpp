@@ -15,13 +15,11 @@
 #include <malloc.h>
 #endif
 
-#include "bench/experiment/solve_case.hpp"
 #include "bench/speed/benchmark_program.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/speed_tables.hpp"
-#include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
 
@@ -63,24 +61,12 @@ struct SolveCase {
   int threads = 1;
 };
 
-/// A program with its start, and how long the program took to make.
-struct TimedProgram {
-  std::unique_ptr<Transcription> program;
-  Eigen::VectorXd start;
-  double seconds = 0.0;
-
-  explicit TimedProgram(const SolveCase& solve) {
-    const std::shared_ptr<const Problem> problem = solve.problem == TwoLinkManipulatorBounded::own_name
-                                                       ? std::make_shared<TwoLinkManipulatorBounded>()
-                                                       : std::shared_ptr<const Problem>(make_problem(solve.problem));
-    const auto begin = Clock::now();
-    program =
-        Case{.problem = problem, .method = solve.method, .tableau = "gauss", .grid = Grid::uniform(solve.intervals)}
-            .transcribe();
-    seconds = seconds_since(begin);
-    start = sample(*program, guessed_motion(*problem));
-  }
-};
+GuessedProgram program_of(const SolveCase& solve) {
+  const std::shared_ptr<const Problem> problem = solve.problem == TwoLinkManipulatorBounded::own_name
+                                                     ? std::make_shared<TwoLinkManipulatorBounded>()
+                                                     : std::shared_ptr<const Problem>(make_problem(solve.problem));
+  return {problem, solve.method, solve.intervals};
+}
 
 std::unique_ptr<Solver> make_solver_of(const SolveCase& solve) {
   SolverOptions options;
@@ -101,7 +87,7 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
   std::ofstream references("/proc/self/clear_refs");
   references << "5" << std::flush;  // the peak becomes what is in use now, proc(5)
   const auto before = references.good() ? bytes_of("VmRSS:") : std::nullopt;
-  const TimedProgram made(solve);
+  const GuessedProgram made = program_of(solve);
   (void)make_solver_of(solve)->solve(*made.program, made.start);
   const auto peak = bytes_of("VmHWM:");
   return before && peak ? std::optional(std::max(0.0, *peak - *before)) : std::nullopt;
@@ -113,7 +99,7 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
 /// Every repetition makes the program anew. So making it is measured as often as solving it, the place of its arrays is
 /// part of the noise that the repetitions tell, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
-  const TimedProgram made(solve);
+  const GuessedProgram made = program_of(solve);
   const auto solver = make_solver_of(solve);
   Solution solution;
   double seconds = 0.0;
@@ -135,7 +121,7 @@ void run(benchmark::State& state, const SolveCase& solve, std::optional<double> 
   state.counters["evaluation_share"] = evaluation_seconds / seconds;
   state.counters["ns_per_interval_iteration"] = 1e9 * seconds / interval_turns / std::max(1.0, iterations);
   if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;
-  state.counters["setup_seconds"] = made.seconds;
+  state.counters["setup_seconds"] = made.setup_seconds;
 }
 
 /// [library/]PROBLEM/METHOD/INTERVALS/SOLVER[/threads_COUNT]; one thread is not named.

@@ -1,10 +1,9 @@
 // What a second thread gains: whole solves of long horizons on one thread and on several, in rounds that take turns,
 // beside what the machine gains by them where nothing is shared.
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +13,7 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/speed/guessed_program.hpp"
 #include "bench/speed/kernels.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "bench/summary/ratio_interval.hpp"
@@ -25,7 +24,6 @@
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
-#include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -74,7 +72,7 @@ class Ceiling {
     row.set("rounds", gains.size());
     row.set("seconds", median(turns_.on_one));
     row.set("seconds_on_threads", median(turns_.on_several));
-    row.set("gain", ratio_interval(gains).ratio);
+    row.set("gain", median(gains));
     set_rounds(row, gains);
     return row;
   }
@@ -114,15 +112,11 @@ std::vector<Ceiling> ceilings() {
   return all;
 }
 
-/// A program, made once and solved in every round.
-class Measured {
+/// A program, made once and solved in every round on one thread and on several.
+class SharedSolves {
  public:
-  Measured(const std::string& problem_name, const std::string& method, int intervals)
-      : intervals_(intervals), method_(method), problem_(make_problem(problem_name)) {
-    program_ =
-        Case{.problem = problem_, .method = method, .tableau = "gauss", .grid = Grid::uniform(intervals)}.transcribe();
-    start_ = sample(*program_, guessed_motion(*problem_));
-  }
+  SharedSolves(const std::string& problem, const std::string& method, int intervals)
+      : intervals_(intervals), method_(method), made_(make_problem(problem), method, intervals) {}
 
   void solve(std::size_t threads) {
     turns_.on_one.push_back(seconds_on(1));
@@ -136,7 +130,7 @@ class Measured {
     judge();
     const double iterations = solution_.major_iterations.value_or(0);
     Row row;
-    row.set("problem", problem_->name());
+    row.set("problem", made_.problem->name());
     row.set("method", method_);
     row.set("intervals", intervals_);
     row.set("threads", threads);
@@ -151,7 +145,7 @@ class Measured {
     row.set("seconds_on_threads", median(turns_.on_several));
     row.set("ns_per_interval_iteration",
             nanoseconds * median(turns_.on_several) / intervals_ / std::max(1.0, iterations));
-    row.set("gain", ratio_interval(gains).ratio);
+    row.set("gain", median(gains));
     set_rounds(row, gains);
     return row;
   }
@@ -159,28 +153,26 @@ class Measured {
  private:
   void judge() {
     if (!is_solved(solution_.status)) return;
-    judge_residuals(*program_, solution_);
-    solution_.status = judged(solution_.status, scaled_residual(*program_, SolverOptions().tolerance, solution_));
+    judge_residuals(*made_.program, solution_);
+    solution_.status = judged(solution_.status, scaled_residual(*made_.program, SolverOptions().tolerance, solution_));
   }
 
   /// As `Solver::solve` measures it. Judging the answer, which would take longer than the solve, is left to `judge`.
   double seconds_on(std::size_t threads) {
     set_thread_count(threads);
     const InteriorPointSolver solver;
-    CountedProgram counted(*program_);
+    CountedProgram counted(*made_.program);
     solution_ = {};
     auto method = solver.prepare(counted);
     if (!method) throw Error("interior_point cannot eliminate this program by intervals");
-    method->run(start_, {}, std::nullopt, solution_);
+    method->run(made_.start, {}, std::nullopt, solution_);
     method.reset();
     return counted.elapsed_seconds();
   }
 
   int intervals_;
   std::string method_;
-  std::shared_ptr<const Problem> problem_;
-  std::unique_ptr<Transcription> program_;
-  Eigen::VectorXd start_;
+  GuessedProgram made_;
   Solution solution_;
   bool is_same_ = true;
   Turns turns_;
@@ -189,15 +181,62 @@ class Measured {
 constexpr const char* words_of_page =
     "Whole solves by `interior_point` from the problem's own guess, midpoint rule, tolerance 1e-10: the time of the "
     "solver, with the search for structure, without making the program and judging the answer. A gain is the ratio of "
-    "the "
-    "seconds on one thread and on several, solved in turn, round by round: its median with the 99 % interval "
-    "(bootstrap). "
-    "Answers are judged by their residuals; `same digits` says whether those on one thread and on several are the same "
-    "to the last "
-    "digit. The first table is what "
-    "the machine gives to threads that share nothing but itself: times the work of one thread that they do in its "
-    "time. A "
-    "solve is a mixture of such work.\n\n";
+    "the seconds on one thread and on several, solved in turn, round by round: its median with the 99 % interval "
+    "(bootstrap). Answers are judged by their residuals; `same digits` says whether those on one thread and on several "
+    "are the same to the last digit. The first table is what the machine gives to threads that share nothing but "
+    "itself: times the work of one thread that they do in its time. A solve is a mixture of such work.\n\n";
+
+Table solves_table(const std::vector<std::string>& problems, const std::vector<std::string>& methods,
+                   const std::vector<int>& grids, int rounds, std::size_t threads) {
+  Table table({"problem", "method", "intervals", "threads", "rounds", "status", "iterations", "linear_systems",
+               "seconds", "seconds_on_threads", "ns_per_interval_iteration", "gain", "ratio_lower", "ratio_upper",
+               "round_ratios", "same_digits"});
+  for (const std::string& problem : problems) {
+    for (const std::string& method : methods) {
+      for (const int intervals : grids) {
+        SharedSolves solves(problem, method, intervals);
+        for (int round = 0; round < rounds; ++round) solves.solve(threads);
+        table.append(solves.row(threads));
+      }
+    }
+  }
+  return table;
+}
+
+Table ceiling_table(int rounds, std::size_t threads) {
+  std::vector<Ceiling> machine = ceilings();
+  for (int round = 0; round < rounds; ++round) {
+    for (Ceiling& ceiling : machine) ceiling.measure(threads);
+  }
+  Table table({"what", "words", "threads", "rounds", "seconds", "seconds_on_threads", "gain", "ratio_lower",
+               "ratio_upper", "round_ratios"});
+  for (const Ceiling& ceiling : machine) table.append(ceiling.row(threads));
+  return table;
+}
+
+std::string tables_on_page(const Table& machine, const Table& solves, std::size_t threads) {
+  return "## The machine\n\n" +
+         page_table(machine.rows(), {{"words", "work"},
+                                     {"seconds", "seconds on one thread"},
+                                     {"seconds_on_threads", "seconds on all, each as much"},
+                                     {"gain", "gain"},
+                                     {"ratio_lower", "from"},
+                                     {"ratio_upper", "to"}}) +
+         "## Solves\n\n" +
+         page_table(solves.rows(), {{"problem", "problem"},
+                                    {"method", "method"},
+                                    {"intervals", "N", 9},
+                                    {"seconds", "seconds on one thread"},
+                                    {"seconds_on_threads", fmt::format("on {}", threads)},
+                                    {"gain", "gain"},
+                                    {"ratio_lower", "from"},
+                                    {"ratio_upper", "to"},
+                                    {"ns_per_interval_iteration", "ns per interval and iteration"},
+                                    {"iterations", "iterations", 9},
+                                    {"linear_systems", "systems", 9},
+                                    {"same_digits", "same digits"},
+                                    {"status", "status"}});
+}
 
 int run_threads(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path out = "results";
@@ -216,52 +255,12 @@ int run_threads(CommandLine& line, const std::vector<std::string>& command) {
   static_cast<void>(is_busy());
   const OutputFolder folder(out);
   const auto several = static_cast<std::size_t>(threads);
-
-  std::vector<Ceiling> machine = ceilings();
-  Table table({"problem", "method", "intervals", "threads", "rounds", "status", "iterations", "linear_systems",
-               "seconds", "seconds_on_threads", "ns_per_interval_iteration", "gain", "ratio_lower", "ratio_upper",
-               "round_ratios", "same_digits"});
-  for (const std::string& problem : problems) {
-    for (const std::string& method : methods) {
-      for (const int intervals : grids) {
-        Measured measured(problem, method, intervals);
-        for (int round = 0; round < rounds; ++round) measured.solve(several);
-        table.append(measured.row(several));
-      }
-    }
-  }
-  for (int round = 0; round < rounds; ++round) {
-    for (Ceiling& ceiling : machine) ceiling.measure(several);
-  }
-  Table ceiling_table({"what", "words", "threads", "rounds", "seconds", "seconds_on_threads", "gain", "ratio_lower",
-                       "ratio_upper", "round_ratios"});
-  for (const Ceiling& ceiling : machine) ceiling_table.append(ceiling.row(several));
-  write_file(out / "speed_threads.csv", table.csv());
-  write_file(out / "speed_threads_ceiling.csv", ceiling_table.csv());
-
-  std::string page = page_head(fmt::format("What {} threads gain", threads), command) + words_of_page;
-  page += "## The machine\n\n";
-  page += page_table(ceiling_table.rows(), {{"words", "work"},
-                                            {"seconds", "seconds on one thread"},
-                                            {"seconds_on_threads", "seconds on all, each as much"},
-                                            {"gain", "gain"},
-                                            {"ratio_lower", "from"},
-                                            {"ratio_upper", "to"}});
-  page += "## Solves\n\n";
-  page += page_table(table.rows(), {{"problem", "problem"},
-                                    {"method", "method"},
-                                    {"intervals", "N", 9},
-                                    {"seconds", "seconds on one thread"},
-                                    {"seconds_on_threads", fmt::format("on {}", threads)},
-                                    {"gain", "gain"},
-                                    {"ratio_lower", "from"},
-                                    {"ratio_upper", "to"},
-                                    {"ns_per_interval_iteration", "ns per interval and iteration"},
-                                    {"iterations", "iterations", 9},
-                                    {"linear_systems", "systems", 9},
-                                    {"same_digits", "same digits"},
-                                    {"status", "status"}});
-  write_page(out / "speed_threads.md", page);
+  const Table solves = solves_table(problems, methods, grids, rounds, several);
+  const Table machine = ceiling_table(rounds, several);
+  write_file(out / "speed_threads.csv", solves.csv());
+  write_file(out / "speed_threads_ceiling.csv", machine.csv());
+  write_page(out / "speed_threads.md", page_head(fmt::format("What {} threads gain", threads), command) +
+                                           words_of_page + tables_on_page(machine, solves, several));
   return 0;
 }
 

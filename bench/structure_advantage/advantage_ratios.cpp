@@ -18,8 +18,8 @@ constexpr double same_objective = 1e-6;
 constexpr double same_error = 1e-4;
 
 struct Quantity {
-  const char* name;
-  const char* column;
+  const char* name = "";
+  const char* column = "";
   bool is_per_interval = false;  ///< in the table
   const char* rounds = "";       ///< column with the times of the rounds, and
   const char* parts = "";        ///< what they are divided by, if anything

@@ -98,9 +98,9 @@ void measure_bandwidth(const NonlinearProgram& program, NodeOrder& order) {
   const auto widen = [&](std::size_t a, std::size_t b) {
     order.half_bandwidth = std::max(order.half_bandwidth, std::max(a, b) - std::min(a, b));
   };
-  for_each_entry(program, [&](bool /*in_jacobian*/, Eigen::Index /*entry*/, std::size_t line, std::size_t other) {
-    const NodeOrder::Line i = order.place(line, other);
-    const NodeOrder::Line j = order.place(other, line);
+  for_each_entry(program, [&](bool /*in_jacobian*/, Eigen::Index /*entry*/, std::size_t first, std::size_t second) {
+    const NodeOrder::Line i = order.place(first, second);
+    const NodeOrder::Line j = order.place(second, first);
     if (!i.in_border && !j.in_border) widen(i.at, j.at);
   });
   for (const NodeOrder::Copies& copies : order.copies) {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "bench/summary/column_meanings.hpp"
-#include "bench/summary/quantile.hpp"
 #include "bench/summary/share_interval.hpp"
+#include "methods/numerics/quantile.hpp"
 
 namespace dmocbench {
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/even_draws.hpp"
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/restated_problem.hpp"
 #include "methods/error.hpp"
@@ -19,7 +20,7 @@ namespace dmocbench {
 namespace {
 
 /// An entry of an end state by its name: final_v2 is entry 1 of v of the final state.
-struct EndEntry {
+struct NamedEndEntry {
   bool is_first = true;
   bool is_velocity = false;
   Eigen::Index number = 0;
@@ -28,8 +29,8 @@ struct EndEntry {
 };
 
 /// None if the name is of another form.
-std::optional<EndEntry> end_entry(std::string_view name) {
-  EndEntry entry;
+std::optional<NamedEndEntry> end_entry(std::string_view name) {
+  NamedEndEntry entry;
   entry.is_first = name.starts_with("initial_");
   if (!entry.is_first && !name.starts_with("final_")) return std::nullopt;
   name.remove_prefix(name.find('_') + 1);
@@ -44,9 +45,6 @@ std::optional<EndEntry> end_entry(std::string_view name) {
 bool has_parameter(const Problem& problem, const std::string& name) {
   return std::ranges::count(problem.parameters(), name, &Parameter::name) > 0;
 }
-
-/// Evenly in [0, 1), bit by bit the same everywhere.
-double even(std::mt19937_64& engine) { return std::ldexp(static_cast<double>(engine() >> 11U), -53); }
 
 std::vector<std::vector<double>> sampled(const std::vector<SweptQuantity>& quantities, long long samples,
                                          std::uint64_t seed) {

@@ -124,14 +124,14 @@ Eigen::MatrixXd with_last(const Eigen::MatrixXd& first, const Eigen::RowVectorXd
 }
 
 /// The change of the answer that a change of all conditions makes.
-struct Step {
+struct PrimalDualStep {
   Eigen::VectorXd primal;
   Eigen::VectorXd multipliers;
 };
 
 /// The step from the answer to where the conditions with the perturbation hold.
-Step step_to_optimum(const Transcription& program, const LinearisedConditions& at, const IntervalConditions& conditions,
-                     const Perturbation& perturbation) {
+PrimalDualStep step_to_optimum(const Transcription& program, const LinearisedConditions& at,
+                               const IntervalConditions& conditions, const Perturbation& perturbation) {
   LocalValues change = conditions.times(perturbation.moved);
   change.unknowns -= perturbation.jumps.unknowns;
   change.rows -= perturbation.jumps.rows;
@@ -140,7 +140,7 @@ Step step_to_optimum(const Transcription& program, const LinearisedConditions& a
   conditions.add(change, gradient, constraints);
   gradient *= -1.0;
   constraints *= -1.0;
-  Step step{Eigen::VectorXd::Zero(gradient.size()), Eigen::VectorXd::Zero(constraints.size())};
+  PrimalDualStep step{Eigen::VectorXd::Zero(gradient.size()), Eigen::VectorXd::Zero(constraints.size())};
   const auto solves = [&](kkt::KktSystem& system) {
     system.begin_solve();
     return system.solve(kkt_matrix_of(at), {gradient, constraints}, {step.primal, step.multipliers}) ==
@@ -163,8 +163,7 @@ void require_smooth_optimum(const Transcription& program, const LinearisedCondit
                 [&](Eigen::Index i) { return 1.0 / at.compliance[i]; })) {
     throw Error(
         "the error can only be estimated where no bound and no inequality is active along the optimum; widen the "
-        "bounds, "
-        "or choose the grid yourself");
+        "bounds, or choose the grid yourself");
   }
 }
 
@@ -174,8 +173,8 @@ struct NodeErrors {
   ExtremalStates in_velocities;
 };
 
-NodeErrors errors_at_nodes(const Transcription& program, const IntervalConditions& conditions, const Step& step,
-                           const Perturbation& perturbation, const Misses& misses) {
+NodeErrors errors_at_nodes(const Transcription& program, const IntervalConditions& conditions,
+                           const PrimalDualStep& step, const Perturbation& perturbation, const Misses& misses) {
   const Layout& layout = program.layout();
   const NodeState family = layout.node_state();
   const Eigen::Index n = misses.in_momenta.q.cols();
@@ -263,7 +262,7 @@ ErrorEstimate ErrorEstimator::estimate(Transcription& program, const Eigen::Vect
 
   const IntervalConditions conditions(program, primal, multipliers);
   const Perturbation perturbation = perturbation_of(replay.misses, program.layout().node_state(), conditions.zero());
-  const Step step = step_to_optimum(program, at, conditions, perturbation);
+  const PrimalDualStep step = step_to_optimum(program, at, conditions, perturbation);
   const NodeErrors errors = errors_at_nodes(program, conditions, step, perturbation, replay.misses);
   const auto canonical = program.layout().node_state() == NodeState::velocity
                              ? in_momenta(replay.nodes, errors.in_velocities, motion)

@@ -86,7 +86,7 @@ double violation_of(const NonlinearProgram& program, const Eigen::VectorXd& prim
 }
 
 /// Numbers the entries that are chosen 0, 1, ...
-struct Selection {
+struct ChosenEntries {
   std::vector<int> numbers;  // -1 of the others
   int count = 0;
   void append(bool chosen) { numbers.push_back(chosen ? count++ : -1); }
@@ -103,18 +103,18 @@ bool is_outside_or_at(double value, double lower, double upper, double activity)
 }
 
 /// The values that are at, or outside, a bound, or those that are not; an equality is always the former.
-Selection selected(bool at_bound, const Eigen::VectorXd& values, const Eigen::VectorXd& lower,
-                   const Eigen::VectorXd& upper, double activity) {
-  Selection selection;
+ChosenEntries selected(bool at_bound, const Eigen::VectorXd& values, const Eigen::VectorXd& lower,
+                       const Eigen::VectorXd& upper, double activity) {
+  ChosenEntries chosen_entries;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    selection.append(is_outside_or_at(values[i], lower[i], upper[i], activity) == at_bound);
+    chosen_entries.append(is_outside_or_at(values[i], lower[i], upper[i], activity) == at_bound);
   }
-  return selection;
+  return chosen_entries;
 }
 
 /// (∂a/∂ξ)ᵀ of the chosen rows and variables.
 Eigen::SparseMatrix<double> transposed(const BlockPattern& pattern, const Eigen::VectorXd& values,
-                                       const Selection& rows, const Selection& variables) {
+                                       const ChosenEntries& rows, const ChosenEntries& variables) {
   std::vector<Eigen::Triplet<double>> entries;
   pattern.for_each([&](Eigen::Index e, int i, int j) {
     if (!rows.contains(i) || !variables.contains(j)) return;
@@ -142,10 +142,10 @@ Eigen::VectorXd found_multipliers(NonlinearProgram& program, const Eigen::Vector
   program.jacobian_structure().for_each(
       [&](Eigen::Index e, int row, int column) { gradient[column] += jacobian[e] * multipliers[row]; });
 
-  const Selection variables = selected(false, primal, program.variable_lower(), program.variable_upper(), activity);
-  const Selection active =
+  const ChosenEntries variables = selected(false, primal, program.variable_lower(), program.variable_upper(), activity);
+  const ChosenEntries active =
       selected(true, constraints, program.constraint_lower(), program.constraint_upper(), activity);
-  Selection wanted;
+  ChosenEntries wanted;
   for (Eigen::Index i = 0; i < constraints.size(); ++i) wanted.append(active.contains(i) && std::isnan(known[i]));
   if (wanted.count == 0 || variables.count == 0) return multipliers;
 

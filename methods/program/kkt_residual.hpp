@@ -49,7 +49,7 @@ void evaluate_kkt(NonlinearProgram& program, const Eigen::VectorXd& primal, cons
   return kkt_residual(program, primal, multipliers, memory);
 }
 
-/// The same entry by entry, where rows and variables are allowed residuals of their own (`RoundingFloors`).
+/// The same entry by entry, where constraints and variables are allowed residuals of their own (`RoundingFloors`).
 void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
                  KktMemory& memory, KktEntries& entries);
 

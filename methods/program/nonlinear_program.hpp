@@ -22,8 +22,9 @@ using VectorOut = Eigen::Ref<Eigen::VectorXd>;
 ///
 ///   minimise φ(ξ)  such that  a⁻ <= a(ξ) <= a⁺,  ξ⁻ <= ξ <= ξ⁺.
 ///
-/// An equality is a row whose two bounds are equal; a variable whose two bounds are equal is fixed. The Lagrangian is
-/// σφ + λᵀa: multipliers carry the sign that makes ∇φ + (∂a/∂ξ)ᵀλ vanish in the directions of the free variables.
+/// An equality is a constraint whose two bounds are equal; a variable whose two bounds are equal is fixed. The
+/// Lagrangian is σφ + λᵀa: multipliers carry the sign that makes ∇φ + (∂a/∂ξ)ᵀλ vanish in the directions of the free
+/// variables.
 ///
 /// Sizes and structures never change, nor does which bounds exist and which are equal; the values of bounds may change
 /// between two solves. Evaluations allocate nothing; they are not to be called from two threads at once.
@@ -37,7 +38,7 @@ class NonlinearProgram {
 
   /// Number of unknowns ξ.
   [[nodiscard]] virtual std::size_t variable_count() const = 0;
-  /// Number of rows of a.
+  /// Number of constraints, the entries of a.
   [[nodiscard]] virtual std::size_t constraint_count() const = 0;
 
   // variable_count() and constraint_count() entries.
@@ -68,7 +69,7 @@ class NonlinearProgram {
     return none;
   }
 
-  /// How unknowns and rows belong to the intervals of a grid; null if the program has no such structure.
+  /// How unknowns and constraints belong to the intervals of a grid; null if the program has no such structure.
   [[nodiscard]] virtual const IntervalStructure* interval_structure() const { return nullptr; }
 
  protected:

@@ -6,22 +6,23 @@
 
 namespace dmocbench {
 
-/// The sizes below which residuals of a program are rounding: about ε · (size of the terms of a row).
+/// The sizes below which residuals of a program are rounding: about ε · (size of the terms of a constraint).
 ///
-/// Each row and each variable has a floor of its own, so that a row whose terms are large excuses nothing elsewhere.
+/// Each constraint and each variable has a floor of its own, so that a constraint whose terms are large excuses nothing
+/// elsewhere.
 struct RoundingFloors {
-  double smallest = 0.0;  ///< of all rows and variables
-  double largest = 0.0;   ///< of all rows and variables
-  /// Of every row; empty where all floors are equal.
+  double smallest = 0.0;  ///< of all constraints and variables
+  double largest = 0.0;   ///< of all constraints and variables
+  /// Of every constraint; empty where all floors are equal.
   Eigen::VectorXd rows;
   /// Of every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
   Eigen::VectorXd variables;
 
   /// True if one floor holds for all.
   [[nodiscard]] bool are_equal() const noexcept { return rows.size() == 0; }
-  /// The floor of row i.
+  /// The floor of constraint i.
   [[nodiscard]] double of_row(Eigen::Index i) const { return are_equal() ? largest : rows[i]; }
-  /// The Euclidean norm of those of all rows, of which there are `count`.
+  /// The Euclidean norm of those of all constraints, of which there are `count`.
   [[nodiscard]] double norm_of_rows(Eigen::Index count) const {
     return are_equal() ? largest * std::sqrt(static_cast<double>(count)) : rows.norm();
   }

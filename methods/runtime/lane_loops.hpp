@@ -42,9 +42,4 @@ extern const LaneLoops lane_loops_avx2;
 /// For processors with AVX-512.
 extern const LaneLoops lane_loops_avx512;
 
-/// Entry i of one lane of an interleaved vector.
-[[nodiscard]] inline double& entry_of_lane(double* interleaved, std::size_t lane, std::ptrdiff_t i) {
-  return interleaved[i * static_cast<std::ptrdiff_t>(instance_lanes) + static_cast<std::ptrdiff_t>(lane)];
-}
-
 }  // namespace dmocbench

@@ -89,8 +89,7 @@ void Confirmation::require_settled(Solution& solution) {
   solution.message = fmt::format(
       "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
       "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on what "
-      "moves, "
-      "as on a control that is singular.",
+      "moves, as on a control that is singular.",
       *length);
 }
 

@@ -17,8 +17,8 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 /// The larger of KKT residual and constraint violation, each divided by what `StopRule` allows it at this tolerance: at
 /// most 1 where a solver may stop. Infinity if the residuals have not been computed, NaN if one of them is NaN. The
 /// mean multiplier of the rule is that of the constraints, since those of bounds are not known. Where the rule allows
-/// rows and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the residuals of
-/// `solution` tell.
+/// constraints and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the
+/// residuals of `solution` tell.
 [[nodiscard]] double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
 
 /// What becomes of the claim "solved" or "acceptable" at this scaled residual.

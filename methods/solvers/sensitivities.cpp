@@ -12,7 +12,7 @@ namespace dmocbench {
 namespace {
 
 /// (above - below)/distance, 0 where both are the same, infinite ones among them.
-Eigen::VectorXd slope(const Eigen::VectorXd& below, const Eigen::VectorXd& above, double distance) {
+Eigen::VectorXd difference_quotient(const Eigen::VectorXd& below, const Eigen::VectorXd& above, double distance) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(below.size());
   for (Eigen::Index i = 0; i < below.size(); ++i) {
     if (above[i] != below[i]) result[i] = (above[i] - below[i]) / distance;
@@ -40,7 +40,9 @@ ProgramValues values_of(NonlinearProgram& program, const Eigen::VectorXd& primal
 }
 
 ProgramValues rate_of_change(const ProgramValues& below, const ProgramValues& above, double distance) {
-  const auto rate = [&](Eigen::VectorXd ProgramValues::*part) { return slope(below.*part, above.*part, distance); };
+  const auto rate = [&](Eigen::VectorXd ProgramValues::*part) {
+    return difference_quotient(below.*part, above.*part, distance);
+  };
   return {.objective = (above.objective - below.objective) / distance,
           .gradient = rate(&ProgramValues::gradient),
           .constraints = rate(&ProgramValues::constraints),

@@ -9,7 +9,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
-#include "methods/tables/text_file.hpp"
+#include "methods/tables/table_file.hpp"
 
 namespace dmocbench {
 
@@ -49,16 +49,6 @@ void read_costates(const Table& nodes, const std::vector<std::string>& names, Tr
   }
   trajectory.psi_q = std::move(psi_q);
   trajectory.psi_p = std::move(psi_p);
-}
-
-/// The table in a file. Throws `Error` that names the file.
-Table table_in(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  try {
-    return Table::from_csv(text);
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
-  }
 }
 
 /// The column t. Throws `Error` unless it ascends.
@@ -209,8 +199,8 @@ bool is_file_of_motion(const std::filesystem::path& file, const std::string& nod
 
 Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
   const std::filesystem::path stages_file = stages_file_of(nodes_file);
-  const Table nodes = table_in(nodes_file);
-  const Table stages = table_in(stages_file);
+  const Table nodes = read_table(nodes_file);
+  const Table stages = read_table(stages_file);
 
   // One control per stage time, joined linearly: the trajectory of a one-stage method.
   Trajectory trajectory;

@@ -24,9 +24,9 @@ std::string entry_of(const char* function, std::size_t i, const std::vector<std:
 }
 
 /// Words for the constraints and unknowns of a transcription at one point.
-class Wording {
+class ConstraintWords {
  public:
-  Wording(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x)
+  ConstraintWords(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x)
       : problem_(&problem),
         transcription_(&transcription),
         layout_(&transcription.layout()),
@@ -132,9 +132,9 @@ class Wording {
         return is_second ? equation_of(column % n_) : "lagrangian: the momentum p = L_v of " + coordinate(column % n_);
       case NodeState::velocity:
         if (shape.stage_equations != 2 * shape.stages * n_) break;
-        return is_second ? equation_of(column % n_) : "the velocity as slope of " + coordinate(column % n_);
+        return is_second ? equation_of(column % n_) : "the velocity as stage rate of " + coordinate(column % n_);
     }
-    return fmt::format("row {} of the method", column);
+    return fmt::format("equation {} of the method", column);
   }
 
   const Problem* problem_;
@@ -240,12 +240,12 @@ std::string contradiction(const Transcription& transcription) {
 
 std::string describe_constraint(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
                                 std::size_t row) {
-  return Wording(problem, transcription, x).row(row);
+  return ConstraintWords(problem, transcription, x).row(row);
 }
 
 std::string describe_unknown(const Problem& problem, const Transcription& transcription, const Eigen::VectorXd& x,
                              std::size_t unknown) {
-  return Wording(problem, transcription, x).unknown(unknown);
+  return ConstraintWords(problem, transcription, x).unknown(unknown);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/transcription/column_assembly.hpp"
 #include "methods/transcription/local_functions.hpp"
+#include "methods/transcription/part_places.hpp"
 
 namespace dmocbench {
 
@@ -33,9 +34,10 @@ class LaneTranscription::Part {
         rows_(heads(rows)),
         inputs_(functions.inputs.count()),
         cost_(functions.cost, plan({{0}}, intervals_, AssemblyMode::whole)),
-        constraints_(functions.rows.schedule, plan(places_of(functions.rows, rows), program.constraint_count(), mode_)),
+        constraints_(functions.rows.schedule,
+                     plan(picked(rows, functions.rows.places), program.constraint_count(), mode_)),
         gradient_(functions.gradient.schedule,
-                  plan(places_of(functions.gradient, unknowns), program.variable_count(), mode_)),
+                  plan(picked(unknowns, functions.gradient.places), program.variable_count(), mode_)),
         jacobian_(functions.jacobian.schedule,
                   plan(places_in(program.jacobian_structure(), functions.jacobian, rows, unknowns, false),
                        program.jacobian_structure().size(), mode_)),
@@ -87,11 +89,6 @@ class LaneTranscription::Part {
             .size = size * instance_lanes,
             .intervals = intervals_ * instance_lanes,
             .mode = mode};
-  }
-  static std::vector<ColumnPlace> places_of(const LocalVector& vector, const std::vector<ColumnPlace>& all) {
-    std::vector<ColumnPlace> places;
-    for (const std::size_t place : vector.places) places.push_back(all[place]);
-    return places;
   }
   /// Where the local entries of interval 0 stand in the program's matrix.
   static std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalMatrix& matrix,

@@ -11,6 +11,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/local_functions.hpp"
+#include "methods/transcription/part_places.hpp"
 #include "methods/transcription/program_bounds.hpp"
 #include "methods/transcription/step_times.hpp"
 #include "methods/transcription/velocities_of_momenta.hpp"
@@ -31,12 +32,6 @@ void require_plain(const Problem& problem, const TracedProblem& traced) {
 }
 
 ExpressionVector single(const Expression& entry) { return ExpressionVector::Constant(1, entry); }
-
-std::vector<ColumnPlace> places_at(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
-  std::vector<ColumnPlace> picked;
-  for (const std::size_t number : numbers) picked.push_back(places[number]);
-  return picked;
-}
 
 }  // namespace
 
@@ -78,87 +73,99 @@ void StepControlProgram::place() {
   columns_.step_rows = append(structure_.rows, interval, 1);
 }
 
-void StepControlProgram::trace() {
+struct StepControlProgram::TracedUnknowns {
+  IntervalUnknowns interval;
+  ExpressionVector left_t, right_t;  // one entry each
+  Expression multiplier;             // of the rule of the step
+  Expression pace;
+  std::vector<ColumnPlace> places;  // in the program's vector
+};
+
+StepControlProgram::TracedUnknowns StepControlProgram::take_unknowns() const {
+  TracedUnknowns all;
   InputCounter counter;
-  std::vector<ColumnPlace> unknowns;
-  const auto take = [&](std::size_t column, Eigen::Index length, std::size_t right, Eigen::Index count) {
+  const auto take = [&](Eigen::Index first, Eigen::Index length, std::size_t right, Eigen::Index count) {
     for (Eigen::Index i = 0; i < count; ++i) {
-      unknowns.emplace_back(static_cast<std::size_t>(head(column, i, length)) + right);
+      all.places.emplace_back(static_cast<std::size_t>(first + i * length) + right);
     }
     return counter.take(count);
   };
   const Eigen::Index nodes = intervals_ + 1;
+  const auto at_node = [&](std::size_t column, std::size_t right, Eigen::Index count) {
+    return take(head(column, 0, nodes), nodes, right, count);
+  };
+  const auto of_stage = [&](std::size_t column, Eigen::Index stage, Eigen::Index count) {
+    return take(head(column, stage * count, intervals_), intervals_, 0, count);
+  };
+  IntervalUnknowns& interval = all.interval;
+  interval.left_q = at_node(columns_.q, 0, n_);
+  all.left_t = at_node(columns_.t, 0, 1);
+  interval.right_q = at_node(columns_.q, 1, n_);
+  all.right_t = at_node(columns_.t, 1, 1);
   const Eigen::Index s = tableau_.stages();
-  IntervalUnknowns interval;
-  interval.left_q = take(columns_.q, nodes, 0, n_);
-  const ExpressionVector left_t = take(columns_.t, nodes, 0, 1);
-  interval.right_q = take(columns_.q, nodes, 1, n_);
-  const ExpressionVector right_t = take(columns_.t, nodes, 1, 1);
-  for (Eigen::Index j = 0; j + 1 < s; ++j) {
-    interval.rates_q.push_back(
-        take(static_cast<std::size_t>(head(columns_.rates, j * n_, intervals_)), intervals_, 0, n_));
-  }
-  for (Eigen::Index i = 0; i < s; ++i) {
-    interval.controls.push_back(
-        take(static_cast<std::size_t>(head(columns_.controls, i * m_, intervals_)), intervals_, 0, m_));
-  }
-  const Expression multiplier = take(columns_.multiplier, intervals_, 0, 1)[0];
-  unknowns.emplace_back(columns_.pace, true);
-  const Expression pace = counter.take();
-  interval.t = left_t[0];
-  interval.h = right_t[0] - left_t[0];
+  for (Eigen::Index j = 0; j + 1 < s; ++j) interval.rates_q.push_back(of_stage(columns_.rates, j, n_));
+  for (Eigen::Index i = 0; i < s; ++i) interval.controls.push_back(of_stage(columns_.controls, i, m_));
+  all.multiplier = of_stage(columns_.multiplier, 0, 1)[0];
+  all.places.emplace_back(columns_.pace, true);
+  all.pace = counter.take();
+  interval.t = all.left_t[0];
+  interval.h = all.right_t[0] - all.left_t[0];
+  return all;
+}
 
-  const ExtendedAction action(problem_, traced_, tableau_, interval);
-  const Expression c = interval.h - pace * action.mean_of(sigma_);
-  const auto vary = [&](const ExpressionVector& x) { return action.variation_by(x, c, multiplier); };
-  const ExpressionVector left = vary(interval.left_q);
-  const ExpressionVector right = vary(interval.right_q);
-  std::vector<ExpressionVector> formulas{left, vary(left_t), right, vary(right_t)};
-  for (std::size_t j = 0; j < interval.rates_q.size(); ++j) {
-    const Expression weight = interval.h * Expression(tableau_.b[static_cast<Eigen::Index>(j)]);
-    formulas.emplace_back(vary(interval.rates_q[j]) / weight);
-  }
-  formulas.push_back(single(c));
+/// In the order of the formulas: those of both nodes, of the stage rates, of the step.
+std::vector<ColumnPlace> StepControlProgram::places_of_local_rows() const {
   std::vector<ColumnPlace> rows;
-  const auto add_rows = [&](std::size_t column, Eigen::Index length, std::size_t right_node, Eigen::Index count) {
+  const auto add = [&](std::size_t column, Eigen::Index length, std::size_t right_node, Eigen::Index count) {
     for (Eigen::Index i = 0; i < count; ++i) {
       rows.emplace_back(static_cast<std::size_t>(head(column, i, length)) + right_node);
     }
   };
   for (const std::size_t right_node : {0U, 1U}) {
-    add_rows(columns_.momentum_rows, nodes, right_node, n_);
-    add_rows(columns_.energy_rows, nodes, right_node, 1);
+    add(columns_.momentum_rows, intervals_ + 1, right_node, n_);
+    add(columns_.energy_rows, intervals_ + 1, right_node, 1);
   }
-  add_rows(columns_.rate_rows, intervals_, 0, (s - 1) * n_);
-  add_rows(columns_.step_rows, intervals_, 0, 1);
+  add(columns_.rate_rows, intervals_, 0, (tableau_.stages() - 1) * n_);
+  add(columns_.step_rows, intervals_, 0, 1);
+  return rows;
+}
 
-  const LocalFunctions functions =
-      differentiate(Expression(problem_.cost_scale()) * action.element().cost, stacked(formulas), counter.taken(), 0);
-  LocalEntries jacobian{places_at(rows, functions.jacobian.rows), places_at(unknowns, functions.jacobian.columns),
-                        structure_.intervals};
-  LocalEntries hessian{places_at(unknowns, functions.hessian.rows), places_at(unknowns, functions.hessian.columns),
-                       structure_.intervals};
-  for (std::size_t e = 0; e < hessian.rows.size(); ++e) {
-    if (hessian.rows[e].first < hessian.columns[e].first) std::swap(hessian.rows[e], hessian.columns[e]);
+void StepControlProgram::trace() {
+  const TracedUnknowns unknowns = take_unknowns();
+  const IntervalUnknowns& interval = unknowns.interval;
+  const ExtendedAction action(problem_, traced_, tableau_, interval);
+  const Expression c = interval.h - unknowns.pace * action.mean_of(sigma_);
+  const auto vary = [&](const ExpressionVector& x) { return action.variation_by(x, c, unknowns.multiplier); };
+  const ExpressionVector left = vary(interval.left_q);
+  const ExpressionVector right = vary(interval.right_q);
+  std::vector<ExpressionVector> formulas{left, vary(unknowns.left_t), right, vary(unknowns.right_t)};
+  for (std::size_t j = 0; j < interval.rates_q.size(); ++j) {
+    const Expression weight = interval.h * Expression(tableau_.b[static_cast<Eigen::Index>(j)]);
+    formulas.emplace_back(vary(interval.rates_q[j]) / weight);
   }
-  jacobian_ = assemble_pattern(jacobian);
-  hessian_ = assemble_pattern(hessian);
-  const auto plan = [&](std::vector<ColumnPlace> places, std::size_t size) {
-    return AssemblyPlan{.places = std::move(places), .size = size, .intervals = structure_.intervals};
-  };
-  PartPlaces places{.unknowns = unknowns,
-                    .rows = rows,
-                    .constraints = plan(places_at(rows, functions.rows.places), constraint_count()),
-                    .derivatives = {.gradient = plan(places_at(unknowns, functions.gradient.places), variable_count()),
-                                    .jacobian = plan(jacobian_.places, jacobian_.pattern.size()),
-                                    .hessian = plan(hessian_.places, hessian_.pattern.size())}};
-  part_ = std::make_unique<ProgramPart>(functions, std::move(places), unread_, unread_, unread_, "tape");
+  formulas.push_back(single(c));
+  assemble(differentiate(Expression(problem_.cost_scale()) * action.element().cost, stacked(formulas),
+                         unknowns.places.size(), 0),
+           unknowns.places, places_of_local_rows());
 
   std::vector<ExpressionVector> read{-left, right};
   for (const ControlledState& stage : action.element().stages) {
     read.insert(read.end(), {stage.q, stage.v, single(stage.t)});
   }
   reading_ = Schedule(stacked(read));
+}
+
+void StepControlProgram::assemble(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                                  const std::vector<ColumnPlace>& rows) {
+  jacobian_ = assemble_pattern(jacobian_entries(functions, rows, unknowns, structure_.intervals));
+  hessian_ = assemble_pattern(hessian_entries(functions, unknowns, structure_.intervals));
+  const ProgramArrays arrays{.variables = variable_count(),
+                             .constraints = constraint_count(),
+                             .jacobian = jacobian_.pattern.size(),
+                             .hessian = hessian_.pattern.size()};
+  PartPlaces places =
+      part_places(functions, unknowns, rows, jacobian_.places, hessian_.places, arrays, structure_.intervals);
+  part_ = std::make_unique<ProgramPart>(functions, std::move(places), unread_, unread_, unread_, "tape");
 }
 
 void StepControlProgram::fix_ends() {

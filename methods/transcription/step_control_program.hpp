@@ -62,10 +62,17 @@ class StepControlProgram final : public NonlinearProgram {
     std::size_t q = 0, t = 0, rates = 0, controls = 0, multiplier = 0, pace = 0;
     std::size_t momentum_rows = 0, energy_rows = 0, rate_rows = 0, step_rows = 0;
   };
+  /// The unknowns of an interval as traced inputs.
+  struct TracedUnknowns;
+
   void place();
   void trace();
   void fix_ends();
-  [[nodiscard]] Eigen::Index head(std::size_t column, Eigen::Index i, Eigen::Index length) const {
+  [[nodiscard]] TracedUnknowns take_unknowns() const;
+  [[nodiscard]] std::vector<ColumnPlace> places_of_local_rows() const;
+  void assemble(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                const std::vector<ColumnPlace>& rows);
+  [[nodiscard]] static Eigen::Index head(std::size_t column, Eigen::Index i, Eigen::Index length) {
     return static_cast<Eigen::Index>(column) + i * length;
   }
 

@@ -1,14 +1,17 @@
 #include "methods/transcription/transcription.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/guess_check.hpp"
+#include "methods/transcription/part_places.hpp"
 #include "methods/transcription/program_floors.hpp"
 
 namespace dmocbench {
@@ -19,29 +22,6 @@ double positive_cost_scale(const Problem& problem) {
   const double scale = problem.cost_scale();
   if (scale > 0.0 && std::isfinite(scale)) return scale;
   throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
-}
-
-/// Looks up every place.
-std::vector<ColumnPlace> pick(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
-  std::vector<ColumnPlace> picked;
-  picked.reserve(numbers.size());
-  for (const std::size_t number : numbers) picked.push_back(places[number]);
-  return picked;
-}
-
-LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
-                              const std::vector<ColumnPlace>& unknowns, std::size_t intervals) {
-  return {pick(rows, functions.jacobian.rows), pick(unknowns, functions.jacobian.columns), intervals};
-}
-
-/// The lower triangle.
-LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                             std::size_t intervals) {
-  LocalEntries entries{pick(unknowns, functions.hessian.rows), pick(unknowns, functions.hessian.columns), intervals};
-  for (std::size_t e = 0; e < entries.rows.size(); ++e) {
-    if (entries.rows[e].first < entries.columns[e].first) std::swap(entries.rows[e], entries.columns[e]);
-  }
-  return entries;
 }
 
 LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, const Tableau& tableau,
@@ -63,12 +43,16 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count()};
 }
 
+struct NamedCostForm {
+  const char* name;
+  CostForm form;
+};
+constexpr std::array cost_forms{NamedCostForm{"bolza", CostForm::bolza}, NamedCostForm{"mayer", CostForm::mayer}};
+
 }  // namespace
 
 CostForm cost_form_named(std::string_view name) {
-  if (name == "bolza") return CostForm::bolza;
-  if (name == "mayer") return CostForm::mayer;
-  throw Error("there is no form \"" + std::string(name) + "\" of the cost; choose one of bolza, mayer");
+  return one_of(cost_forms, &NamedCostForm::name, name, "there is no form of the cost").form;
 }
 
 Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
@@ -121,19 +105,13 @@ void Transcription::add_part(const LocalFunctions& functions, const std::vector<
                              const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
                              const std::vector<ColumnPlace>& hessian, std::string_view derivatives) {
   const bool has_ends_only = !parts_.empty();
-  const auto plan = [&](std::vector<ColumnPlace> places, std::size_t size) {
-    return AssemblyPlan{.places = std::move(places),
-                        .size = size,
-                        .intervals = has_ends_only ? 1 : layout_.intervals(),
-                        .mode = has_ends_only ? AssemblyMode::part : AssemblyMode::whole};
-  };
-  PartPlaces places{
-      .unknowns = unknowns,
-      .rows = rows,
-      .constraints = plan(pick(rows, functions.rows.places), layout_.row_count()),
-      .derivatives = {.gradient = plan(pick(unknowns, functions.gradient.places), layout_.variable_count()),
-                      .jacobian = plan(jacobian, jacobian_pattern_.pattern.size()),
-                      .hessian = plan(hessian, hessian_pattern_.pattern.size())}};
+  const ProgramArrays arrays{.variables = layout_.variable_count(),
+                             .constraints = layout_.row_count(),
+                             .jacobian = jacobian_pattern_.pattern.size(),
+                             .hessian = hessian_pattern_.pattern.size()};
+  PartPlaces places =
+      part_places(functions, unknowns, rows, jacobian, hessian, arrays, has_ends_only ? 1 : layout_.intervals(),
+                  has_ends_only ? AssemblyMode::part : AssemblyMode::whole);
   parts_.push_back(std::make_unique<ProgramPart>(functions, std::move(places), step_inputs_, time_inputs_,
                                                  traced_.open_values(), derivatives));
 }
@@ -159,7 +137,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
   }
   std::size_t smallest = intervals;
   while (surplus(smallest) < 0) ++smallest;
-  throw Error(problem.name() + " with " + element.name() + " has fewer free variables than rows on " +
+  throw Error(problem.name() + " with " + element.name() + " has fewer free variables than equations on " +
               std::to_string(intervals) + " intervals; it needs at least " + std::to_string(smallest));
 }
 

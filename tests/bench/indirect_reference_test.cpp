@@ -4,14 +4,13 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "bench/experiment/result_file.hpp"
-#include "methods/indirect/solve_indirect.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
@@ -29,22 +28,17 @@ Trajectory direct_solution(const Problem& problem) {
   return tests::solve(problem, {"dmoc", 2}, Grid::uniform(64), tests::common_start(problem)).trajectory;
 }
 
-class IndirectReferenceIn : public testing::Test {
+class IndirectReferenceIn : public tests::InTemporaryFolder {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// The row of the one problem asked for.
   Row row_for(const Problem& problem, const Trajectory& direct) {
-    IndirectReference reference(folder_);
+    IndirectReference reference(folder());
     static_cast<void>(reference.near(problem, direct));
     EXPECT_EQ(reference.table().rows().size(), 1U);
     return reference.table().rows().front();
   }
   static bool was_solved(const Row& row) { return row.number("seconds").has_value(); }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("indirect_reference_" + std::to_string(getpid()));
   tests::DoubleIntegrator problem_;
   Trajectory direct_ = direct_solution(problem_);
 };
@@ -85,14 +79,14 @@ TEST_F(IndirectReferenceIn, AFolderIsNotUsedForAnotherBranch) {
   elsewhere.q.array() += 0.2;
   // There is no other branch to find: the answer is refused instead of being taken for it.
   tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(row_for(problem_, elsewhere)); });
-  IndirectReference reference(folder_);
+  IndirectReference reference(folder());
   static_cast<void>(reference.near(problem_, direct_));
   tests::expect_error_naming({"another branch"}, [&] { static_cast<void>(reference.near(problem_, elsewhere)); });
 }
 
 TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {
   static_cast<void>(row_for(problem_, direct_));
-  const std::filesystem::path file = folder_ / "double_integrator_indirect.json";
+  const std::filesystem::path file = folder() / "double_integrator_indirect.json";
   const std::string good = read_file(file);
   for (const std::string& damaged : {good.substr(0, good.size() / 2), std::string("[]"), std::string()}) {
     write_file(file, damaged);
@@ -103,7 +97,7 @@ TEST_F(IndirectReferenceIn, ADamagedFileIsWrittenAnew) {
 
 TEST_F(IndirectReferenceIn, AFileWithAnotherCostOrAgreementIsWrittenAnew) {
   static_cast<void>(row_for(problem_, direct_));
-  const std::filesystem::path file = folder_ / "double_integrator_indirect.json";
+  const std::filesystem::path file = folder() / "double_integrator_indirect.json";
   const auto good = nlohmann::ordered_json::parse(read_file(file));
   for (const char* const number : {"/scaled_cost", "/agreement/state", "/agreement/cost"}) {
     auto damaged = good;
@@ -115,7 +109,7 @@ TEST_F(IndirectReferenceIn, AFileWithAnotherCostOrAgreementIsWrittenAnew) {
 }
 
 TEST_F(IndirectReferenceIn, MetadataTellTheInitialCostate) {
-  IndirectReference reference(folder_);
+  IndirectReference reference(folder());
   static_cast<void>(reference.near(problem_, direct_));
   const auto metadata = reference.metadata();
   ASSERT_EQ(metadata.size(), 1U);

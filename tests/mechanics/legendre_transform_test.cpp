@@ -8,6 +8,7 @@
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/singular_mass.hpp"
 
 namespace dmocbench {
 namespace {
@@ -78,22 +79,8 @@ TEST(LegendreTransform, InvertsItselfHoweverDifferentTheMasses) {
   }
 }
 
-/// L_vv = [1 1; 1 1] has no empty row, but no inverse either.
-class Degenerate final : public tests::SmallProblem {
- public:
-  Degenerate()
-      : SmallProblem("degenerate", {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()},
-                     {Eigen::Vector2d::Ones(), Eigen::Vector2d::Zero()}, 1.0, 2) {}
-  [[nodiscard]] Expression lagrangian(const State& x) const override {
-    const Expression sum = x.v[0] + x.v[1];
-    return 0.5 * sum * sum;
-  }
-  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-};
-
 TEST(LegendreTransform, RefusesASingularMass) {
-  LegendreTransform legendre{TracedProblem(Degenerate())};
+  LegendreTransform legendre{TracedProblem(tests::SingularMass())};
   const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
   tests::expect_error_naming({"not regular", "L_vv"},
                              [&] { static_cast<void>(legendre.velocity(zero, Eigen::Vector2d(1.0, 0.0), 0.0, zero)); });

@@ -4,6 +4,7 @@
 #include "methods/transcription/start.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
+#include "tests/support/singular_mass.hpp"
 #include "tests/support/solving.hpp"
 
 namespace dmocbench {
@@ -277,20 +278,8 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
 }
 
 TEST(ProblemClassRefusals, NameASingularMass) {
-  class Degenerate final : public tests::SmallProblem {
-   public:
-    Degenerate()
-        : SmallProblem("degenerate", {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()},
-                       {Eigen::Vector2d::Ones(), Eigen::Vector2d::Zero()}, 1.0, 2) {}
-    [[nodiscard]] Expression lagrangian(const State& x) const override {
-      const Expression sum = x.v[0] + x.v[1];
-      return 0.5 * sum * sum;
-    }
-    [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
-    [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
-  };
   EXPECT_NE(tests::sentence_of_error([] {
-              tests::transcribe(Degenerate(), {"dmoc", 1}, Grid::uniform(8));
+              tests::transcribe(tests::SingularMass(), {"dmoc", 1}, Grid::uniform(8));
             }).find("L_vv is singular"),
             std::string::npos);
 }

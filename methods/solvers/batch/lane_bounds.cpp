@@ -16,7 +16,7 @@ OfLanes distance(const Bound& bound, const LaneVector& primal) {
 }
 
 /// The longest step, at most 1, where no distance shrinks by more than the share τ and the largest loss is this.
-OfLanes longest_step(const OfLanes& largest_loss, const OfLanes& tau) {
+OfLanes boundary_fraction(const OfLanes& largest_loss, const OfLanes& tau) {
   return (largest_loss > tau).select(tau / largest_loss, 1.0);
 }
 
@@ -59,11 +59,11 @@ void LaneBounds::push_inside(std::size_t lane, double push, Eigen::Index begin, 
 void LaneBounds::balance(std::size_t lane, double mu, const LaneVector& primal, const LaneVector& gradient,
                          LaneVector& z) const {
   const auto point = primal.of(lane);
-  const auto slope = gradient.of(lane);
+  const auto of_lane = gradient.of(lane);
   auto multipliers = z.of(lane);
   for_each([&](const Bound& bound, Eigen::Index i) {
     const double d = bound.side * (point[bound.entry] - bound.value);
-    multipliers[i] = std::max(mu / d, bound.side * slope[bound.entry]);
+    multipliers[i] = std::max(mu / d, bound.side * of_lane[bound.entry]);
   });
 }
 
@@ -108,8 +108,8 @@ void LaneBounds::subtract_multipliers(const LaneVector& z, LaneVector& gradient)
 
 void LaneBounds::subtract_multipliers(std::size_t lane, const LaneVector& z, LaneVector& gradient) const {
   const auto multipliers = z.of(lane);
-  auto slope = gradient.of(lane);
-  for_each([&](const Bound& bound, Eigen::Index i) { slope[bound.entry] -= bound.side * multipliers[i]; });
+  auto of_lane = gradient.of(lane);
+  for_each([&](const Bound& bound, Eigen::Index i) { of_lane[bound.entry] -= bound.side * multipliers[i]; });
 }
 
 void LaneBounds::products(const LaneVector& primal, const LaneVector& z, OfLanes& smallest, OfLanes& largest) const {
@@ -134,14 +134,14 @@ OfLanes LaneBounds::fraction_to_boundary(const LaneVector& primal, const LaneVec
   for (const Bound& bound : bounds_) {
     largest_loss = largest_loss.max(-bound.side * step[bound.entry] / distance(bound, primal));
   }
-  return longest_step(largest_loss, tau);
+  return boundary_fraction(largest_loss, tau);
 }
 
 OfLanes LaneBounds::multiplier_fraction_to_boundary(const LaneVector& z, const LaneVector& z_step,
                                                     const OfLanes& tau) const {
   OfLanes largest_loss = OfLanes::Zero();
   for (Eigen::Index i = 0; i < count_; ++i) largest_loss = largest_loss.max(-z_step[i] / z[i]);
-  return longest_step(largest_loss, tau);
+  return boundary_fraction(largest_loss, tau);
 }
 
 void LaneBounds::update_multipliers(const LaneVector& primal, const LaneVector& z_step, const OfLanes& length,

@@ -26,7 +26,7 @@ LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> l
       desk_(desk),
       problem_(program, std::move(lanes)),
       kkt_(std::move(kkt)),
-      allowed_(program, options.tolerance),
+      stop_rule_(program, options.tolerance),
       rounding_of_theta_(program.rounding_floors().norm_of_rows(problem_.constraint_count())),
       primal_(problem_.primal_count()),
       multipliers_(problem_.constraint_count()),
@@ -224,7 +224,7 @@ void LaneRun::judge() {
   lane_loops().magnitudes(multipliers_.data(), multipliers_.size(), sum_of_multipliers.data(),
                           largest_multiplier_.data());
   OfLanes sum_of_z = OfLanes::Zero();
-  const LaneVector* slope = &gradient;
+  const LaneVector* with_bounds = &gradient;
   mean_bound_multiplier_.setZero();
   smallest_product_.setZero();
   largest_product_.setZero();
@@ -234,9 +234,9 @@ void LaneRun::judge() {
     problem_.bounds().products(primal_, z_, smallest_product_, largest_product_);
     lane_loops().sum(z_.data(), z_.size(), sum_of_z.data());
     mean_bound_multiplier_ = sum_of_z / static_cast<double>(z_.size());
-    slope = &balanced_;
+    with_bounds = &balanced_;
   }
-  lane_loops().magnitudes(slope->data(), slope->size(), size_of_gradient_.data(), stationarity_.data());
+  lane_loops().magnitudes(with_bounds->data(), with_bounds->size(), size_of_gradient_.data(), stationarity_.data());
   mean_multiplier_ =
       (sum_of_multipliers + sum_of_z) / std::max(1.0, static_cast<double>(z_.size() + multipliers_.size()));
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
@@ -286,20 +286,20 @@ void LaneRun::judge(std::size_t number) {
 /// (5) and (6), as `BarrierProgram::meets` tells it.
 bool LaneRun::is_solved(std::size_t number) const {
   const Eigen::Index lane = index_of(number);
-  const bool by_entries = !allowed_.is_one_for_all();
-  const bool holds = values_.violation[lane] <= allowed_.violation() ||
-                     (by_entries && allowed_.share_of_violation(values_.constraints.of(number)) <= 1.0);
+  const bool by_entries = !stop_rule_.is_one_for_all();
+  const bool holds = values_.violation[lane] <= stop_rule_.violation() ||
+                     (by_entries && stop_rule_.share_of_violation(values_.constraints.of(number)) <= 1.0);
   if (!holds) return false;
   const double mean = mean_multiplier_[lane];
   const double largest = largest_multiplier_[lane];
-  const LaneVector& slope = problem_.has_bounds() ? balanced_ : problem_.gradient_of_lagrangian();
-  const double allowed = allowed_.stationarity(mean, largest);
+  const LaneVector& gradient = problem_.has_bounds() ? balanced_ : problem_.gradient_of_lagrangian();
+  const double allowed = stop_rule_.stationarity(mean, largest);
   const Eigen::Index n = problem_.variable_count();
-  const auto of_slacks = [&] { return slope.of(number).tail(slope.size() - n).cwiseAbs().sum(); };
+  const auto of_slacks = [&] { return gradient.of(number).tail(gradient.size() - n).cwiseAbs().sum(); };
   const bool is_stationary = stationarity_[lane] <= allowed ||
-                             (by_entries && (slope.size() == n || of_slacks() <= allowed) &&
-                              allowed_.share_of_stationarity(slope.of(number).head(n), mean, largest) <= 1.0);
-  return is_stationary && largest_product_[lane] <= allowed_.complementarity(mean_bound_multiplier_[lane]);
+                             (by_entries && (gradient.size() == n || of_slacks() <= allowed) &&
+                              stop_rule_.share_of_stationarity(gradient.of(number).head(n), mean, largest) <= 1.0);
+  return is_stationary && largest_product_[lane] <= stop_rule_.complementarity(mean_bound_multiplier_[lane]);
 }
 
 ///

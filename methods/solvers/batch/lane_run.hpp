@@ -108,7 +108,7 @@ class LaneRun {
   PhaseClock clock_;
   LaneProblem problem_;
   std::unique_ptr<kkt::LaneKkt> kkt_;
-  StopRule allowed_;
+  StopRule stop_rule_;
   double rounding_of_theta_;
   std::array<Lane, instance_lanes> lanes_;
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t first_generation = 64;
 
 /// The answers that others may start from, and where they lie: a column each.
-class Neighbours {
+class SolvedInstances {
  public:
   void add(const Eigen::VectorXd& place, Solution solution) {
     if (solutions_.empty()) places_.resize(place.size(), static_cast<Eigen::Index>(most_neighbours));
@@ -53,7 +53,7 @@ BatchSummary solve_batch_from_neighbours(NonlinearProgram& program, const MakeLa
                                          const NextFromNeighbour& next, const TakeSolution& take,
                                          const BatchOptions& options) {
   BatchSummary sum;
-  batch::Neighbours neighbours;
+  batch::SolvedInstances neighbours;
   std::size_t begin = 0;
   for (std::size_t generation = batch::first_generation; generation > 0;) {
     const bool is_last = begin >= most_neighbours;

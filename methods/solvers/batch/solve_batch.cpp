@@ -142,7 +142,7 @@ class BatchDesk final : public Desk {
       refused.message = fmt::format("the {} of the instance has {} entries instead of {}", what, vector.size(), wanted);
     };
     require_size("start", instance.start, program_.variable_count(), false);
-    require_size("vector of rows", instance.rows, program_.constraint_count(), true);
+    require_size("vector of constraint values", instance.rows, program_.constraint_count(), true);
     require_size("vector of multipliers", instance.multipliers, program_.constraint_count(), true);
     require_size("vector of parameters", instance.parameters, parameters_, true);
     if (refused.status != Status::not_run) return refused;

@@ -25,7 +25,7 @@ double sum_of_logarithms(const Numbers& numbers) {
 
 /// The longest step, at most 1, along which no distance shrinks by more than the share τ.
 template <class Distances, class Changes>
-double longest_step(const Distances& distances, const Changes& changes, double tau) {
+double boundary_fraction(const Distances& distances, const Changes& changes, double tau) {
   const double largest_loss = (-changes / distances).maxCoeff();
   return largest_loss > tau ? tau / largest_loss : 1.0;
 }
@@ -125,7 +125,7 @@ void BarrierBounds::set_multiplier_step(const Iterate& at, double mu, Iterate& s
 double BarrierBounds::fraction_to_boundary(const Primal& at, const Primal& step, double tau) const {
   double length = 1.0;
   for (const BoundStretch& bounds : stretches_) {
-    length = std::min(length, longest_step(bounds.distances(at), bounds.side * bounds.entries(step), tau));
+    length = std::min(length, boundary_fraction(bounds.distances(at), bounds.side * bounds.entries(step), tau));
   }
   return length;
 }
@@ -133,7 +133,7 @@ double BarrierBounds::fraction_to_boundary(const Primal& at, const Primal& step,
 double BarrierBounds::multiplier_fraction_to_boundary(const Iterate& at, const Iterate& step, double tau) const {
   double length = 1.0;
   for (const BoundStretch& bounds : stretches_) {
-    length = std::min(length, longest_step(bounds.z(at), bounds.z(step), tau));
+    length = std::min(length, boundary_fraction(bounds.z(at), bounds.z(step), tau));
   }
   return length;
 }

@@ -150,20 +150,20 @@ OptimalityErrors BarrierProgram::optimality_errors(const Iterate& at, const Prim
   return errors;
 }
 
-bool BarrierProgram::meets(const StopRule& allowed, const OptimalityErrors& errors, const Iterate& at,
+bool BarrierProgram::meets(const StopRule& rule, const OptimalityErrors& errors, const Iterate& at,
                            const Primal& gradient, const Evaluation& values) const {
-  const bool by_entries = !allowed.is_one_for_all();
+  const bool by_entries = !rule.is_one_for_all();
   const bool holds =
-      errors.violation <= allowed.violation() || (by_entries && allowed.share_of_violation(values.constraints) <= 1.0);
+      errors.violation <= rule.violation() || (by_entries && rule.share_of_violation(values.constraints) <= 1.0);
   if (!holds) return false;
   const double mean = errors.mean_multiplier;
   const double largest = largest_of(at.multipliers);
-  const double stationarity = allowed.stationarity(mean, largest);
-  const Primal& slope = has_bounds() ? balanced_ : gradient;
+  const double stationarity = rule.stationarity(mean, largest);
+  const Primal& with_bounds = has_bounds() ? balanced_ : gradient;
   const bool is_stationary =
-      errors.stationarity <= stationarity || (by_entries && largest_of(slope.s) <= stationarity &&
-                                              allowed.share_of_stationarity(slope.x, mean, largest) <= 1.0);
-  return is_stationary && bounds_.complementarity(at, 0.0) <= allowed.complementarity(errors.mean_bound_multiplier);
+      errors.stationarity <= stationarity || (by_entries && largest_of(with_bounds.s) <= stationarity &&
+                                              rule.share_of_stationarity(with_bounds.x, mean, largest) <= 1.0);
+  return is_stationary && bounds_.complementarity(at, 0.0) <= rule.complementarity(errors.mean_bound_multiplier);
 }
 
 }  // namespace dmocbench::interior_point

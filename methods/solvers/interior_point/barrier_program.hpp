@@ -67,7 +67,7 @@ class BarrierProgram {
   /// From the gradient of the Lagrangian, see above, and the values at an iterate.
   [[nodiscard]] OptimalityErrors optimality_errors(const Iterate& at, const Primal& gradient, const Evaluation& values);
   /// Whether an iterate, with the errors that the last `optimality_errors` told of it, may be the answer.
-  [[nodiscard]] bool meets(const StopRule& allowed, const OptimalityErrors& errors, const Iterate& at,
+  [[nodiscard]] bool meets(const StopRule& rule, const OptimalityErrors& errors, const Iterate& at,
                            const Primal& gradient, const Evaluation& values) const;
 
  private:

@@ -40,7 +40,7 @@ class InteriorPointRun final : public PreparedRun {
         program_(program),
         kkt_(std::move(kkt)),
         newton_(program_, *kkt_),
-        allowed_(program, options.tolerance) {}
+        stop_rule_(program, options.tolerance) {}
 
   void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
            Solution& solution) override {
@@ -80,7 +80,7 @@ class InteriorPointRun final : public PreparedRun {
   [[nodiscard]] std::optional<Status> iterate() {
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
     // Stop where E_0 <= ε, (5) and (6).
-    if (program_.meets(allowed_, errors, at_, gradient_, values_)) return Status::solved;
+    if (program_.meets(stop_rule_, errors, at_, gradient_, values_)) return Status::solved;
     if (const auto reason = reason_to_stop()) return reason;
     // Lower μ while E_μ <= κ_ε μ, (7).
     update_barrier_parameter(errors);
@@ -198,7 +198,7 @@ class InteriorPointRun final : public PreparedRun {
   /// constraints hold and, where these end, descent on the violation, which like section 3.3 needs no such place.
   [[nodiscard]] std::optional<Status> restoration_phase() {
     if (values_.theta <= options_.tolerance) {
-      message_ = "No step along the Newton direction is an improvement, though all rows hold.";
+      message_ = "No step along the Newton direction is an improvement, though all constraints hold.";
       return Status::step_failed;
     }
     const double enough = constants::kappa_resto * values_.theta;
@@ -206,7 +206,7 @@ class InteriorPointRun final : public PreparedRun {
     for (int jammed = 0; jammed < constants::most_jammed && take_feasibility_step();
          jammed = length_ < constants::very_short_step ? jammed + 1 : 0) {
       ++iterations_;
-      report("rows");
+      report("normal");
       if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
@@ -221,7 +221,7 @@ class InteriorPointRun final : public PreparedRun {
       ++iterations_;
       program_.set_interior(descent.point(), push_of_descent, at_);
       if (!program_.evaluate(at_, mu_, values_)) break;
-      report("least");
+      report("descent");
       if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;
       if (const auto reason = reason_to_stop()) return reason;
     }
@@ -260,7 +260,7 @@ class InteriorPointRun final : public PreparedRun {
     if (!options_.verbose) return;
     const OptimalityErrors errors = program_.optimality_errors(at_, gradient_, values_);
     fmt::print(
-        "{:4} {:>6}  cost {:.10e}  violation {:.1e}  stationarity {:.1e}  "
+        "{:4} {:>7}  cost {:.10e}  violation {:.1e}  stationarity {:.1e}  "
         "complementarity {:.1e}  mu {:.1e}  shift {:.1e}  step {:.1e}\n",
         iterations_, kind, values_.objective, errors.violation, errors.stationarity,
         program_.bounds().complementarity(at_, 0.0), mu_, newton_.shift(), length_);
@@ -272,7 +272,7 @@ class InteriorPointRun final : public PreparedRun {
   std::unique_ptr<kkt::KktSystem> kkt_;
   NewtonStep newton_;
   FilterLineSearch line_search_;
-  StopRule allowed_;
+  StopRule stop_rule_;
   Iterate at_;
   Evaluation values_;  // at the iterate
   Primal gradient_;    // of the Lagrangian without bounds, there

@@ -117,16 +117,16 @@ class EntryTable {
     const Eigen::Index equalities =
         equal_bounds(program_.constraint_lower(), program_.constraint_upper(), run.first, length);
     if (is_of_all(run, Place::Kind::node)) {
-      if (equalities < length) refuse("a row of a node is an inequality");
+      if (equalities < length) refuse("a constraint of a node is an inequality");
       return {append(run, 1, made_.equality_rows)};
     }
     if (is_of_all(run, Place::Kind::interval)) {
-      if (equalities > 0 && equalities < length) refuse("a row is an equality in some intervals only");
+      if (equalities > 0 && equalities < length) refuse("a constraint is an equality in some intervals only");
       const bool is_inequality = equalities < length;
       return {append(run, 1, is_inequality ? made_.inequality_rows : own_rows_), is_inequality};
     }
     if (run.kind != Place::Kind::border && !is_of_an_end(run)) {
-      refuse("a row between the ends belongs to no column of its kind");
+      refuse("a constraint between the ends belongs to no run of its kind");
     }
     append(run, run.count, made_.end_rows);
     return {};
@@ -218,7 +218,7 @@ class EntryTable {
     }
     const int column = column_in(row.index, of);
     if (column < 0) {
-      if (!is_of_node) refuse("a row of an interval reads unknowns of another one");
+      if (!is_of_node) refuse("a constraint of an interval reads unknowns of another one");
       return std::nullopt;
     }
     if (row.is_inequality) return Target{{Block::inequality, row.number, column}, row.index};

@@ -15,7 +15,7 @@ namespace dmocbench::sqp {
 namespace {
 
 /// Thrown where an observer asks to stop.
-struct Stopped {};
+struct StoppedByObserver {};
 
 /// The columns that may move and thereby lower the objective, without the basic and (if `but_superbasics`) the
 /// superbasic ones. `rates` (n + m entries): the rates of change of the objective.
@@ -45,7 +45,7 @@ RatioTest ratio_test(const Iterate& iterate, const std::vector<Eigen::Index>& mo
   return ratio_test(columns, limit, iterate.tolerance());
 }
 
-/// Tells the observer; throws `Stopped`.
+/// Tells the observer; throws `StoppedByObserver`.
 void report(const Iterate& iterate, MinorIteration minor, const MinorObserver& observer) {
   const WorkingSet& sets = iterate.sets();
   minor.infeasibility = iterate.infeasibility();
@@ -53,7 +53,7 @@ void report(const Iterate& iterate, MinorIteration minor, const MinorObserver& o
   minor.superbasics = static_cast<Eigen::Index>(sets.superbasics().size());
   minor.basic_slacks = std::count_if(sets.basics().begin(), sets.basics().end(),
                                      [&](Eigen::Index j) { return j >= iterate.program().variable_count(); });
-  if (!observer(minor)) throw Stopped{};
+  if (!observer(minor)) throw StoppedByObserver{};
 }
 
 /// The rate of change of the sum of infeasibilities with each basic column: -1, 0 or 1.
@@ -78,7 +78,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
   std::vector<Eigen::Index> moving = iterate.sets().basics();
   moving.push_back(entering.column);  // it may reach its own other bound
   const RatioTest test = ratio_test(iterate, moving, change, std::numeric_limits<double>::infinity());
-  if (!test.blocking) throw Breakdown("no row stops a column that lowers the infeasibility");
+  if (!test.blocking) throw Breakdown("no constraint stops a column that lowers the infeasibility");
 
   const Eigen::Index leaving = moving[*test.blocking];
   const bool crosses = leaving == entering.column;
@@ -101,7 +101,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
 }
 
 /// Phase 1: one column enters the basis and one leaves per minor iteration, so that the sum of infeasibilities falls,
-/// until all columns are within their bounds or no column can lower the sum. Throws `Breakdown`, `Stopped`.
+/// until all columns are within their bounds or no column can lower the sum. Throws `Breakdown`, `StoppedByObserver`.
 void find_feasible_point(Iterate& iterate, Pricing& pricing, double tolerance, const MinorObserver& observer) {
   while (true) {
     const Eigen::VectorXd weights = infeasibility_rates(iterate);
@@ -125,7 +125,7 @@ class PhaseTwo {
   }
 
   /// Returns the multipliers π of A d - s = 0: g + Hd - Aᵀπ vanishes in the free columns. Throws `Breakdown`,
-  /// `Stopped`.
+  /// `StoppedByObserver`.
   Eigen::VectorXd run() {
     bool stationary = largest_rate_of_superbasics() <= tolerance();
     while (true) {
@@ -296,7 +296,7 @@ QuadraticSolution QuadraticSolver::solve_from(const QuadraticProgram& program, W
     if (may_restart) return solve_from(program, slack_start(program), false);
     solution.status = QuadraticSolution::Status::breakdown;
     solution.message = reason.what();
-  } catch (const Stopped&) {
+  } catch (const StoppedByObserver&) {
     solution.status = QuadraticSolution::Status::stopped;
   }
   return solution;
