@@ -9,7 +9,7 @@
 #include "bench/adaptive/needed_intervals.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench::adaptive_program {

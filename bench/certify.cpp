@@ -17,7 +17,7 @@
 #include "bench/summary/selection.hpp"
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench::certify_program {
 

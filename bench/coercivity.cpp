@@ -5,7 +5,7 @@
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::coercivity_program {

@@ -12,8 +12,8 @@
 #include "bench/experiment/problem_libraries.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/derivative_back_end.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 

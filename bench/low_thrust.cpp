@@ -15,8 +15,8 @@
 #include "bench/low_thrust/reference_transfer.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/shooting_element.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 
 namespace dmocbench::low_thrust_program {
 

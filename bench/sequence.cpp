@@ -13,7 +13,7 @@
 #include "bench/experiment/table_run.hpp"
 #include "bench/sequence/solved_steps.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::sequence_program {

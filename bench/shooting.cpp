@@ -10,7 +10,7 @@
 #include "bench/experiment/table_run.hpp"
 #include "bench/shooting/program_condition.hpp"
 #include "methods/solvers/kkt/linearisation.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/single_shooting.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

@@ -11,7 +11,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "problems/closed_form.hpp"
 #include "problems/registry.hpp"
 

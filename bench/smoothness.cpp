@@ -9,7 +9,7 @@
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/smoothness/optimum_error.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::smoothness_program {

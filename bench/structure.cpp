@@ -10,7 +10,7 @@
 #include "bench/structure/rotations.hpp"
 #include "bench/structure/simulated_tables.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench::structure_program {
 

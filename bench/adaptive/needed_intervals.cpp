@@ -9,7 +9,7 @@
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/summary/profile_tables.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench {
 

@@ -7,8 +7,8 @@
 
 #include "bench/experiment/process_pool.hpp"
 #include "methods/error.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/lane_transcription.hpp"
-#include "methods/transcription/shooting_element.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench {

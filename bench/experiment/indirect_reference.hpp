@@ -12,7 +12,7 @@
 #include "bench/experiment/column.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -16,10 +16,10 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/transcription/derivative_back_end.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/shooting_element.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

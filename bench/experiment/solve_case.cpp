@@ -18,7 +18,7 @@
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/transcription/describe_violation.hpp"
-#include "methods/transcription/shooting_element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

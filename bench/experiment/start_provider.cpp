@@ -20,7 +20,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/tables/motion_file.hpp"
-#include "methods/transcription/bent_motion.hpp"
+#include "methods/transcription/motions/bent_motion.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

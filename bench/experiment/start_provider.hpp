@@ -13,7 +13,7 @@
 #include "bench/experiment/solve_case.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -4,7 +4,7 @@
 
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

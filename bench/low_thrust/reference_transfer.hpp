@@ -7,8 +7,8 @@
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

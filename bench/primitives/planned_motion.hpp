@@ -11,7 +11,7 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/primitives/stored_roadmap.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

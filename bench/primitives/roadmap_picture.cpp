@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "methods/mechanics/point_function.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -7,7 +7,7 @@
 
 #include "bench/sweep/swept_values.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

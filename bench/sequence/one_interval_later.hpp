@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

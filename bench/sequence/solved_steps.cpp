@@ -9,7 +9,7 @@
 #include "bench/experiment/column.hpp"
 #include "bench/sequence/one_interval_later.hpp"
 #include "methods/numerics/quantile.hpp"
-#include "methods/transcription/moved_to_ends.hpp"
+#include "methods/transcription/motions/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

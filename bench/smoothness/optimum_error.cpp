@@ -6,7 +6,7 @@
 #include "methods/error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "problems/closed_form.hpp"
 
 namespace dmocbench {

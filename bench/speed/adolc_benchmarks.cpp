@@ -9,7 +9,7 @@
 #include "bench/speed/interval_benchmark.hpp"
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/transcription/recorded_number.hpp"
+#include "methods/transcription/derivatives/recorded_number.hpp"
 
 namespace dmocbench::speed {
 

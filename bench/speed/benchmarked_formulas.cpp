@@ -8,9 +8,9 @@
 
 #include "bench/experiment/even_draws.hpp"
 #include "methods/expression/replay.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/grid.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+#include "methods/transcription/motions/grid.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {

@@ -27,7 +27,7 @@
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 #include "methods/solvers/kkt/refined_kkt.hpp"
 #include "methods/solvers/kkt/sparse_kkt.hpp"
-#include "methods/transcription/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {

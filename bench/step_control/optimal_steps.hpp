@@ -8,8 +8,8 @@
 #include "bench/step_control/ellipse_transfer.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/extended_action.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/elements/extended_action.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -12,7 +12,7 @@
 #include "methods/diagnostics/modified_energy.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -8,7 +8,7 @@
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/structure/example_systems.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench {
 

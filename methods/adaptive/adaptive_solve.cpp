@@ -14,9 +14,9 @@
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
-#include "methods/transcription/shooting_element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 

@@ -11,9 +11,9 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/grid.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/grid.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

@@ -6,7 +6,7 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/transcription/grid.hpp"
+#include "methods/transcription/motions/grid.hpp"
 
 namespace dmocbench {
 

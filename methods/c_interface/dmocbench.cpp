@@ -18,7 +18,7 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "problems/registry.hpp"

@@ -13,7 +13,7 @@
 #include "methods/numerics/adaptive_integration.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -2,7 +2,7 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/dmoc_element.hpp"
+#include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {
 

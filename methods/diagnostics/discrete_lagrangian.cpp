@@ -3,7 +3,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/transcription/dmoc_element.hpp"
+#include "methods/transcription/elements/dmoc_element.hpp"
 
 namespace dmocbench {
 

@@ -7,7 +7,7 @@
 
 #include "methods/diagnostics/traced_newton.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -4,8 +4,8 @@
 
 #include "methods/diagnostics/traced_newton.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

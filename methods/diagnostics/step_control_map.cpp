@@ -5,7 +5,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/local_functions.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
 #include "methods/transcription/step_times.hpp"
 
 namespace dmocbench {

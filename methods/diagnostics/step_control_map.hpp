@@ -7,8 +7,8 @@
 
 #include "methods/diagnostics/traced_newton.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/extended_action.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/extended_action.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/mechanics/formula_check.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "methods/indirect/pontryagin_function.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -8,7 +8,7 @@
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

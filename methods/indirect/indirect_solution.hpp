@@ -8,7 +8,7 @@
 #include "methods/indirect/collocated_extremal.hpp"
 #include "methods/indirect/pontryagin_function.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -10,7 +10,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/adaptive_integration.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

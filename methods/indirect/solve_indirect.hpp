@@ -2,7 +2,7 @@
 
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -3,8 +3,8 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/grid.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+#include "methods/transcription/motions/grid.hpp"
 
 namespace dmocbench {
 

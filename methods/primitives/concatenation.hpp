@@ -3,7 +3,7 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/primitives/primitive_library.hpp"
 #include "methods/primitives/roadmap.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

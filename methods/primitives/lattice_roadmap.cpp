@@ -15,8 +15,8 @@
 #include "methods/primitives/motion_tree.hpp"
 #include "methods/primitives/solve_primitives.hpp"
 #include "methods/primitives/without_bounds.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -8,11 +8,11 @@
 
 #include "methods/error.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/grid.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/lane_transcription.hpp"
+#include "methods/transcription/motions/grid.hpp"
 #include "methods/transcription/start.hpp"
-#include "methods/transcription/tableau.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "methods/transcription/transcription.hpp"
 

@@ -10,7 +10,7 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/primitives/displacement.hpp"
 #include "methods/primitives/primitive_library.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -6,8 +6,8 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/tables/table.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -2,7 +2,7 @@
 
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/transcription/point_derivatives.hpp"
+#include "methods/transcription/derivatives/point_derivatives.hpp"
 
 namespace dmocbench {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

@@ -6,8 +6,8 @@
 
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/local_functions.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench {
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "methods/mechanics/traced_problem.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/local_functions.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

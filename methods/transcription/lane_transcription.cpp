@@ -4,9 +4,9 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
-#include "methods/transcription/column_assembly.hpp"
-#include "methods/transcription/local_functions.hpp"
-#include "methods/transcription/part_places.hpp"
+#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/part_places.hpp"
 
 namespace dmocbench {
 

@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
-#include "methods/transcription/column_assembly.hpp"
-#include "methods/transcription/element.hpp"
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 namespace dmocbench {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "methods/program/rounding_floors.hpp"
-#include "methods/transcription/guess_check.hpp"
 #include "methods/transcription/layout.hpp"
+#include "methods/transcription/motions/guess_check.hpp"
 
 namespace dmocbench {
 

@@ -6,8 +6,8 @@
 #include "methods/error.hpp"
 #include "methods/numerics/dense_solve.hpp"
 #include "methods/program/kkt_residual.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/point_derivatives.hpp"
+#include "methods/transcription/derivatives/point_derivatives.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench {

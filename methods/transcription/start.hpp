@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "methods/mechanics/problem.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {

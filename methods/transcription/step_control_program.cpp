@@ -10,11 +10,11 @@
 #include "methods/error.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
-#include "methods/transcription/local_functions.hpp"
-#include "methods/transcription/part_places.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/part_places.hpp"
+#include "methods/transcription/motions/velocities_of_momenta.hpp"
 #include "methods/transcription/program_bounds.hpp"
 #include "methods/transcription/step_times.hpp"
-#include "methods/transcription/velocities_of_momenta.hpp"
 
 namespace dmocbench {
 

@@ -7,11 +7,11 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/assembled_pattern.hpp"
-#include "methods/transcription/extended_action.hpp"
-#include "methods/transcription/interpolation.hpp"
-#include "methods/transcription/program_part.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/derivatives/assembled_pattern.hpp"
+#include "methods/transcription/derivatives/program_part.hpp"
+#include "methods/transcription/elements/extended_action.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "methods/transcription/extended_action.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/elements/extended_action.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
 

@@ -4,7 +4,7 @@
 
 #include "methods/error.hpp"
 #include "methods/transcription/costates.hpp"
-#include "methods/transcription/velocities_of_momenta.hpp"
+#include "methods/transcription/motions/velocities_of_momenta.hpp"
 
 namespace dmocbench {
 

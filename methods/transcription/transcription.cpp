@@ -10,8 +10,8 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/guess_check.hpp"
-#include "methods/transcription/part_places.hpp"
+#include "methods/transcription/derivatives/part_places.hpp"
+#include "methods/transcription/motions/guess_check.hpp"
 #include "methods/transcription/program_floors.hpp"
 
 namespace dmocbench {

@@ -13,16 +13,16 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/assembled_pattern.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/derivatives/assembled_pattern.hpp"
+#include "methods/transcription/derivatives/program_part.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "methods/transcription/end_functions.hpp"
-#include "methods/transcription/grid.hpp"
-#include "methods/transcription/guess_check.hpp"
 #include "methods/transcription/interval_functions.hpp"
 #include "methods/transcription/layout.hpp"
+#include "methods/transcription/motions/grid.hpp"
+#include "methods/transcription/motions/guess_check.hpp"
 #include "methods/transcription/program_bounds.hpp"
-#include "methods/transcription/program_part.hpp"
-#include "methods/transcription/tableau.hpp"
 
 namespace dmocbench {
 

@@ -11,7 +11,7 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/grid.hpp"
+#include "methods/transcription/motions/grid.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {

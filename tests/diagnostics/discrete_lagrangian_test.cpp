@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 #include "tests/support/problems_for_tests.hpp"
 
 namespace dmocbench {

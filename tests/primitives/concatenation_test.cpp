@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/primitives/solve_primitives.hpp"
-#include "methods/transcription/element.hpp"
+#include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/hovercraft.hpp"

@@ -11,7 +11,7 @@
 #include "methods/primitives/concatenation.hpp"
 #include "methods/primitives/without_bounds.hpp"
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "methods/transcription/transcription.hpp"

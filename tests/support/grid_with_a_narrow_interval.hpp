@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/transcription/grid.hpp"
+#include "methods/transcription/motions/grid.hpp"
 
 namespace dmocbench::tests {
 

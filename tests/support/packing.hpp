@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "methods/mechanics/point_function.hpp"
-#include "methods/transcription/trajectory.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 #include "methods/transcription/transcription.hpp"
 
 namespace dmocbench::tests {

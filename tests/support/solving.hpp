@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/solvers/solver.hpp"
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 #include "methods/transcription/transcription.hpp"

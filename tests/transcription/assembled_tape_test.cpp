@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/transcription/assembled_pattern.hpp"
-#include "methods/transcription/column_assembly.hpp"
+#include "methods/transcription/derivatives/assembled_pattern.hpp"
+#include "methods/transcription/derivatives/column_assembly.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "methods/transcription/bent_motion.hpp"
+#include "methods/transcription/motions/bent_motion.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/transcription/finite_differences.hpp"
+#include "methods/transcription/derivatives/finite_differences.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"

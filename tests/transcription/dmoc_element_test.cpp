@@ -1,4 +1,4 @@
-#include "methods/transcription/dmoc_element.hpp"
+#include "methods/transcription/elements/dmoc_element.hpp"
 
 #include <vector>
 

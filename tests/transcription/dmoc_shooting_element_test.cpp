@@ -1,6 +1,6 @@
 // Shooting by the map of DMOC against DMOC itself, and its derivatives against differences.
 
-#include "methods/transcription/dmoc_shooting_element.hpp"
+#include "methods/transcription/elements/dmoc_shooting_element.hpp"
 
 #include <functional>
 

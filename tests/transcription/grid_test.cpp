@@ -1,4 +1,4 @@
-#include "methods/transcription/grid.hpp"
+#include "methods/transcription/motions/grid.hpp"
 
 #include <limits>
 

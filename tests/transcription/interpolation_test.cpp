@@ -1,4 +1,4 @@
-#include "methods/transcription/interpolation.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
 
 #include <gtest/gtest.h>
 

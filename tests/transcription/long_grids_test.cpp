@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/runtime/parallel.hpp"
-#include "methods/transcription/column_assembly.hpp"
+#include "methods/transcription/derivatives/column_assembly.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"

@@ -1,4 +1,4 @@
-#include "methods/transcription/moved_to_ends.hpp"
+#include "methods/transcription/motions/moved_to_ends.hpp"
 
 #include <cmath>
 #include <string>

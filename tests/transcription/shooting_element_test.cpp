@@ -1,6 +1,6 @@
 // Shooting against an integration written out here, and its orders against those that theory gives.
 
-#include "methods/transcription/shooting_element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "methods/transcription/tableau.hpp"
+#include "methods/transcription/elements/tableau.hpp"
 
 #include <cmath>
 

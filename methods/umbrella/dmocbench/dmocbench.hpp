@@ -23,7 +23,7 @@
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/describe_violation.hpp"
 #include "methods/transcription/feedback_gains.hpp"
-#include "methods/transcription/moved_to_ends.hpp"
+#include "methods/transcription/motions/moved_to_ends.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

@@ -1,0 +1,102 @@
+#include "methods/transcription/derivatives/column_assembly.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "methods/error.hpp"
+#include "methods/runtime/parallel.hpp"
+#include "methods/runtime/vector_loops.hpp"
+
+namespace dmocbench {
+
+ColumnAssembly::ColumnAssembly(AssemblyPlan plan) : plan_(std::move(plan)), columns_(plan_.places.size()) {
+  std::vector<std::size_t> order(columns_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t column) { return plan_.places[column].first; });
+  std::size_t covered = 0;  // entries below are written, set to zero or added to
+  const auto zero_until = [&](std::size_t end) {
+    if (covered >= end || plan_.mode != AssemblyMode::whole) return;
+    zeros_.push_back({covered, end});
+    covered = end;
+  };
+  for (const std::size_t column : order) {
+    const ColumnPlace& place = plan_.places[column];
+    const std::size_t end = place.at(plan_.intervals - 1) + 1;
+    if (end > plan_.size) throw Error("a column leaves the array that it is assembled to");
+    if (plan_.mode == AssemblyMode::part || place.shared || place.first < covered) {
+      additions_.push_back({column, additions_.size() * plan_.intervals});
+      zero_until(end);
+    } else {
+      zero_until(place.first);
+      covered = end;
+    }
+  }
+  zero_until(plan_.size);
+  scratch_.resize(additions_.size() * plan_.intervals);
+}
+
+std::span<double* const> ColumnAssembly::open(VectorOut& result) {
+  if (static_cast<std::size_t>(result.size()) != plan_.size) {
+    throw Error("columns are assembled to an array of wrong length");
+  }
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    columns_[column] = result.data() + plan_.places[column].first;
+  }
+  for (const Addition& addition : additions_) columns_[addition.column] = scratch_.data() + addition.scratch;
+  return columns_;
+}
+
+void ColumnAssembly::close(VectorOut& result) const {
+  // Threads share the entries of the result and not the columns: an entry gets what belongs to it in the order of the
+  // columns, and is still in a cache when the next one adds to it.
+  constexpr std::size_t entries_per_part = 65536;
+  const std::size_t parts = part_count(plan_.size, entries_per_part);
+  double* const entries = result.data();
+  for_each_part(parts, [&](std::size_t part) {
+    const Stretch within{begin_of_part(part, parts, plan_.size), begin_of_part(part + 1, parts, plan_.size)};
+    for (const Stretch& zeros : zeros_) {
+      const std::size_t begin = std::max(zeros.begin, within.begin);
+      const std::size_t end = std::min(zeros.end, within.end);
+      if (begin < end) std::fill(entries + begin, entries + end, 0.0);
+    }
+    for (const Addition& addition : additions_) add_column(addition, within, entries);
+  });
+}
+
+/// Adds those of its values whose entries of the result lie within a stretch.
+void ColumnAssembly::add_column(const Addition& addition, Stretch within, double* result) const {
+  const ColumnPlace& place = plan_.places[addition.column];
+  const double* const source = scratch_.data() + addition.scratch;
+  const std::size_t first = place.first;
+  if (place.shared) {
+    if (first < within.begin || first >= within.end) return;
+    result[first] += Eigen::Map<const Eigen::VectorXd>(source, static_cast<Eigen::Index>(intervals())).sum();
+    return;
+  }
+  const std::size_t begin = std::max(first, within.begin);
+  const std::size_t end = std::min(first + intervals(), within.end);
+  if (begin >= end) return;
+  double* const target = result + begin;
+  vector_loops().set_to_sum(target, target, 1.0, source + (begin - first), static_cast<std::ptrdiff_t>(end - begin));
+}
+
+AssembledTape::AssembledTape(const Schedule& schedule, AssemblyPlan plan)
+    : tape_(schedule), assembly_(std::move(plan)) {
+  if (assembly_.columns() != tape_.output_count()) throw Error("an assembled tape needs one place per output");
+  for (std::size_t part = 0; part < part_count(assembly_.intervals()); ++part) workspaces_.emplace_back(tape_);
+}
+
+void AssembledTape::evaluate(std::span<const Tape::Input> inputs, VectorOut result) {
+  const auto columns = assembly_.open(result);
+  const std::size_t parts = workspaces_.size();
+  const auto begin_of = [&](std::size_t part) {
+    return begin_of_part(part, parts, assembly_.intervals(), Tape::block_width);
+  };
+  for_each_part(parts, [&](std::size_t part) {
+    tape_.evaluate(begin_of(part), begin_of(part + 1), inputs, columns, workspaces_[part]);
+  });
+  assembly_.close(result);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/expression/tape.hpp"
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+
+namespace dmocbench {
+
+/// Where the derivatives of a part stand in the program's arrays, entries in the order of `LocalFunctions::gradient`,
+/// `jacobian` and `hessian`. All three have the same intervals and the same mode.
+struct DerivativePlaces {
+  AssemblyPlan gradient;  ///< where its entries go
+  AssemblyPlan jacobian;  ///< where its entries go
+  AssemblyPlan hessian;   ///< where its entries go
+};
+
+/// A way to differentiate the formulas of a part of a program for all its intervals.
+///
+/// All back ends fill the same entries, those that do not vanish structurally, so that a solver sees the same program.
+/// Not to be used from two threads at once.
+class DerivativeBackEnd {
+ public:
+  /// The inputs of all intervals in the order of `LocalInputs`; multipliers are read by `hessian` only.
+  using Inputs = std::span<const Tape::Input>;
+
+  virtual ~DerivativeBackEnd() = default;
+  DerivativeBackEnd(const DerivativeBackEnd&) = delete;
+  DerivativeBackEnd& operator=(const DerivativeBackEnd&) = delete;
+  DerivativeBackEnd(DerivativeBackEnd&&) = delete;
+  DerivativeBackEnd& operator=(DerivativeBackEnd&&) = delete;
+
+  /// ∂cost/∂unknown; `result` has `DerivativePlaces::gradient.size` entries.
+  virtual void gradient(Inputs inputs, VectorOut result) = 0;
+  /// ∂row/∂unknown; `values` has `DerivativePlaces::jacobian.size` entries.
+  virtual void jacobian(Inputs inputs, VectorOut values) = 0;
+  /// ∂²ℓ/∂unknown², one triangle; `values` has `DerivativePlaces::hessian.size` entries.
+  virtual void hessian(Inputs inputs, VectorOut values) = 0;
+
+ protected:
+  DerivativeBackEnd() = default;
+};
+
+/// Names of the available back ends, the default (`tape`) first: tape, adolc (if ADOL-C was found when this was built),
+/// finite_differences, forward_differences.
+[[nodiscard]] std::vector<std::string> derivative_back_end_names();
+
+/// One line. Throws `Error` as `make_derivative_back_end` does.
+[[nodiscard]] std::string derivative_back_end_description(std::string_view name);
+
+/// The back end of that name for the intervals of one grid; `functions` is read only by this call. Throws `Error` that
+/// lists the names if there is none, and says what is missing if it was left out of this build.
+[[nodiscard]] std::unique_ptr<DerivativeBackEnd> make_derivative_back_end(std::string_view name,
+                                                                          const LocalFunctions& functions,
+                                                                          const DerivativePlaces& places);
+
+}  // namespace dmocbench

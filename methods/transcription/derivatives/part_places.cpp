@@ -1,0 +1,44 @@
+#include "methods/transcription/derivatives/part_places.hpp"
+
+#include <utility>
+
+namespace dmocbench {
+
+std::vector<ColumnPlace> picked(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
+  std::vector<ColumnPlace> result;
+  result.reserve(numbers.size());
+  for (const std::size_t number : numbers) result.push_back(places[number]);
+  return result;
+}
+
+LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
+                              const std::vector<ColumnPlace>& unknowns, std::size_t intervals) {
+  return {picked(rows, functions.jacobian.rows), picked(unknowns, functions.jacobian.columns), intervals};
+}
+
+LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                             std::size_t intervals) {
+  LocalEntries entries{picked(unknowns, functions.hessian.rows), picked(unknowns, functions.hessian.columns),
+                       intervals};
+  for (std::size_t e = 0; e < entries.rows.size(); ++e) {
+    if (entries.rows[e].first < entries.columns[e].first) std::swap(entries.rows[e], entries.columns[e]);
+  }
+  return entries;
+}
+
+PartPlaces part_places(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                       const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
+                       const std::vector<ColumnPlace>& hessian, const ProgramArrays& arrays, std::size_t intervals,
+                       AssemblyMode mode) {
+  const auto plan = [&](std::vector<ColumnPlace> places, std::size_t size) {
+    return AssemblyPlan{.places = std::move(places), .size = size, .intervals = intervals, .mode = mode};
+  };
+  return {.unknowns = unknowns,
+          .rows = rows,
+          .constraints = plan(picked(rows, functions.rows.places), arrays.constraints),
+          .derivatives = {.gradient = plan(picked(unknowns, functions.gradient.places), arrays.variables),
+                          .jacobian = plan(jacobian, arrays.jacobian),
+                          .hessian = plan(hessian, arrays.hessian)}};
+}
+
+}  // namespace dmocbench

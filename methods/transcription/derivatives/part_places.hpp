@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "methods/transcription/derivatives/assembled_pattern.hpp"
+#include "methods/transcription/derivatives/program_part.hpp"
+
+namespace dmocbench {
+
+/// The places with these numbers, in their order.
+[[nodiscard]] std::vector<ColumnPlace> picked(const std::vector<ColumnPlace>& places,
+                                              const std::vector<std::size_t>& numbers);
+
+/// Where the entries of a part's Jacobian stand; `rows` and `unknowns` are the places of all that are local.
+[[nodiscard]] LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
+                                            const std::vector<ColumnPlace>& unknowns, std::size_t intervals);
+/// Where those of its Hessian stand, in the lower triangle.
+[[nodiscard]] LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                                           std::size_t intervals);
+
+/// The arrays of a program that its parts make up.
+struct ProgramArrays {
+  std::size_t variables = 0;    ///< entries of the gradient
+  std::size_t constraints = 0;  ///< entries of a
+  std::size_t jacobian = 0;     ///< entries of its array
+  std::size_t hessian = 0;      ///< entries of its array
+};
+
+/// Where a part with these local unknowns and rows stands in a program; `jacobian` and `hessian` are the places of its
+/// entries in the assembled patterns.
+[[nodiscard]] PartPlaces part_places(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                                     const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
+                                     const std::vector<ColumnPlace>& hessian, const ProgramArrays& arrays,
+                                     std::size_t intervals, AssemblyMode mode = AssemblyMode::whole);
+
+}  // namespace dmocbench

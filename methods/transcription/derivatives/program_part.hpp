@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/derivatives/local_functions.hpp"
+
+namespace dmocbench {
+
+/// Where the unknowns and constraints (rows) of a part stand in the program's vectors, and how its values and
+/// derivatives make up the program's arrays.
+struct PartPlaces {
+  std::vector<ColumnPlace> unknowns;  ///< where unknowns lie in the program's vectors
+  std::vector<ColumnPlace> rows;      ///< all local rows
+  AssemblyPlan constraints;           ///< entries in the order of `LocalFunctions::rows`
+  DerivativePlaces derivatives;       ///< where derivatives go
+};
+
+/// A part of a program on numbers: the functions of an interval for all intervals, or those of the ends. Its inputs are
+/// the program's own vectors, read in place. Allocates nothing in an evaluation.
+class ProgramPart {
+ public:
+  /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, are read in every
+  /// evaluation and must outlive this object. `derivatives` names a back end, see `make_derivative_back_end`.
+  ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
+              const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives);
+  // Inputs point into this object.
+  ProgramPart(const ProgramPart&) = delete;
+  ProgramPart& operator=(const ProgramPart&) = delete;
+  ProgramPart(ProgramPart&&) = delete;
+  ProgramPart& operator=(ProgramPart&&) = delete;
+  ~ProgramPart() = default;
+
+  /// The inputs of the formulas at a point (see `LocalInputs`); `multipliers` may be empty where no formula reads them.
+  /// Valid until the next call.
+  [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
+                                                  double objective_factor);
+
+  /// Its share of φ.
+  [[nodiscard]] double cost(const VectorIn& x);
+  // These write the program's whole arrays, or add to them.
+  /// a, constraint_count() entries.
+  void rows(const VectorIn& x, const VectorOut& result);
+  /// ∇φ, variable_count() entries.
+  void gradient(const VectorIn& x, const VectorOut& result);
+  /// The entries of ∂a/∂ξ.
+  void jacobian(const VectorIn& x, const VectorOut& values);
+  /// The entries of the Hessian of objective_factor · φ + λᵀa.
+  void hessian(const VectorIn& x, double objective_factor, const VectorIn& multipliers, const VectorOut& values);
+
+ private:
+  LocalInputs numbers_;
+  std::vector<ColumnPlace> unknown_places_;
+  std::vector<ColumnPlace> row_places_;
+  double objective_factor_ = 1.0;
+  Eigen::VectorXd no_multipliers_;
+  std::vector<Tape::Input> inputs_;
+  AssembledTape cost_;
+  AssembledTape rows_;
+  std::unique_ptr<DerivativeBackEnd> derivatives_;
+  Eigen::VectorXd costs_;  // per interval
+};
+
+}  // namespace dmocbench

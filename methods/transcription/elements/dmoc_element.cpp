@@ -1,0 +1,39 @@
+#include "methods/transcription/elements/dmoc_element.hpp"
+
+namespace dmocbench {
+
+std::string DmocElement::description() const {
+  return "Discrete Mechanics and Optimal Control: the discrete Lagrange-d'Alembert principle on q";
+}
+
+IntervalTrace DmocElement::trace(const TracedProblem& problem, const Tableau& tableau,
+                                 const IntervalUnknowns& unknowns) const {
+  const Expression& h = unknowns.h;
+  const auto rates = stage_rates(unknowns.left_q, unknowns.right_q, unknowns.rates_q, tableau.b, h);
+  const auto configurations = stage_values(unknowns.left_q, rates, tableau.a, h);
+
+  IntervalTrace trace;
+  std::vector<TracedProblem::Values> values;
+  std::vector<std::vector<ConjugatePair>> pairs;  // L_q + f works along Q_i, L_v along Q̇_i
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const Expression time = unknowns.t + Expression(tableau.c[static_cast<Eigen::Index>(i)]) * h;
+    trace.stages.push_back({configurations[i], rates[i], unknowns.controls[i], time});
+    values.push_back(problem.at(trace.stages.back()));
+    pairs.push_back({{configurations[i], values[i].generalised_force}, {rates[i], values[i].momentum}});
+  }
+  const auto vary = [&](const ExpressionVector& x) { return variation(x, pairs, tableau.b, h); };
+  trace.left_rows = vary(unknowns.left_q);
+  trace.right_rows = vary(unknowns.right_q);
+  const Eigen::Index n = problem.configuration_size();
+  trace.stage_equations.resize(n * static_cast<Eigen::Index>(unknowns.rates_q.size()));
+  for (std::size_t j = 0; j < unknowns.rates_q.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    trace.stage_equations.segment(row * n, n) = vary(unknowns.rates_q[j]) / (h * Expression(tableau.b[row]));
+  }
+  trace.cost = quadrature_of_cost(values, tableau.b, h);
+  trace.left_momentum = -trace.left_rows;
+  trace.right_momentum = trace.right_rows;
+  return trace;
+}
+
+}  // namespace dmocbench

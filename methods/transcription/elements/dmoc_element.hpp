@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "methods/transcription/elements/element.hpp"
+
+namespace dmocbench {
+
+/// DMOC: the discrete Lagrange-d'Alembert principle, (eq:varmech_dldap), with the discrete Lagrangian (eq:DMOC_RK_L)
+/// and the discrete forces (eq:DMOC_RK_f) of a Butcher tableau.
+///
+/// Node: q_k. Stages: Q_i = q_k + h Σ_j a_ij Q̇_j. With the action A = h Σ b_i L(Q_i, Q̇_i) and the virtual work
+/// W[δ] = h Σ b_i f(Q_i, Q̇_i, U_i)·δQ_i the equations are
+///   node k:      ∂A/∂q_k + W[∂/∂q_k]          from the interval to its right,
+///   node k + 1:  ∂A/∂q_{k+1} + W[∂/∂q_{k+1}]  from the interval to its left; the sum of both at a node is the forced
+///                discrete Euler-Lagrange equation (DEL) (unit: momentum),
+///   stages:      (∂A/∂Q̇_j + W[∂/∂Q̇_j]) / (h b_j) = 0, j = 1 .. s-1 (unit: momentum).
+/// Momenta: the forced discrete Legendre transforms (eq:varmech_dlegf), p_k = -(term at node k) and
+/// p_{k+1} = (term at node k + 1). What the first and the last node add, (eq:gDLOCP3) and (rem:inifinalvel), is in
+/// `program_bounds` and `end_functions`.
+class DmocElement final : public Element {
+ public:
+  [[nodiscard]] std::string name() const override { return "dmoc"; }
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] NodeState node_state() const override { return NodeState::configuration; }
+  [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
+                                    const IntervalUnknowns& unknowns) const override;
+};
+
+}  // namespace dmocbench

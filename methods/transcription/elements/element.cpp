@@ -1,0 +1,76 @@
+#include "methods/transcription/elements/element.hpp"
+
+#include "methods/expression/derivatives.hpp"
+
+namespace dmocbench {
+
+IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem, const Element& element,
+                               Eigen::Index stages) {
+  const Eigen::Index n = problem.configuration_size();
+  const Eigen::Index second = element.node_state() == NodeState::configuration ? 0 : n;
+  const Eigen::Index interior = element.has_stage_unknowns() ? stages - 1 : 0;
+  IntervalUnknowns unknowns;
+  unknowns.left_q = counter.take(n);
+  unknowns.left_second = counter.take(second);
+  unknowns.right_q = counter.take(n);
+  unknowns.right_second = counter.take(second);
+  for (Eigen::Index j = 0; j < interior; ++j) unknowns.rates_q.push_back(counter.take(n));
+  for (Eigen::Index j = 0; j < interior && second > 0; ++j) unknowns.rates_second.push_back(counter.take(n));
+  for (Eigen::Index i = 0; i < stages; ++i) unknowns.controls.push_back(counter.take(problem.control_size()));
+  return unknowns;
+}
+
+std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,
+                                          const std::vector<ExpressionVector>& interior, const Eigen::VectorXd& b,
+                                          const Expression& h) {
+  std::vector<ExpressionVector> rates = interior;
+  ExpressionVector last = (right - left) / h;
+  for (std::size_t j = 0; j < interior.size(); ++j) last -= Expression(b[static_cast<Eigen::Index>(j)]) * interior[j];
+  last /= Expression(b[b.size() - 1]);
+  rates.push_back(last);
+  return rates;
+}
+
+std::vector<ExpressionVector> stage_values(const ExpressionVector& left, const std::vector<ExpressionVector>& rates,
+                                           const Eigen::MatrixXd& a, const Expression& h) {
+  std::vector<ExpressionVector> stages;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    ExpressionVector stage = left;
+    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+      stage += (h * Expression(a(i, j))) * rates[static_cast<std::size_t>(j)];
+    }
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
+ExpressionVector variation(const ExpressionVector& x, const std::vector<std::vector<ConjugatePair>>& stages,
+                           const Eigen::VectorXd& b, const Expression& h) {
+  ExpressionVector sum(x.size());
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const Expression weight = h * Expression(b[static_cast<Eigen::Index>(i)]);
+    std::vector<ExpressionMatrix> weighted;
+    for (const ConjugatePair& pair : stages[i]) weighted.emplace_back(weight * jacobian(pair.moved, x).transpose());
+    for (std::size_t j = 0; j < weighted.size(); ++j) sum += weighted[j] * stages[i][j].force;
+  }
+  return sum;
+}
+
+ExpressionVector work_of_control(const TracedProblem& problem, const std::vector<ControlledState>& stages,
+                                 const ExpressionVector& x, const Eigen::VectorXd& b, const Expression& h) {
+  std::vector<std::vector<ConjugatePair>> pairs;
+  pairs.reserve(stages.size());
+  for (const ControlledState& stage : stages) pairs.push_back({{stage.q, problem.at(stage).control_force}});
+  return variation(x, pairs, b, h);
+}
+
+Expression quadrature_of_cost(const std::vector<TracedProblem::Values>& stages, const Eigen::VectorXd& b,
+                              const Expression& h) {
+  Expression sum;
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    sum += Expression(b[i]) * stages[static_cast<std::size_t>(i)].running_cost;
+  }
+  return h * sum;
+}
+
+}  // namespace dmocbench

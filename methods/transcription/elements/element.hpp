@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/expression/vectors.hpp"
+#include "methods/mechanics/state.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+
+namespace dmocbench {
+
+/// What a node carries besides its configuration q_k: its second part.
+enum class NodeState : std::uint8_t {
+  configuration,  ///< nothing: x_k = q_k
+  momentum,       ///< x_k = (q_k, p_k)
+  velocity,       ///< x_k = (q_k, v_k)
+};
+
+/// The unknowns of one interval [t_k, t_{k+1}], as traced numbers.
+struct IntervalUnknowns {
+  ExpressionVector left_q;                ///< q_k, n entries
+  ExpressionVector left_second;           ///< p_k or v_k, n entries; empty where nodes carry q alone
+  ExpressionVector right_q;               ///< q_{k+1}
+  ExpressionVector right_second;          ///< p_{k+1} or v_{k+1}
+  std::vector<ExpressionVector> rates_q;  ///< Q̇_1 .. Q̇_{s-1}, the last stage rate is eliminated; none of shooting
+  std::vector<ExpressionVector> rates_second;  ///< Ṗ_j or V̇_j, j = 1 .. s-1; none of shooting
+  std::vector<ExpressionVector> controls;      ///< U_1 .. U_s, m entries each
+  Expression h;                                ///< the step
+  Expression t;                                ///< t_k
+};
+
+/// The formulas of an element for one interval.
+struct IntervalTrace {
+  ExpressionVector left_rows;           ///< added to the equations of node k; n entries or none
+  ExpressionVector right_rows;          ///< added to the equations of node k + 1
+  ExpressionVector stage_equations;     ///< equations of this interval alone, each equal to 0
+  Expression cost;                      ///< h Σ b_i C(Q_i, Q̇_i, U_i)
+  std::vector<ControlledState> stages;  ///< (Q_i, Q̇_i, U_i, t_k + c_i h); V_i for tangent-space collocation
+  ExpressionVector left_momentum;       ///< p_k seen from this interval, n entries
+  ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
+};
+
+/// One interval of a direct transcription, for any Butcher tableau.
+///
+/// An element is a rule, not data: given the formulas of a problem and traced unknowns, it returns formulas. Numbering,
+/// sparsity, derivatives, boundary conditions and costates are generic (`Transcription`). Every element satisfies:
+///   - on a solution of its stage equations the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
+///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn equations for DMOC, 2sn + sm and 2sn for
+///     collocation; 2n + sm and 2n for shooting.
+class Element {
+ public:
+  virtual ~Element() = default;
+  Element(const Element&) = delete;
+  Element& operator=(const Element&) = delete;
+  Element(Element&&) = delete;
+  Element& operator=(Element&&) = delete;
+
+  /// As on the command line.
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// One line.
+  [[nodiscard]] virtual std::string description() const = 0;
+  /// What nodes carry.
+  [[nodiscard]] virtual NodeState node_state() const = 0;
+  /// True if the stages are unknowns of the program, with equations of their own; false if an interval is a map of its
+  /// left node and controls (shooting).
+  [[nodiscard]] virtual bool has_stage_unknowns() const { return true; }
+  /// The formulas of one interval; all vectors have the sizes that `IntervalTrace` names.
+  [[nodiscard]] virtual IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
+                                            const IntervalUnknowns& unknowns) const = 0;
+
+ protected:
+  Element() = default;
+};
+
+/// The unknowns of an interval of an element as the next inputs of `counter`, in the order of `IntervalUnknowns`; h and
+/// t are left to the caller.
+[[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
+                                             const Element& element, Eigen::Index stages);
+
+/// Names of the families that the paper compares: DMOC, Hamiltonian and tangent-space collocation.
+[[nodiscard]] std::vector<std::string> element_names();
+
+/// These, and the names of shooting by one step per interval (`shooting_name`).
+[[nodiscard]] std::vector<std::string> all_element_names();
+
+/// The family of that name. Throws `Error` that lists the names if there is none, or says what a name of shooting
+/// lacks.
+[[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
+
+// Formulas that the families share.
+
+/// All s stage rates: the interior ones and the last, K_s = ((x_{k+1} - x_k)/h - Σ_{j<s} b_j K_j) / b_s.
+[[nodiscard]] std::vector<ExpressionVector> stage_rates(const ExpressionVector& left, const ExpressionVector& right,
+                                                        const std::vector<ExpressionVector>& interior,
+                                                        const Eigen::VectorXd& b, const Expression& h);
+
+/// The stages X_i = x_k + h Σ_j a_ij K_j.
+[[nodiscard]] std::vector<ExpressionVector> stage_values(const ExpressionVector& left,
+                                                         const std::vector<ExpressionVector>& rates,
+                                                         const Eigen::MatrixXd& a, const Expression& h);
+
+/// A quantity that varies and the force that does work on its variation.
+struct ConjugatePair {
+  ExpressionVector moved;  ///< X, e.g. the configuration Q_i of a stage
+  ExpressionVector force;  ///< y, as many entries as X
+};
+
+/// h Σ_i b_i Σ_X (∂X/∂x)ᵀ y, the sum over the pairs of each stage: the gradient of an action, or a virtual work, in the
+/// unknowns x, which are inputs. As many entries as x.
+[[nodiscard]] ExpressionVector variation(const ExpressionVector& x,
+                                         const std::vector<std::vector<ConjugatePair>>& stages,
+                                         const Eigen::VectorXd& b, const Expression& h);
+
+/// The virtual work h Σ b_i f·∂Q_i/∂x of the control forces alone.
+[[nodiscard]] ExpressionVector work_of_control(const TracedProblem& problem, const std::vector<ControlledState>& stages,
+                                               const ExpressionVector& x, const Eigen::VectorXd& b,
+                                               const Expression& h);
+
+/// h Σ b_i C(stage i).
+[[nodiscard]] Expression quadrature_of_cost(const std::vector<TracedProblem::Values>& stages, const Eigen::VectorXd& b,
+                                            const Expression& h);
+
+}  // namespace dmocbench

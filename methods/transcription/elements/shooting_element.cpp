@@ -1,0 +1,181 @@
+#include "methods/transcription/elements/shooting_element.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "methods/choose.hpp"
+#include "methods/error.hpp"
+#include "methods/expression/linear_solve.hpp"
+#include "methods/numerics/lagrange_basis.hpp"
+#include "methods/runtime/parsed.hpp"
+#include "methods/transcription/elements/dmoc_shooting_element.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr std::string_view multiple_prefix = "multiple_shooting_";
+constexpr std::string_view single_prefix = "single_shooting_";
+
+/// State and cost along an interval, or their rates.
+struct Flow {
+  ExpressionVector q;
+  ExpressionVector v;
+  Expression cost;
+};
+
+/// The equations of motion with a control that is a polynomial of time.
+class ControlledFlow {
+ public:
+  ControlledFlow(const TracedProblem& problem, const Tableau& tableau, const IntervalUnknowns& unknowns)
+      : problem_(&problem), tableau_(&tableau), unknowns_(&unknowns) {}
+
+  /// At the time `tau` relative to the interval.
+  [[nodiscard]] ExpressionVector control(double tau) const {
+    const Eigen::VectorXd weights = lagrange_basis(tableau_->c, tau);
+    ExpressionVector u(problem_->control_size());
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      u += Expression(weights[i]) * unknowns_->controls[static_cast<std::size_t>(i)];
+    }
+    return u;
+  }
+
+  [[nodiscard]] Flow rate(const Flow& at, double tau) const {
+    const Expression t = unknowns_->t + Expression(tau) * unknowns_->h;
+    const TracedProblem::Values values = problem_->at(ControlledState{at.q, at.v, control(tau), t});
+    ExpressionVector force = values.generalised_force - values.momentum_by_time;
+    force -= values.momentum_by_configuration * at.v;
+    return {at.v, solve_symmetric(values.mass, force), values.running_cost};
+  }
+
+ private:
+  const TracedProblem* problem_;
+  const Tableau* tableau_;
+  const IntervalUnknowns* unknowns_;
+};
+
+void add(Flow& sum, const Expression& factor, const Flow& rate) {
+  sum.q += factor * rate.q;
+  sum.v += factor * rate.v;
+  sum.cost += factor * rate.cost;
+}
+
+/// One step of length `h` that begins at the relative time `first` and takes `width` of the interval.
+Flow advance(const ControlledFlow& flow, const ExplicitIntegrator& method, const Flow& at, const Expression& h,
+             double first, double width) {
+  std::vector<Flow> rates;
+  for (Eigen::Index i = 0; i < method.stages(); ++i) {
+    Flow stage = at;
+    for (Eigen::Index j = 0; j < i; ++j) add(stage, h * Expression(method.a(i, j)), rates[static_cast<std::size_t>(j)]);
+    rates.push_back(flow.rate(stage, first + method.c[i] * width));
+  }
+  Flow next = at;
+  for (Eigen::Index i = 0; i < method.stages(); ++i) {
+    add(next, h * Expression(method.b[i]), rates[static_cast<std::size_t>(i)]);
+  }
+  return next;
+}
+
+/// The point at `theta` in [0, 1] on the cubic through both ends of a step of length `h` with their velocities.
+State on_cubic(const Flow& left, const Flow& right, const Expression& h, double theta) {
+  const double square = theta * theta;
+  const double cube = square * theta;
+  State state;
+  state.q = Expression(2.0 * cube - 3.0 * square + 1.0) * left.q + Expression(3.0 * square - 2.0 * cube) * right.q;
+  state.q += (h * Expression(cube - 2.0 * square + theta)) * left.v + (h * Expression(cube - square)) * right.v;
+  state.v = (Expression(6.0 * (theta - square)) / h) * (right.q - left.q);
+  state.v += Expression(3.0 * square - 4.0 * theta + 1.0) * left.v + Expression(3.0 * square - 2.0 * theta) * right.v;
+  return state;
+}
+
+void require_at_most(int most, int substeps) {
+  if (substeps >= 1 && substeps <= most) return;
+  throw Error(fmt::format("shooting takes 1 to {} substeps per interval, got {}", most, substeps));
+}
+
+}  // namespace
+
+ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps)
+    : shooting_(shooting), integrator_(std::move(integrator)), substeps_(substeps) {
+  require_at_most(most_substeps, substeps);
+}
+
+std::string ShootingElement::name() const { return shooting_name(shooting_, integrator_.name, substeps_); }
+
+std::string ShootingElement::description() const {
+  return fmt::format("direct {} shooting on (q, v), {} step{} of {} per interval",
+                     shooting_ == Shooting::single ? "single" : "multiple", substeps_, substeps_ == 1 ? "" : "s",
+                     integrator_.name);
+}
+
+IntervalTrace ShootingElement::trace(const TracedProblem& problem, const Tableau& tableau,
+                                     const IntervalUnknowns& unknowns) const {
+  const ControlledFlow flow(problem, tableau, unknowns);
+  const double width = 1.0 / substeps_;
+  const Expression h = Expression(width) * unknowns.h;
+  std::vector<Flow> nodes{{unknowns.left_q, unknowns.left_second, Expression(0.0)}};
+  for (int step = 0; step < substeps_; ++step) {
+    nodes.push_back(advance(flow, integrator_, nodes.back(), h, step * width, width));
+  }
+
+  IntervalTrace trace;
+  const Eigen::Index n = problem.configuration_size();
+  const Flow& end = nodes.back();
+  trace.stage_equations.resize(2 * n);
+  trace.stage_equations << (unknowns.right_q - end.q) / unknowns.h, (unknowns.right_second - end.v) / unknowns.h;
+  for (Eigen::Index i = 0; i < tableau.stages(); ++i) {
+    const double tau = tableau.c[i];
+    const int step = std::min(static_cast<int>(std::floor(tau * substeps_)), substeps_ - 1);
+    const auto first = static_cast<std::size_t>(step);
+    const State stage = on_cubic(nodes[first], nodes[first + 1], h, tau * substeps_ - step);
+    trace.stages.push_back(
+        {stage.q, stage.v, unknowns.controls[static_cast<std::size_t>(i)], unknowns.t + Expression(tau) * unknowns.h});
+  }
+  trace.cost = end.cost;
+  trace.left_momentum = problem.at(State{unknowns.left_q, unknowns.left_second, unknowns.t}).momentum;
+  trace.right_momentum = problem.at(State{unknowns.right_q, unknowns.right_second, unknowns.t + unknowns.h}).momentum;
+  return trace;
+}
+
+std::vector<std::string> shooting_integrator_names() {
+  std::vector<std::string> names = explicit_integrator_names();
+  names.emplace_back(dmoc_integrator);
+  return names;
+}
+
+void require_substeps(std::string_view integrator, int substeps) {
+  static_cast<void>(position_of(shooting_integrator_names(), std::identity(), integrator, "there is no integrator"));
+  if (integrator != dmoc_integrator) return require_at_most(ShootingElement::most_substeps, substeps);
+  if (substeps != 1) throw Error(fmt::format("shooting by dmoc takes one step per interval, got {}", substeps));
+}
+
+std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps) {
+  return fmt::format("{}{}_{}", shooting == Shooting::single ? single_prefix : multiple_prefix, integrator, substeps);
+}
+
+std::unique_ptr<Element> make_shooting_element(std::string_view name) {
+  const bool is_single = is_single_shooting(name);
+  if (!is_single && !name.starts_with(multiple_prefix)) return nullptr;
+  const std::string_view rest = name.substr((is_single ? single_prefix : multiple_prefix).size());
+  const std::size_t bar = rest.rfind('_');
+  const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(rest.substr(bar + 1));
+  if (!substeps) {
+    throw Error(fmt::format("\"{}\" names no number of substeps; \"{}_1\" does", name, name));
+  }
+  const Shooting shooting = is_single ? Shooting::single : Shooting::multiple;
+  const std::string_view integrator = rest.substr(0, bar);
+  require_substeps(integrator, *substeps);
+  if (integrator == dmoc_integrator) return std::make_unique<DmocShootingElement>(shooting);
+  return std::make_unique<ShootingElement>(shooting, explicit_integrator(integrator), *substeps);
+}
+
+bool is_single_shooting(std::string_view name) { return name.starts_with(single_prefix); }
+
+}  // namespace dmocbench

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/explicit_integrator.hpp"
+
+namespace dmocbench {
+
+/// What becomes of the nodes in between.
+enum class Shooting : std::uint8_t {
+  multiple,  ///< they are unknowns
+  single,    ///< they are simulated: `SingleShooting` condenses the program
+};
+
+/// Direct shooting (section 3.3 of the paper; Bock, Plitt 1984): the interval is integrated from its left node.
+///
+/// Node: (q_k, v_k). With Φ the explicit integrator's `substeps` steps of q̇ = v, v̇ = L_vv⁻¹(L_q + f - L_vq v - L_vt),
+/// the equations of an interval are
+///   (x_{k+1} - Φ(x_k, U))/h = 0        (2n, units: velocity, acceleration).
+/// The control is the polynomial through U_1 .. U_s at the stage times of the tableau, the same as where the controls
+/// of the other families are replayed; the cost is integrated beside the state. No stage is an unknown. At the stage
+/// times q is the cubic through the ends of the step and their velocities, and Q̇_i its derivative; path constraints
+/// hold there. L_vv must have nonzero leading minors (`solve_symmetric`).
+///
+/// With s = 1 the control is constant on an interval: order 2, whatever the integrator's order.
+class ShootingElement final : public Element {
+ public:
+  /// Throws `Error` unless `substeps` is in [1, most_substeps].
+  ShootingElement(Shooting shooting, ExplicitIntegrator integrator, int substeps);
+
+  /// Beyond it, formulas of an interval become too long.
+  static constexpr int most_substeps = 64;
+
+  /// "multiple_shooting_rk4_1" or "single_shooting_rk4_1": the integrator and the number of its steps per interval.
+  [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] NodeState node_state() const override { return NodeState::velocity; }
+  [[nodiscard]] bool has_stage_unknowns() const override { return false; }
+  [[nodiscard]] IntervalTrace trace(const TracedProblem& problem, const Tableau& tableau,
+                                    const IntervalUnknowns& unknowns) const override;
+
+ private:
+  Shooting shooting_;
+  ExplicitIntegrator integrator_;
+  int substeps_;
+};
+
+/// The integrator that is the map of DMOC itself (`DmocShootingElement`).
+inline constexpr std::string_view dmoc_integrator = "dmoc";
+
+/// Names of all integrators of shooting: the explicit ones, and that of DMOC.
+[[nodiscard]] std::vector<std::string> shooting_integrator_names();
+
+/// Throws `Error` in a sentence unless the integrator exists and is offered with so many steps per interval: 1 to
+/// `ShootingElement::most_substeps` of an explicit one, 1 of DMOC.
+void require_substeps(std::string_view integrator, int substeps);
+
+/// "multiple_shooting_INTEGRATOR_SUBSTEPS", or "single_shooting_…".
+[[nodiscard]] std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps);
+
+/// The element of such a name; null if the name begins otherwise. Throws `Error` that says what it lacks.
+[[nodiscard]] std::unique_ptr<Element> make_shooting_element(std::string_view name);
+
+/// True of the names of single shooting.
+[[nodiscard]] bool is_single_shooting(std::string_view name);
+
+}  // namespace dmocbench

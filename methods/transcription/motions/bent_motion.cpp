@@ -1,0 +1,21 @@
+#include "methods/transcription/motions/bent_motion.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace dmocbench {
+
+Motion bent(const Motion& motion, const Eigen::MatrixXd& amplitudes) {
+  const auto at = [motion, amplitudes](double t) {
+    MotionPoint point = motion.at(t);
+    for (Eigen::Index k = 0; k < amplitudes.cols(); ++k) {
+      const double frequency = static_cast<double>(k + 1) * std::numbers::pi / motion.horizon;
+      point.q += amplitudes.col(k) * std::sin(frequency * t);
+      point.v += amplitudes.col(k) * (frequency * std::cos(frequency * t));
+    }
+    return point;
+  };
+  return {at, motion.horizon};
+}
+
+}  // namespace dmocbench

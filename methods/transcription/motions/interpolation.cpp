@@ -1,0 +1,108 @@
+#include "methods/transcription/motions/interpolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <boost/math/interpolators/cubic_hermite.hpp>
+
+#include "methods/numerics/lagrange_basis.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Two times on different grids are the same if they differ by less than this share of the horizon.
+constexpr double rounding_of_times = 1e-12;
+
+/// The interval that contains t; the nearest one outside the horizon.
+Eigen::Index interval_of(const Eigen::VectorXd& times, double t) {
+  const auto above = std::upper_bound(times.begin(), times.end(), t);
+  return std::clamp<Eigen::Index>(above - times.begin() - 1, 0, times.size() - 2);
+}
+
+/// ∫₀^τ of the Lagrange polynomials of c, by Gauss quadrature that is exact for their degree.
+Eigen::VectorXd lagrange_integral(const Eigen::VectorXd& c, double tau) {
+  const Tableau quadrature = gauss_tableau(static_cast<int>(std::min<Eigen::Index>((c.size() + 2) / 2, 3)));
+  Eigen::VectorXd integral = Eigen::VectorXd::Zero(c.size());
+  for (Eigen::Index i = 0; i < quadrature.stages(); ++i) {
+    integral += tau * quadrature.b[i] * lagrange_basis(c, tau * quadrature.c[i]);
+  }
+  return integral;
+}
+
+/// The polynomial through the stages of an interval, from their table.
+Eigen::VectorXd stage_polynomial(const Trajectory& trajectory, const Eigen::MatrixXd& stages, Eigen::Index interval,
+                                 double t) {
+  const Eigen::Index s = trajectory.stages();
+  const double left = trajectory.node_times[interval];
+  const double tau = (t - left) / (trajectory.node_times[interval + 1] - left);
+  return stages.middleRows(interval * s, s).transpose() * lagrange_basis(trajectory.tableau.c, tau);
+}
+
+}  // namespace
+
+std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t) {
+  const double span = times[times.size() - 1] - times[0];
+  const auto above = std::lower_bound(times.begin(), times.end(), t - rounding_of_times * span);
+  if (above == times.end() || std::abs(*above - t) > rounding_of_times * span) return std::nullopt;
+  return above - times.begin();
+}
+
+Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t) {
+  const Eigen::Index k = interval_of(trajectory.node_times, t);
+  const double h = trajectory.step(k);
+  const double tau = std::clamp((t - trajectory.node_times[k]) / h, 0.0, 1.0);
+  if (tau == 0.0) return trajectory.q.row(k).transpose();
+  if (tau == 1.0) return trajectory.q.row(k + 1).transpose();
+  const Eigen::Index s = trajectory.stages();
+  const auto rates = trajectory.stage_v.middleRows(k * s, s);
+  return trajectory.q.row(k).transpose() + h * rates.transpose() * lagrange_integral(trajectory.tableau.c, tau);
+}
+
+Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
+  return stage_polynomial(trajectory, trajectory.stage_u, interval, t);
+}
+
+Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t) {
+  return stage_polynomial(trajectory, trajectory.stage_v, interval, t);
+}
+
+Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side) {
+  if (trajectory.stages() > 1) {
+    const Eigen::VectorXd& times = trajectory.node_times;
+    const double nudge = rounding_of_times * (times[times.size() - 1] - times[0]);
+    return control_on_interval(trajectory, interval_of(times, side == Side::left ? t - nudge : t + nudge), t);
+  }
+  if (trajectory.intervals() == 1) return trajectory.stage_u.row(0).transpose();
+  const Eigen::Index k = interval_of(trajectory.stage_times, t);
+  const double left = trajectory.stage_times[k];
+  const double weight = (t - left) / (trajectory.stage_times[k + 1] - left);
+  return (1.0 - weight) * trajectory.stage_u.row(k).transpose() + weight * trajectory.stage_u.row(k + 1).transpose();
+}
+
+Motion smooth_motion(const Trajectory& trajectory) {
+  using Interpolator = boost::math::interpolators::cubic_hermite<std::vector<double>>;
+  const auto column = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
+  const auto curves = std::make_shared<std::vector<Interpolator>>();
+  for (Eigen::Index i = 0; i < trajectory.q.cols(); ++i) {
+    curves->emplace_back(column(trajectory.node_times), column(trajectory.q.col(i)), column(trajectory.v.col(i)));
+  }
+  const auto at = [curves, trajectory](double t) {
+    const double inside =
+        std::clamp(t, trajectory.node_times[0], trajectory.node_times[trajectory.node_times.size() - 1]);
+    const auto n = static_cast<Eigen::Index>(curves->size());
+    MotionPoint point{Eigen::VectorXd(n), Eigen::VectorXd(n), control_at(trajectory, inside)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Interpolator& curve = (*curves)[static_cast<std::size_t>(i)];
+      point.q[i] = curve(inside);
+      point.v[i] = curve.prime(inside);
+    }
+    return point;
+  };
+  return {at, trajectory.node_times[trajectory.node_times.size() - 1]};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "methods/mechanics/state.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
+
+namespace dmocbench {
+
+/// A motion given for every time 0 <= t <= T; starts are sampled from it.
+struct Motion {
+  std::function<MotionPoint(double t)> at;  ///< (q, v, u) at a time
+  double horizon = 0.0;                     ///< T > 0
+};
+
+/// The node of ascending `times` at time t, up to rounding; none if there is no such node.
+[[nodiscard]] std::optional<Eigen::Index> node_at(const Eigen::VectorXd& times, double t);
+
+/// The element's polynomial of the configuration at time t: q(t_k + τh) = q_k + h Σ_j Q̇_j ∫₀^τ ℓ_j, n entries.
+/// Times outside the horizon are moved to its ends.
+[[nodiscard]] Eigen::VectorXd configuration_at(const Trajectory& trajectory, double t);
+
+/// The side from which a time is approached: controls may jump at the nodes.
+enum class Side : std::uint8_t { left, right };
+
+/// The control at time t, m entries. With one stage it is linear between the two nearest stage times (order 2), and is
+/// extrapolated beyond the first and the last of them. With several stages it is the polynomial through the stages of
+/// the interval; at a node, of the interval on that side.
+[[nodiscard]] Eigen::VectorXd control_at(const Trajectory& trajectory, double t, Side side = Side::right);
+
+/// The control that acts on the discrete system: the polynomial through the stages of interval k = `interval`,
+/// [t_k, t_{k+1}]; constant for one stage.
+[[nodiscard]] Eigen::VectorXd control_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
+
+/// The time derivative of the element's polynomial of the configuration in interval k = `interval`, n entries.
+[[nodiscard]] Eigen::VectorXd velocity_on_interval(const Trajectory& trajectory, Eigen::Index interval, double t);
+
+/// The motion as a smooth curve: piecewise cubic Hermite in (q, v), its derivative as velocity, `control_at` as
+/// control.
+[[nodiscard]] Motion smooth_motion(const Trajectory& trajectory);
+
+}  // namespace dmocbench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/mechanics/state.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+
+namespace dmocbench {
+
+/// A discrete motion in the same form for every method; diagnostics, tables and figures are made from it.
+///
+/// Units are those of the problem as solved. Row k of a node table is node k = 0 .. N; row k s + i of a stage table is
+/// stage i of interval k.
+struct Trajectory {
+  Tableau tableau;  ///< of the method
+
+  Eigen::VectorXd node_times;  ///< t_0 .. t_N
+  Eigen::MatrixXd q;           ///< (N + 1) × n
+  Eigen::MatrixXd p;           ///< (N + 1) × n, by the forced discrete Legendre transform (eq:varmech_dlegf) for DMOC
+  Eigen::MatrixXd v;           ///< (N + 1) × n, with p = L_v(q, v)
+
+  Eigen::VectorXd stage_times;  ///< t_k + c_i h_k, N s entries
+  Eigen::MatrixXd stage_q;      ///< Q_i, N s × n
+  Eigen::MatrixXd stage_v;      ///< Q̇_i (V_i for tangent-space collocation, equal to it), N s × n
+  Eigen::MatrixXd stage_u;      ///< U_i, N s × m
+  Eigen::MatrixXd stage_p;      ///< P_i = L_v(Q_i, Q̇_i), N s × n
+
+  /// Gradient of the optimal cost-to-go in (q, p) at the nodes, (N + 1) × n each; empty (0 × 0) without multipliers.
+  Eigen::MatrixXd psi_q;
+  Eigen::MatrixXd psi_p;  ///< see `psi_q`
+  /// The same at the stages (`stage_costates`), N s × n each; empty without multipliers, where bounds on velocities or
+  /// path constraints have multipliers of their own there, and of shooting, whose stages are no unknowns.
+  Eigen::MatrixXd stage_psi_q;
+  Eigen::MatrixXd stage_psi_p;  ///< see `stage_psi_q`
+
+  double cost = 0.0;  ///< the true cost, not the scaled one
+
+  /// h_k = t_{k+1} - t_k.
+  [[nodiscard]] double step(Eigen::Index k) const { return node_times[k + 1] - node_times[k]; }
+  /// (q_k, v_k), without a control.
+  [[nodiscard]] MotionPoint node(Eigen::Index k) const { return {q.row(k).transpose(), v.row(k).transpose(), {}}; }
+  /// (Q_i, Q̇_i, U_i) in a row of the stage tables.
+  [[nodiscard]] MotionPoint stage(Eigen::Index row) const {
+    return {stage_q.row(row).transpose(), stage_v.row(row).transpose(), stage_u.row(row).transpose()};
+  }
+
+  /// N.
+  [[nodiscard]] Eigen::Index intervals() const noexcept { return node_times.size() - 1; }
+  [[nodiscard]] Eigen::Index stages() const noexcept { return tableau.stages(); }  ///< s.
+  /// True if there are costates at the nodes.
+  [[nodiscard]] bool has_costates() const noexcept { return psi_q.size() > 0; }
+  /// True if there are costates at the stages.
+  [[nodiscard]] bool has_stage_costates() const noexcept { return stage_psi_q.size() > 0; }
+};
+
+}  // namespace dmocbench
