@@ -101,7 +101,7 @@ class Derivatives final : public Experiment {
   void complete(SolvedCase& solved) override {
     const Case& the_case = solved.the_case;
     measured_ = {};
-    if (const SolvedCase* exact = partner_of(the_case); solved.trajectory && exact != nullptr) {
+    if (const SolvedCase* exact = partner_of(the_case); solved.trajectory && exact != nullptr && exact->trajectory) {
       const Eigen::MatrixXd& q = exact->trajectory->q;
       measured_.answer_difference = (solved.trajectory->q - q).lpNorm<Eigen::Infinity>() / q.lpNorm<Eigen::Infinity>();
     }

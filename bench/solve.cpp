@@ -148,11 +148,13 @@ class Solve final : public Experiment {
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     for (const std::string& failure : failures_) fmt::print("solve: {}\n", failure);
     for (const SolvedCase& solved : motions_) {
+      if (!solved.trajectory || !solved.accuracy) continue;
       const Case& the_case = solved.the_case;
+      const Trajectory& motion = *solved.trajectory;
       const std::string file = prefix.string() + label_of(the_case);
-      write_table(file + "_stages.csv", stage_table(*the_case.problem, *solved.trajectory), metadata);
-      write_table(file + "_picture.csv", picture_table(*the_case.problem, *solved.trajectory), metadata);
-      write_table(file + "_nodes.csv", node_table(*the_case.problem, *solved.trajectory), metadata);
+      write_table(file + "_stages.csv", stage_table(*the_case.problem, motion), metadata);
+      write_table(file + "_picture.csv", picture_table(*the_case.problem, motion), metadata);
+      write_table(file + "_nodes.csv", node_table(*the_case.problem, motion), metadata);
       metadata["motions"].push_back({{"nodes", std::filesystem::path(file + "_nodes.csv").filename().string()},
                                      {"problem", the_case.problem->name()},
                                      {"settings", the_case.problem->settings()},

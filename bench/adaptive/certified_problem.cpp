@@ -26,7 +26,7 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
                       .grid = Grid::uniform(96)};
   const SolvedCase solved =
       solve_case(the_case, Start{guessed_motion(*problem)}, *make_solver("auto", options), options.tolerance, 1);
-  if (is_usable(solved)) return *solved.trajectory;
+  if (solved.trajectory && is_usable(solved)) return *solved.trajectory;
   throw Error(fmt::format("{} could not be solved: {}", the_case.label(), solved.solution.message));
 }
 

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+// NOLINTBEGIN(*-macro-usage,*-avoid-c-arrays): what the fragments below read; arrays that live in registers
 #define DMOCBENCH_INLINE [[gnu::always_inline]] inline
 #define DMOCBENCH_ANY_SIZE 1
 #define DMOCBENCH_COUNT_OPERATIONS(count)
@@ -73,3 +74,5 @@ kkt::SegmentKernel one_lane_kernel(const kkt::Shape& shape) {
 }
 
 }  // namespace dmocbench::speed
+
+// NOLINTEND(*-macro-usage,*-avoid-c-arrays)

@@ -4,9 +4,11 @@
 
 #include "bench/structure_advantage/operation_count.hpp"
 
+// NOLINTBEGIN(*-macro-usage): what the fragments below read
 #define DMOCBENCH_INLINE inline
 #define DMOCBENCH_ANY_SIZE 0
 #define DMOCBENCH_COUNT_OPERATIONS(count) (operations += (count))  // of all eight lanes
+// NOLINTEND(*-macro-usage)
 
 namespace dmocbench::kkt::counting {
 
