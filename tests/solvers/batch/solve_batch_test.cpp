@@ -29,7 +29,7 @@ struct Case {
       : problem(make_problem(name)) {
     if (!parameter.empty()) problem->set_parameter(parameter, value);
     program = std::make_unique<Transcription>(*problem, *make_element(method), make_tableau("gauss", stages),
-                                              Grid::uniform(static_cast<Eigen::Index>(intervals)));
+                                              Grid::uniform(static_cast<long long>(intervals)));
     start = sample(*program, guessed_motion(*problem));
   }
 
