@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "methods/expression/native_code.hpp"
 #include "methods/expression/schedule.hpp"
@@ -23,7 +22,7 @@ class LateCode {
   static constexpr std::size_t most_operations = 16384;
 
   /// After how many intervals code for so many operations is made: as many as it needs from then on to save the time of
-  /// its making, so that a tape that stops being evaluated just then has lost no more than that. Both times are
+  /// its making, and half as many more, so that short solves are over before. Both times are
   /// about proportional to the number of operations, the making beside a fixed time for memory from the system;
   /// `build/bench/speed/speed --benchmark_filter="making|separate"` tells them.
   [[nodiscard]] static constexpr std::uint64_t worthwhile_intervals(std::size_t operations) noexcept {
@@ -46,7 +45,7 @@ class LateCode {
   };
   void make();
 
-  std::optional<Source> source_;  // until code is made of it, by one thread
+  std::unique_ptr<Source> source_;  // until code is made of it, by one thread
   std::uint64_t worthwhile_;
   std::atomic<std::uint64_t> evaluated_{0};
   std::unique_ptr<const NativeCode> code_;
