@@ -24,6 +24,21 @@ void register_tapes(const BenchmarkedFormulas& point, const std::string& way, In
   register_benchmark(benchmark, checked_evaluation(point, all, "the tape on " + name, by_tape(point, all, set, use)));
 }
 
+/// How long the three tapes take to be made with their machine code.
+void register_making(const BenchmarkedFormulas& point, InstructionSet set) {
+  Evaluation making{.evaluate = [&point, set] {
+    for (const Schedule* schedule : point.schedules()) {
+      benchmark::DoNotOptimize(Tape(*schedule, set, NativeCodeUse::always));
+    }
+  }};
+  for (const Schedule* schedule : point.schedules()) making.work.operations += schedule->operation_count();
+  register_benchmark({.way = "native",
+                      .quantity = "making",
+                      .formulas = point.formulas(),
+                      .instruction_set = std::string(name_of(set))},
+                     making);
+}
+
 void register_replays(const BenchmarkedFormulas& point) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const Schedule& schedule = *point.schedules()[i];
@@ -90,7 +105,9 @@ void register_expression_benchmarks(const FormulasOfPaper& paper) {
   for (const auto& point : paper) {
     for (const InstructionSet set : available_instruction_sets()) {
       register_tapes(*point, "tape", set, NativeCodeUse::never);
-      if (has_native_code(set)) register_tapes(*point, "native", set, NativeCodeUse::always);
+      if (!has_native_code(set)) continue;
+      register_tapes(*point, "native", set, NativeCodeUse::always);
+      register_making(*point, set);
     }
     register_replays(*point);
   }

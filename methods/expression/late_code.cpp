@@ -7,7 +7,7 @@
 namespace dmocbench {
 
 LateCode::LateCode(Schedule schedule, TapeSeries series, InstructionSet set, std::uint64_t intervals)
-    : source_(Source{std::move(schedule), std::move(series), set}), worthwhile_(intervals) {
+    : source_(std::make_unique<Source>(Source{std::move(schedule), std::move(series), set})), worthwhile_(intervals) {
   if (intervals == 0) make();
 }
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "methods/expression/native_code.hpp"
 #include "methods/expression/schedule.hpp"
@@ -22,8 +21,10 @@ class LateCode {
   /// less and less, and what it was made of would fill the memory.
   static constexpr std::size_t most_operations = 16384;
 
-  /// Intervals after which code for so many operations has saved the time that it takes to make it, with a margin of
-  /// two: making takes some 20 µs and 0.3 µs per operation, and saves 0.06 ns per operation and interval.
+  /// After how many intervals code for so many operations is made: as many as it needs from then on to save the time of
+  /// its making, and half as many more, so that short solves are over before. Both times are
+  /// about proportional to the number of operations, the making beside a fixed time for memory from the system;
+  /// `build/bench/speed/speed --benchmark_filter="making|separate"` tells them.
   [[nodiscard]] static constexpr std::uint64_t worthwhile_intervals(std::size_t operations) noexcept {
     return 10'000 + 600'000 / static_cast<std::uint64_t>(operations);
   }
@@ -44,7 +45,7 @@ class LateCode {
   };
   void make();
 
-  std::optional<Source> source_;  // until code is made of it, by one thread
+  std::unique_ptr<Source> source_;  // until code is made of it, by one thread
   std::uint64_t worthwhile_;
   std::atomic<std::uint64_t> evaluated_{0};
   std::unique_ptr<const NativeCode> code_;

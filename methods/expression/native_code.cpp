@@ -1,6 +1,8 @@
 #include "methods/expression/native_code.hpp"
 
 #include <bit>
+#include <cstdint>
+#include <optional>
 
 #include <xbyak/xbyak.h>
 
@@ -65,10 +67,11 @@ class StageWriter : public Xbyak::CodeGenerator {
   void finish() {
     align(cache_line);
     for (std::size_t value = 0; value < constants_.size(); ++value) {
-      if (!is_read_[value]) continue;
+      const std::optional<double>& constant = plan_.homes[value].constant;
+      if (!is_read_[value] || !constant) continue;
       L(constants_[value]);
       for (std::size_t lane = 0; lane < registers_.width(); ++lane) {
-        dq(std::bit_cast<std::uint64_t>(*plan_.homes[value].constant));
+        dq(std::bit_cast<std::uint64_t>(*constant));
       }
     }
     readyRE();
@@ -82,7 +85,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     push(rbp);
     mov(rbp, rsp);
     if (places == 0) return;
-    and_(rsp, -static_cast<int>(cache_line));
+    and_(rsp, ~(cache_line - 1));
     sub(rsp, static_cast<std::uint32_t>(places * registers_.bytes));
   }
 
@@ -162,8 +165,8 @@ std::unique_ptr<const NativeCode> make_native_code(const NativePlan& plan, Instr
     for (const NativeStage& stage : plan.stages) begins.push_back(writer->write(stage));
     writer->finish();
     for (std::size_t i = 0; i < begins.size(); ++i) {
-      // NOLINTNEXTLINE(*-reinterpret-cast): numbers become a function
-      const auto arithmetic = reinterpret_cast<decltype(NativeCode::Stage::arithmetic)>(writer->getCode() + begins[i]);
+      const auto address = reinterpret_cast<std::uintptr_t>(writer->getCode()) + begins[i];  // NOLINT: bytes become
+      const auto arithmetic = reinterpret_cast<decltype(NativeCode::Stage::arithmetic)>(address);  // NOLINT: a function
       code->stages.push_back({arithmetic, plan.stages[i].functions});
     }
     code->memory = writer;

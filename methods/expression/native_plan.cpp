@@ -125,7 +125,8 @@ class Planner {
       if (!is_computed(i) || is_function(i)) continue;
       std::vector<VectorStep>& arithmetic = plan_.stages[stage_of_[i]].arithmetic;
       arithmetic.push_back(vector_step(i));
-      if (outputs_of_[i].empty() && plan_.homes[i].series) arithmetic.push_back(copy(i, *plan_.homes[i].series));
+      const std::optional<std::uint32_t>& home = plan_.homes[i].series;
+      if (outputs_of_[i].empty() && home) arithmetic.push_back(copy(i, *home));
       for (const std::uint32_t output : outputs_of_[i]) arithmetic.push_back(copy(i, output));
     }
   }

@@ -146,8 +146,9 @@ class RegisterAllocator {
   [[nodiscard]] bool has_home(std::uint32_t value) const { return homes_[value].constant || homes_[value].series; }
 
   [[nodiscard]] OperandPlace in_memory(std::uint32_t value) const {
-    if (homes_[value].constant) return {OperandPlace::Kind::constant, value};
-    if (homes_[value].series) return {OperandPlace::Kind::series, *homes_[value].series};
+    const NativePlan::Home& home = homes_[value];
+    if (home.constant) return {OperandPlace::Kind::constant, value};
+    if (home.series) return {OperandPlace::Kind::series, *home.series};
     return {OperandPlace::Kind::stack, values_[value].stack_place};
   }
 

@@ -89,7 +89,8 @@ void expect_same(const SeriesTable& found, const SeriesTable& expected) {
   }
 }
 
-/// Both ways on every instruction set. On `baseline`, or where the system gives no memory for code, they are the same.
+/// Both ways on every instruction set; on `baseline` they are the same. A system that gives no executable memory fails
+/// here, so that nothing is compared with itself.
 void expect_code_like_interpreter(const Schedule& schedule, const SeriesTable& inputs) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(name_of(set));
