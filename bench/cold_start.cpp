@@ -1,5 +1,5 @@
-// What users meet: every problem by every method from the problem's own guess and from perturbed ones, none from a
-// solution. How many starts are solved, confirmed, on the best branch, and what that takes.
+// How often a solve from a guess, or from a perturbed one, succeeds: every problem by every method, as users meet them,
+// none from a solution. How many starts are solved, confirmed, on the best branch, and what that takes.
 #include <algorithm>
 #include <cstdint>
 #include <optional>

@@ -1,4 +1,4 @@
-// What exact derivatives are worth: section 4.1, "Automatic Differentiation", of the paper.
+// What exact derivatives are worth beside differences: section 4.1, "Automatic Differentiation", of the paper.
 #include <algorithm>
 #include <optional>
 #include <random>

@@ -71,10 +71,10 @@ std::string end_in_words(const Problem& problem, const BoundaryState& state, con
 std::string horizon_in_words(const Problem& problem) {
   const Unit time = problem.card().time_unit;
   const HorizonBounds bounds = problem.bounds().horizon;
-  if (!bounds.is_free())
-    return fmt::format("T = {:.6g} ({:.6g} {})", bounds.lower, bounds.lower * time.factor, time.name);
-  return fmt::format("{:.6g} <= T <= {:.6g}, guessed {:.6g} ({:.6g} {})", bounds.lower, bounds.upper, problem.horizon(),
-                     problem.horizon() * time.factor, time.name);
+  const double guessed = problem.horizon();
+  const std::string in_unit = time.name.empty() ? "" : fmt::format(" ({:.6g} {})", guessed * time.factor, time.name);
+  if (!bounds.is_free()) return fmt::format("T = {:.6g}{}", guessed, in_unit);
+  return fmt::format("{:.6g} <= T <= {:.6g}, guessed {:.6g}{}", bounds.lower, bounds.upper, guessed, in_unit);
 }
 
 void print_reference(const Problem& problem) {
@@ -175,10 +175,10 @@ int print_all(CommandLine& line) {
   }
   fmt::print("\nTableaus (--tableau, --stages)\n\n");
   for (const std::string& name : tableau_names()) {
-    fmt::print("{:<12} s = {}\n", name, fmt::join(tableau_stages(name), ", "));
+    fmt::print("{:<14} s = {}\n", name, fmt::join(tableau_stages(name), ", "));
   }
   fmt::print("\nSolvers (--solver)\n\n");
-  for (const std::string& name : solver_names()) fmt::print("{:<12} {}\n", name, make_solver(name)->description());
+  for (const std::string& name : solver_names()) fmt::print("{:<14} {}\n", name, make_solver(name)->description());
   fmt::print("\nDerivatives (--derivatives)\n\n");
   for (const std::string& name : derivative_back_end_names()) {
     fmt::print("{:<20} {}\n", name, derivative_back_end_description(name));

@@ -1,5 +1,5 @@
-// Low thrust over many revolutions (section 4.2.1 of the paper with a long horizon): what few steps per revolution
-// cost.
+// Transfers by low thrust over many revolutions (section 4.2.1 of the paper with a long horizon): what few steps per
+// revolution cost.
 #include <cmath>
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
-// Structure: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation of a Modified
-// Energy").
+// What the discrete flows preserve: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation
+// of a Modified Energy").
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/structure/energy_columns.hpp"

@@ -94,6 +94,7 @@ do for [kind in kinds] {
         set label i plateau_label(i) at graph 1.12, first label_at[i] left font ",13" textcolor rgb "#202020"
       }
     }
+    if (successes(1) == 0) { set label 101 "no instance was solved" at graph 0.5, 0.5 center font ",13" textcolor rgb grey }
     plot for [i = 1:count] profile_rows(i, measure) using (column("ratio")):(column("share")) with steps linetype 20 + i
   }
   unset arrow; unset label
@@ -133,13 +134,14 @@ numbers_of(present) = system("echo '".present."' | tr ' ' '\n' | awk -v all='".a
 all_drawn = ""
 do for [i = 1:count] { all_drawn = all_drawn.where_of(i)." " }
 
-height = 150 + 235 * lines
+head = 125.0  # for three lines of title above the titles of the panels
+height = 50 + head + 235 * lines
 do for [kind in kinds] {
   eval begin_figure(kind, "library_work_precision", 1400, height)
   set multiplot layout lines, columns title title_text(\
       "What an accurate cost takes on every problem of the library", timed_conditions("profile").".",\
       "Each line goes over the grids, coarsest first; only solves that met the reference's cost are drawn.".left_out)\
-      offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - 100.0 / height spacing 0.045, 74.0 / height
+      offset 0, -0.2 margins 0.065, 0.985, 75.0 / height, 1 - head / height spacing 0.045, 74.0 / height
   do for [p = 1:words(problems)] {
     problem_word = word(problems, p)
     drawn = place_in(with_points, problem_word) > 0

@@ -4,6 +4,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/summary/profile_tables.hpp"
+#include "methods/runtime/counted.hpp"
 #include "methods/transcription/elements/element.hpp"
 
 namespace dmocbench {
@@ -59,7 +60,9 @@ void require_told(const Selection& successes, const std::string& measure) {
 Predicate dmoc_best_by(const std::string& measure) {
   return [wins = "wins_" + measure, measure](const ResultTables& tables, const std::string&) -> Finding {
     const Selection rows = tables.rows("profile");
-    for (const Row& row : rows.where("success", "yes")) static_cast<void>(row.needed("objective"));
+    const Selection successes = rows.where("success", "yes");
+    require(!successes.empty(), "profile.csv has no success among its {}", counted(rows.size(), "row"));
+    for (const Row& row : successes) static_cast<void>(row.needed("objective"));
     const auto wins_in_words = [&](const Row& row) {
       return fmt::format("{} {} {}: best on {}, solves {}", row.text("method"), row.text("tableau"), row.text("stages"),
                          row.text(wins), row.text("successes"));

@@ -163,6 +163,10 @@ ResultTables ResultTables::read(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
   ResultTables tables;
   for (const DeclaredTable& declared : declared_tables()) tables.read_table(folder, declared);
+  if (tables.tables_.empty() && tables.faults_.empty()) {
+    throw Error(fmt::format("there is no table that a claim reads in {0}; run an experiment with --out {0} first",
+                            folder.string()));
+  }
   return tables;
 }
 

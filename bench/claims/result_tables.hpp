@@ -35,7 +35,8 @@ class MissingTable : public Error {
 class ResultTables {
  public:
   ResultTables() = default;
-  /// Reads the declared tables and the .json beside them. Throws `Error` if there is no such folder.
+  /// Reads the declared tables and the .json beside them. Throws `Error` if there is no such folder, or none
+  /// of them is in it.
   [[nodiscard]] static ResultTables read(const std::filesystem::path& folder);
 
   /// Reads one declared table and the .json beside it as they are now.

@@ -46,9 +46,12 @@ class FieldReader {
   FieldReader(Function function)
       : type_(field_type<std::remove_cvref_t<std::invoke_result_t<const Function&, const Record&>>>()),
         read_(std::move(function)) {}
+  /// Of a function that writes its fields itself, and so has to say what they are.
+  template <class Function>
+  FieldReader(Function function, FieldType type) : type_(type), read_(std::move(function)) {}
   /// The field of a record.
   [[nodiscard]] Cell operator()(const Record& record) const { return read_(record); }
-  /// By the type that the function returns.
+  /// As it was given, or else by the type that the function returns.
   [[nodiscard]] FieldType type() const noexcept { return type_; }
 
  private:
@@ -193,13 +196,14 @@ template <class Record>
 /// The columns that tell a fitted order.
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
-  return {
-      {"slope", "", "fitted order", from(fit, &FittedOrder::order)},
-      {"standard_error", "", "of the order; empty with two points",
-       [fit](const Record& record) { return (record.*fit).points > 2 ? Cell((record.*fit).standard_error) : Cell(); }},
-      {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
-      {"coarsest", "", "largest step used", from(fit, &FittedOrder::coarsest)},
-      {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
+  return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},
+          {"standard_error", "", "of the order; empty with two points",
+           [fit](const Record& record) {
+             return (record.*fit).points > 2 ? std::optional((record.*fit).standard_error) : std::nullopt;
+           }},
+          {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
+          {"coarsest", "", "largest step used", from(fit, &FittedOrder::coarsest)},
+          {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
 }
 
 }  // namespace dmocbench

@@ -18,6 +18,8 @@
 
 #include "bench/experiment/process_pool.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/instruction_set.hpp"
+#include "methods/runtime/parallel.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -46,6 +48,11 @@ bool is_out_of_threads(const std::exception& error) noexcept {
 
 }  // namespace
 
+void check_environment() {
+  static_cast<void>(thread_count());
+  static_cast<void>(preferred_instruction_set());
+}
+
 // An array of Eigen, a vector, or the heap itself.
 bool is_out_of_memory(const std::exception& error) noexcept {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
@@ -70,8 +77,11 @@ std::string sentence_of(const std::exception& error) {
 template <class Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
   CLI::Option* const option = add(app_, names, value, help)->required(!names.starts_with('-'));
-  if constexpr (std::is_same_v<Value, std::filesystem::path>) {
-    const auto is_empty = [](const std::string& text) { return std::string(text.empty() ? "no file is named" : ""); };
+  constexpr bool is_path = std::is_same_v<Value, std::filesystem::path>;
+  if constexpr (is_path || std::is_same_v<Value, std::string>) {
+    const auto is_empty = [](const std::string& text) {
+      return std::string(!text.empty() ? "" : is_path ? "no file is named" : "no file or value is given");
+    };
     option->check(CLI::Validator(is_empty, ""));
   }
 }
@@ -127,6 +137,7 @@ void CommandLine::footer(const std::string& text) { app_.footer(text); }
 std::vector<std::string> CommandLine::parse() {
   refuse_empty_entries();
   app_.parse(argc_, argv_);
+  check_environment();
   return {argv_, argv_ + argc_};
 }
 

@@ -34,7 +34,7 @@ class CommandLine {
   void flag(const std::string& names, bool& value, const std::string& help);
   /// Text behind the options in `--help`.
   void footer(const std::string& text);
-  /// The values are known from here on; the name of the program and all its arguments.
+  /// The values are known from here on; the name of the program and all its arguments. Throws as `check_environment`.
   std::vector<std::string> parse();
   /// Behind `parse`: the options and their values as text, defaults included, in the order of `--help`.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> values() const;
@@ -51,6 +51,10 @@ class CommandLine {
   char** argv_;
   std::vector<std::string> lists_;  ///< options with commas between their values
 };
+
+/// Throws `Error` where DMOCBENCH_THREADS or DMOCBENCH_INSTRUCTION_SET asks for what there is not, before anything is
+/// done.
+void check_environment();
 
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);

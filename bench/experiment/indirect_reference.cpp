@@ -209,6 +209,10 @@ Table IndirectReference::table() const {
   Table table(names);
   table.explain(meanings_of(reference_columns));
   table.declare(types_of(reference_columns));
+  for (const std::string& name : names) {  // what the columns above do not explain
+    table.explain({{name, "costate at t = 0"}});
+    table.declare({{name, {FieldKind::number, true}}});
+  }
   for (const Json& account : accounts) {
     Row row;
     for (const auto& [name, value] : account.at("cells").items()) row.set(name, value.get<std::string>());

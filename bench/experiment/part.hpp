@@ -23,9 +23,10 @@ struct Part {
 };
 
 /// The largest number of parts.
-inline constexpr std::size_t most_parts = 1000000;
+inline constexpr std::size_t most_parts_of_a_run = 1000000;
 
-/// Reads "i/n". Throws `Error` that names the option unless both are whole numbers, 1 <= i <= n <= `most_parts`.
+/// Reads "i/n". Throws `Error` that names the option unless both are whole numbers, 1 <= i <= n <=
+/// `most_parts_of_a_run`.
 [[nodiscard]] Part parse_part(std::string_view option, std::string_view text);
 
 /// Says in words what a case shares with others; cases of equal words need something of each other (a reference, a

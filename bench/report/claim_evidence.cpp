@@ -64,11 +64,12 @@ std::vector<const Row*> rows_at(const std::string& records, const Table& table) 
   return rows;
 }
 
-/// Some of the rows, evenly chosen, with the columns of a table that are among those named.
+/// Some of the rows, evenly chosen, with the columns of a table that are among those named, and the status of solves.
 Table chosen(const std::vector<const Row*>& rows, const Table& table, const std::vector<std::string>& named) {
   std::vector<std::string> columns;
-  std::ranges::copy_if(table.columns(), std::back_inserter(columns),
-                       [&](const std::string& column) { return std::ranges::count(named, column) > 0; });
+  std::ranges::copy_if(table.columns(), std::back_inserter(columns), [&](const std::string& column) {
+    return column == "status" || std::ranges::count(named, column) > 0;
+  });
   Table result(columns);
   const std::size_t count = std::min(rows.size(), most_rows_of_claim);
   for (std::size_t i = 0; i < count; ++i) result.append(*rows[count < 2 ? 0 : i * (rows.size() - 1) / (count - 1)]);
@@ -90,20 +91,23 @@ std::string rows_behind(const Row& told, const ResultsFolder& results) {
   html += fmt::format("<p>Of <a href=\"#{}\">{}</a> with its {}", anchor("table", reported->file),
                       escaped(reported->file), counted(reported->table.rows().size(), "row"));
   if (!columns.constant.empty()) html += escaped(fmt::format("; here {}", fmt::join(columns.constant, ", ")));
-  return html + ".</p>\n" +
-         rows_markup(shown, columns.differing, shown.rows().size(), results.metadata_of(reported->run),
-                     reported->file) +
-         "</details>\n";
+  html += ".</p>\n";
+  if (!columns.differing.empty()) {  // else the sentence has told all
+    html +=
+        rows_markup(shown, columns.differing, shown.rows().size(), results.metadata_of(reported->run), reported->file);
+  }
+  return html + "</details>\n";
 }
 
 /// "build/bench/claims --out results" of "build/bench/convergence --out results ...": what judges the tables of a run.
 std::string command_that_judges(const std::string& command) {
   const std::vector<std::string> words = parts_of(command, " ");
-  const auto out = std::ranges::find(words, "--out");
-  if (out == words.end() || out + 1 == words.end()) return "";
+  if (words.empty()) return "";
   const std::filesystem::path program(words.front());
-  if (program.filename() == "dmocbench") return fmt::format("{} claims --out {}", words.front(), *(out + 1));
-  return fmt::format("{} --out {}", (program.parent_path() / "claims").string(), *(out + 1));
+  const bool is_one_for_all = program.filename() == "dmocbench";
+  const std::string judge = is_one_for_all ? words.front() + " claims" : (program.parent_path() / "claims").string();
+  const auto out = std::ranges::find(words, "--out");
+  return out == words.end() || out + 1 == words.end() ? judge : fmt::format("{} --out {}", judge, *(out + 1));
 }
 
 /// The commands of the runs that wrote these tables, each once, and of the judgement.

@@ -52,19 +52,21 @@ long long count_of(const ReportedRun& run, const std::string& key) {
 /// Where not every solve was solved, run by run.
 std::string unsolved_html(const ResultsFolder& results) {
   std::vector<std::string> runs;
+  long long unsolved = 0;
   for (const ReportedRun& run : results.runs) {
     const long long failed = count_of(run, "not_solved");
     const long long coarse = count_of(run, "too_coarse");
     if (failed + coarse == 0) continue;
+    unsolved += failed + coarse;
     runs.push_back(fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} not solved, {} too coarse to be motions</li>",
                                anchor("table", run.name + ".csv"), escaped(run.name), failed,
                                counted(count_of(run, "rows"), "row"), coarse));
   }
   if (runs.empty()) return "";
   return fmt::format(
-      "<details class=\"failures\"><summary>Not every solve succeeded: {} rows that were not "
-      "solved</summary><ul>\n{}</ul></details>\n",
-      counted(runs.size(), "run has", "runs have"), fmt::join(runs, "\n"));
+      "<details class=\"failures\"><summary>Not every solve succeeded: {} did not, in {}</summary><ul>\n{}</ul>"
+      "</details>\n",
+      unsolved, counted(runs.size(), "run"), fmt::join(runs, "\n"));
 }
 
 std::string warnings_html(const ResultsFolder& results) {

@@ -40,12 +40,13 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
                   is_whole ? "" : fmt::format(", the first {} here", most_rows));
   if (metadata != nullptr && !metadata->value("complete", true))
     html += "<p class=\"warning\">The run is not complete.</p>\n";
-  html += fmt::format("<p><a href=\"{0}{1}\" download>{1}</a> has all rows and digits.", escaped(folder),
-                      escaped(reported.file));
+  html += fmt::format("<p><a href=\"{0}{1}\" download>{1}</a> has {2}.", escaped(folder), escaped(reported.file),
+                      table.rows().empty() ? "no row" : "all rows and digits");
   if (!columns.constant.empty()) html += escaped(fmt::format(" In all rows {}", fmt::join(columns.constant, ", ")));
   html += "</p>\n";
   if (const std::string command = command_of(metadata); !command.empty())
     html += fmt::format("<p>Made by <code>{}</code></p>\n", escaped(command));
+  if (table.rows().empty()) return html + "</details>\n";
   html += meanings_html(columns.differing, metadata, reported.file);
   return html + rows_markup(table, columns.differing, most_rows, metadata, reported.file) + "</details>\n";
 }

@@ -111,6 +111,7 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
     fmt::print(stderr, "{}: {}; --help lists the flags\n", name, error.what());
     return 2;
   }
+  check_environment();
   if (!initialize(*this, arguments.front(), flags)) return 2;
   if (!file.empty()) require_writable(file);  // before anything is timed
   for (const std::string& flag : flags) {

@@ -153,6 +153,17 @@ FitRange range_against_grid(const Selection& curve, const std::optional<FitRange
   return range.value_or(FitRange{head.text("stages") == "1" ? 32 : 64, reference_intervals / reference_factor});
 }
 
+/// Why a curve has no order at all, if it has errors that one could be fitted to.
+void note_missing_orders(const Selection& curve, const FitRange& range, std::vector<std::string>& notes) {
+  const Row& head = curve.front();
+  if (curve.with_number("state_error").empty()) return;
+  notes.push_back(fmt::format(
+      "{} {} {} {}: no order is fitted, which takes two grids from N = {} to {}; solve on more grids or say "
+      "--fit a:b",
+      head.text("problem"), head.text("method"), head.text("tableau"), head.text("stages"), range.coarsest,
+      range.finest));
+}
+
 }  // namespace
 
 FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
@@ -164,12 +175,15 @@ FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRan
     const auto of_the_method = convergence.matching(head, {"problem", "method"}).group_by(curve_columns);
     const FitRange fitted =
         is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, result.notes);
+    const std::size_t fits_before = result.table.rows().size();
     for (const std::string quantity : fitted_quantities) {
       const std::string column = quantity + "_error";
       const Fit fit = is_exact && !range ? above_the_floor(curve, column, smallest_floor(of_the_method, column))
                                          : in_range(curve, column, fitted);
       append_fit(result.table, quantity, column, fit, head);
     }
+    const bool has_range = !is_exact || range.has_value();
+    if (has_range && result.table.rows().size() == fits_before) note_missing_orders(curve, fitted, result.notes);
   }
   return result;
 }

@@ -31,8 +31,9 @@ struct FittedOrders {
 ///
 /// Against a finer grid: without a range, grids from N = 32 (64 with more than one stage) to a quarter of the reference
 /// are used. Against a reference of N_ref intervals an error of order 2 is proportional to h² - h_ref², which makes the
-/// order of finer grids too large; a range that goes beyond gets a note. Errors at the level of rounding are left out.
-/// `reference` is the reference's number of intervals, 0 for the finest grid of a curve.
+/// order of finer grids too large; a range that goes beyond gets a note, as does a curve without any order. Errors at
+/// the level of rounding are left out. `reference` is the reference's number of intervals, 0 for the finest grid of a
+/// curve.
 ///
 /// Against an `exact_reference` grids are used from the start of the asymptotic range (`asymptotic_from`) as long as
 /// the error is above 100 times the floor, and there must be four of them. The floor is measured: it is the median of

@@ -62,7 +62,10 @@ Table distinct_minima(const Selection& rows, double separation) {
   columns.insert(columns.end(), methods.begin(), methods.end());
   Table table(columns);
   explain(table, meanings_in_minima());
-  for (const std::string& method : methods) table.explain({{method, "how often this method ended there"}});
+  for (const std::string& method : methods) {
+    table.explain({{method, "how often this method ended there"}});
+    table.declare({{method, {FieldKind::integer, false}}});
+  }
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
     const auto best = best_of(minima);
@@ -85,6 +88,7 @@ Table basins(const Selection& rows, double separation) {
                             "bulge_1", "bulge_2", "status",  "minimum", "objective", "is_motion"};
   const ColumnNames copied(columns.begin(), columns.end() - 3);
   Table table(columns);
+  explain(table, meanings_in_minima());
   for (const Selection& group : rows.group_by(group_columns)) {
     const std::vector<Selection> minima = minima_of(group, separation);
     std::vector<Row> starts;

@@ -29,7 +29,8 @@ class SolutionLines {
   std::string_view next(std::string_view wanted) {
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos)
-      throw Error(fmt::format("it is cut off in line {}: {} missing", number_ + 1, wanted));
+      throw Error(fmt::format("it ends with line {}, and {} is missing: it is cut off, or no answer of a solver",
+                              number_ + 1, wanted));
     const std::string_view line = trimmed(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
     ++number_;
@@ -91,7 +92,7 @@ void skip_options(SolutionLines& lines) {
 
 Eigen::VectorXd values(SolutionLines& lines, Eigen::Index count, std::string_view wanted) {
   if (std::cmp_greater(count, lines.characters_left())) {  // a line each
-    throw Error(fmt::format("it is cut off behind line {}: {} missing", lines.line_number(), wanted));
+    throw Error(fmt::format("it ends with line {}, and {} is missing: it is cut off", lines.line_number(), wanted));
   }
   Eigen::VectorXd result(count);
   for (double& value : result) value = lines.number<double>(wanted);

@@ -66,21 +66,25 @@ struct Series {
   std::string prefix;
   std::vector<std::string> names;
   Eigen::MatrixXd values;
+  std::string meaning;
 };
 
 Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all) {
   std::vector<std::string> header{time};
   std::vector<Row> rows(static_cast<std::size_t>(times.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].set(time, times[static_cast<Eigen::Index>(k)]);
-  for (const auto& [prefix, names, values] : all) {
+  std::map<std::string, std::string> meanings{{time, "time"}};
+  for (const auto& [prefix, names, values, meaning] : all) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       header.push_back(prefix + names[i]);
+      meanings[header.back()] = meaning;
       for (Eigen::Index k = 0; k < values.rows(); ++k) {
         rows[static_cast<std::size_t>(k)].set(header.back(), values(k, static_cast<Eigen::Index>(i)));
       }
     }
   }
   Table table(header);
+  table.explain(meanings);
   for (Row& row : rows) table.append(std::move(row));
   for (const std::string& column : header) table.declare({{column, {FieldKind::number, true}}});
   return table;
@@ -120,15 +124,15 @@ void require_similar_horizon(const Problem& problem, double horizon, const std::
 Table node_table(const Problem& problem, const Trajectory& trajectory) {
   const std::vector<std::string> names = problem.configuration_names();
   return series_table("t", trajectory.node_times,
-                      {{"", names, trajectory.q},
-                       {"v_", names, trajectory.v},
-                       {"p_", names, trajectory.p},
-                       {"psi_q_", names, trajectory.psi_q},
-                       {"psi_p_", names, trajectory.psi_p}});
+                      {{"", names, trajectory.q, "configuration q"},
+                       {"v_", names, trajectory.v, "its velocity"},
+                       {"p_", names, trajectory.p, "its momentum p = L_v"},
+                       {"psi_q_", names, trajectory.psi_q, "costate of q"},
+                       {"psi_p_", names, trajectory.psi_p, "costate of p"}});
 }
 
 Table stage_table(const Problem& problem, const Trajectory& trajectory) {
-  return series_table("t", trajectory.stage_times, {{"", problem.control_names(), trajectory.stage_u}});
+  return series_table("t", trajectory.stage_times, {{"", problem.control_names(), trajectory.stage_u, "control u"}});
 }
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
@@ -151,7 +155,8 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
     values.row(k) = at_node.transpose();
   }
   const Unit time = problem.card().time_unit;
-  return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor, {{"", names, values}});
+  return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor,
+                      {{"", names, values, "a quantity of the picture"}});
 }
 
 std::string name_with_unit(const std::string& name, const std::string& unit) {

@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/transcription/end_constraints.hpp"
 
 namespace dmocbench {
 
@@ -71,6 +72,18 @@ EndBounds checked_end(const EndBounds& end, const Bounds& everywhere, Eigen::Ind
     checked.q.upper[i] = upper;
   }
   return checked;
+}
+
+/// By continuity the velocity of an end lies within the bounds that hold at the stages beside it.
+void require_velocity_left(const EndBounds& end, const Bounds& everywhere, const std::string& subject) {
+  for (Eigen::Index i = 0; i < end.v.lower.size(); ++i) {
+    const double lower = std::max(end.v.lower[i], everywhere.lower[i]);
+    const double upper = std::min(end.v.upper[i], everywhere.upper[i]);
+    const double slack = 1e-12 * std::max(1.0, std::abs(upper));
+    if (lower <= upper + slack) continue;
+    throw Error(
+        fmt::format("{} and bounds().v leave no value for v[{}]: {:g} lies above {:g}", subject, i, lower, upper));
+  }
 }
 
 void require_horizon(const Problem& problem, const HorizonBounds& bounds) {
@@ -145,6 +158,8 @@ ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds) {
   bounds.u = checked_bounds(bounds.u, problem.control_size(), name + ".u");
   bounds.first = checked_end(bounds.first, bounds.q, n, name + ".first");
   bounds.last = checked_end(bounds.last, bounds.q, n, name + ".last");
+  require_velocity_left(bounds.first, bounds.v, name + ".first");
+  require_velocity_left(bounds.last, bounds.v, name + ".last");
   return bounds;
 }
 
@@ -169,6 +184,7 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
                        Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
   auto& [variables, rows] = result;
+  require_path_constraints_at_ends(problem, traced, bounds, horizon);
   const std::size_t last_node = layout.intervals();
   const Bounds first_momentum = end_momentum(ends.first_clamped, bounds.first, 0.0, traced, problem, "start");
   const Bounds last_momentum = end_momentum(ends.last_clamped, bounds.last, horizon, traced, problem, "end");

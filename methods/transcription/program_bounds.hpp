@@ -12,8 +12,8 @@
 namespace dmocbench {
 
 /// The problem's bounds, complete (no part is empty), those of q also applied to both ends. Throws `Error` that names
-/// the function if a size is wrong, a lower bound is above the upper one, no value is left at an end, or the state or
-/// the horizon of the problem lies outside.
+/// the function if a size is wrong, a lower bound is above the upper one, no value is left at an end (for v by those of
+/// the ends and of the stages together), or the state or the horizon of the problem lies outside.
 [[nodiscard]] ProblemBounds problem_bounds(const Problem& problem);
 
 /// The same for bounds that are given in place of the problem's, whose states may lie outside of them.
@@ -28,7 +28,8 @@ struct ProgramBounds {
 /// Bounds of all unknowns and constraints. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v. For
 /// DMOC the momentum of a clamped end is the bound of that end's equation: p⁰ + (∂A/∂q_0 + W) = 0 (eq:gDLOCP3), -p^T +
 /// (∂A/∂q_N + W) = 0 (rem:inifinalvel). Path constraints have the bounds of the velocities, or are not negative
-/// (eq:gDLOCP5). `horizon` is the time of the last end. Throws `Error` if the momentum at an end is not finite.
+/// (eq:gDLOCP5). `horizon` is the time of the last end. Throws `Error` if the momentum at an end is not finite, or as
+/// `require_path_constraints_at_ends`.
 [[nodiscard]] ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced,
                                            const ProblemBounds& bounds, double horizon, const EndRules& ends,
                                            const Layout& layout);

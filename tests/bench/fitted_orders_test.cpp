@@ -64,6 +64,17 @@ TEST(FittedOrders, ARangeBeyondAQuarterOfTheReferenceGetsANote) {
   EXPECT_EQ(slope_of(bent, "state").text("finest"), "256");
 }
 
+TEST(FittedOrders, OfACurveWithTooFewGridsGetANote) {
+  const FittedOrders none =
+      fit_orders(convergence_of({{.error = power_law(1.0, 2.0)}}, {16, 32, 64, 128}), std::nullopt, 0);
+  EXPECT_TRUE(none.table.rows().empty());
+  ASSERT_EQ(none.notes.size(), 1U);
+  EXPECT_NE(none.notes[0].find("no order is fitted, which takes two grids from N = 32 to 32"), std::string::npos)
+      << none.notes[0];
+  EXPECT_TRUE(
+      fit_orders(convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024), std::nullopt, 0).notes.empty());
+}
+
 TEST(FittedOrders, GoToTheFinestGridAgainstAnExactReference) {
   const Table table = convergence_of({{.error = power_law(1.0, 2.0)}}, sixteen_to_1024);
   const Row row = slope_of(fit_orders(table, std::nullopt, exact_reference), "state");

@@ -180,8 +180,8 @@ TEST(Report, ShowsTheRowsAndColumnsThatDecidedOnAClaimAndTheCommands) {
   const std::size_t begin = page.find("<details class=\"rows\">");
   ASSERT_NE(begin, std::string::npos);
   const std::string rows = page.substr(begin, page.find("</table>", begin) - begin);
-  EXPECT_TRUE(has(rows, "<tr><td>16<td>0.123457"));
-  EXPECT_TRUE(has(rows, "<tr><td>32<td>\n"));
+  EXPECT_TRUE(has(rows, "<tr><td>solved<td>16<td>0.123457"));
+  EXPECT_TRUE(has(rows, "<tr class=\"unsolved\"><td>iteration limit<td>32<td>\n"));
   EXPECT_FALSE(has(rows, "<td>dmoc"));
   EXPECT_TRUE(has(page, "<code class=\"line\">objective --out x</code>\n<code class=\"line\">claims --out x</code>"));
 }

@@ -51,10 +51,16 @@ of_metadata = validator_of(read("metadata.schema.json"))
 validated = 0
 for file in sorted((folder / "results").glob("*.json")):
     metadata = json.loads(file.read_text())
+    if "command_line" not in metadata:
+        continue  # a solution kept by the indirect method
     of_metadata.validate(metadata)
     refuses(of_metadata, {**metadata, "complete": "yes"})
     for name, told in metadata["tables"].items():
         of_row = validator_of(told["schema"])
+        columns = told["schema"]["properties"].items()
+        untyped = [column for column, schema in columns if "enum" not in schema and {"number", "string"} <= set(schema["type"])]
+        unexplained = [column for column, schema in columns if "description" not in schema]
+        assert not untyped and not unexplained, (name, untyped, unexplained)
         with open(folder / "results" / name, newline="") as table:
             for row in csv.DictReader(table):
                 row = {column: as_json(field, told["schema"]["properties"][column]) for column, field in row.items()}
@@ -72,6 +78,4 @@ for file in sorted((folder / "results").glob("*.json")):
             of_row.validate({**row, "objective": None, "seconds": None})
             properties = told["schema"]["properties"]
             assert properties["seconds"]["unit"] == "s"
-            untyped = [column for column, schema in properties.items() if {"number", "string"} <= set(schema.get("type", []))]
-            assert set(untyped) <= {"tolerance"}, untyped
 assert validated > 5, validated

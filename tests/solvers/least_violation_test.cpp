@@ -147,8 +147,10 @@ std::unique_ptr<Problem> hurried_cart_pole() {
   return problem;
 }
 
-/// v >= 1 and v <= -1.
+/// v >= 1 and v <= -1, also at the ends, whose velocity is free.
 void contradict(Statement& s) {
+  s.first.free_velocity(0);
+  s.last.free_velocity(0);
   s.path = [](const ControlledState& x) {
     ExpressionVector h(2);
     h << x.v[0] - 1.0, -1.0 - x.v[0];

@@ -88,7 +88,7 @@ TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
   const Restated path(base, [](Statement& s) {
     s.path = [](const ControlledState& x) {
       ExpressionVector h(2);
-      h << Expression(1.0) + x.q[0] * x.q[0], x.q[0] - 100.0 * (1.0 + x.t);
+      h << Expression(1.0) + x.q[0] * x.q[0], x.q[0] - 100.0 * (1.0 + x.t) + 1e-9 * x.u[0];  // of ends nothing is known
       return h;
     };
   });
@@ -96,6 +96,8 @@ TEST_P(ViolationInWords, NamesWhatIsPrescribedOfTheMotion) {
 
   const Restated velocity(base, [](Statement& s) {
     s.v = Bounds{Eigen::Vector2d(-tests::infinity, 100.0), Eigen::Vector2d(tests::infinity, 200.0)};
+    s.first.free_velocity(1);
+    s.last.free_velocity(1);
   });
   EXPECT_PRED2(says, Ended(velocity, GetParam()).words(), "bounds().v: the velocity of q[1] (q2) in interval ");
 
@@ -191,7 +193,7 @@ class Idle final : public tests::SmallProblem {
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(-x.v[0]); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
-    return ExpressionVector{{x.q[0] + 1.0, -100.0 - x.q[0]}};
+    return ExpressionVector{{x.q[0] + 1.0, 4000.0 * pow(x.t - 0.5, 2.0) - 500.0 - x.q[0]}};  // the ends keep to it
   }
   [[nodiscard]] std::vector<std::string> path_constraint_names() const override { return {"floor", "ceiling"}; }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& /*last*/) const override {

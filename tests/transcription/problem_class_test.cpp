@@ -1,6 +1,7 @@
 // The whole problem class of section 3.1, each part by a problem that can be stated in two ways or solved by hand.
 #include <gtest/gtest.h>
 
+#include "methods/error.hpp"
 #include "methods/transcription/start.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -237,6 +238,102 @@ TEST(ProblemClassRefusals, NameTheFunctionAndTheQuantity) {
             std::string::npos);
 }
 
+/// What an error says; "" where there is none.
+template <class Call>
+std::string refusal(const Call& call) {
+  try {
+    call();
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+class EndsAgainstPathConstraints : public testing::Test {
+ protected:
+  using Path = Expression (*)(const ControlledState&);
+
+  /// What is said of the double integrator, from rest at 0 to rest at 1 in T = 1, with h >= 0; "" if nothing is.
+  static std::string said(
+      Path h, const std::function<void(Statement&)>& more = [](Statement&) {}) {
+    const tests::DoubleIntegrator base;
+    const Restated problem(base, [&](Statement& s) {
+      s.path = [h](const ControlledState& x) {
+        ExpressionVector constraints(2);
+        constraints << 2.0 - x.q[0], h(x);
+        return constraints;
+      };
+      more(s);
+    });
+    return refusal([&] { tests::transcribe(problem, {"tangent", 1}, Grid::uniform(8)); });
+  }
+  static void expect_refusal(const std::string& sentence, const std::string& end, const std::string& value) {
+    EXPECT_NE(sentence.find(end + " and path_constraints contradict each other: path_constraints[1] is " + value),
+              std::string::npos)
+        << sentence;
+  }
+};
+
+TEST_F(EndsAgainstPathConstraints, AreRefusedWithTheEndAndTheAmount) {
+  expect_refusal(said([](const ControlledState& x) { return x.q[0] - 0.25; }), "initial_state", "-0.25 there (t = 0)");
+  expect_refusal(said([](const ControlledState& x) { return 0.75 - x.q[0]; }), "final_state", "-0.25 there (t = 1)");
+  expect_refusal(said([](const ControlledState& x) { return x.v[0] - 0.5; }), "initial_state", "-0.5");
+  expect_refusal(said([](const ControlledState& x) { return 0.5 - x.q[0] * x.t; }), "final_state", "-0.5");
+}
+
+TEST_F(EndsAgainstPathConstraints, AreNoneWhereSomethingThatIsReadIsFree) {
+  EXPECT_EQ(said([](const ControlledState& x) { return x.u[0] + x.q[0] - 0.25; }), "");
+  EXPECT_EQ(said([](const ControlledState& x) { return 0.5 - x.q[0] * x.t; },
+                 [](Statement& s) {
+                   s.horizon = {0.1, 2.0};
+                 }),
+            "");
+  EXPECT_EQ(said([](const ControlledState& x) { return 0.5 - x.q[0] + x.v[0]; },
+                 [](Statement& s) { s.last.free_velocity(0); }),
+            "");
+  expect_refusal(said([](const ControlledState& x) { return 0.5 - x.q[0]; },
+                      [](Statement& s) {
+                        s.last.free_velocity(0), s.horizon = {0.1, 2.0};
+                      }),
+                 "final_state", "-0.5");
+}
+
+TEST_F(EndsAgainstPathConstraints, AreNoneOnTheEdge) {
+  EXPECT_EQ(said([](const ControlledState& x) { return 1.0 - x.q[0]; }), "");
+  EXPECT_EQ(said([](const ControlledState& x) { return sqrt(x.q[0]); }), "");
+  // 1 and 3e7 are known to twelve digits here.
+  EXPECT_EQ(said([](const ControlledState& x) { return 9e14 - pow(3e7 * x.q[0], 2.0) - 1e-3; }), "");
+}
+
+TEST_F(EndsAgainstPathConstraints, AreRefusedAlsoWhenTheyAreSetLater) {
+  const tests::DoubleIntegrator base;
+  const Restated problem(base,
+                         [](Statement& s) { s.path = [](const ControlledState& x) { return one(x.q[0] + 0.5); }; });
+  const auto program = tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8));
+  const auto set = [&](double q) {
+    return refusal([&] { program->set_initial_state(BoundaryState::at_rest(Eigen::VectorXd::Constant(1, q))); });
+  };
+  EXPECT_EQ(set(-0.5), "");
+  EXPECT_NE(set(-0.75).find("path_constraints[0] is -0.25"), std::string::npos);
+  EXPECT_EQ(program->bounds().first.q.lower[0], -0.5);
+}
+
+TEST(ProblemClassRefusals, NameEndsThatMoveFasterThanTheBounds) {
+  const tests::DoubleIntegrator base;
+  const auto sentence = [&](double velocity) {
+    const Restated problem(base, [&](Statement& s) {
+      s.v = all_between(1, -1.0, 2.0);
+      s.first.free_velocity(0);
+      s.first.v.lower[0] = velocity;
+    });
+    return refusal([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
+  };
+  EXPECT_EQ(sentence(-3.0), "");
+  EXPECT_NE(sentence(3.0).find("bounds().first and bounds().v leave no value for v[0]: 3 lies above 2"),
+            std::string::npos)
+      << sentence(3.0);
+}
+
 TEST(ProblemClassRefusals, PrintSmallNumbersAsTheyAre) {
   const tests::DoubleIntegrator base;
   const auto sentence = [&](const std::function<void(Statement&)>& change) {
@@ -270,7 +367,7 @@ TEST(ProblemClassRefusals, NameTheIntervalOfTheGuessWhereAFormulaFails) {
   EXPECT_NE(sentence([](Statement& s) {
               s.path = [](const ControlledState& x) {
                 ExpressionVector h(2);
-                h << x.q[0], log(0.5 - x.q[0]);
+                h << x.q[0], 2.0 + log(0.5 - x.q[0]);
                 return h;
               };
             }).find("in interval 4 (t = 0.507812) path_constraints[1] is not a number"),

@@ -7,10 +7,11 @@ namespace dmocbench::kkt {
 /// shifted for nothing, and Newton's method takes many short steps in the place of a few.
 ///
 /// - Every fourth refusal of one matrix is checked: a Hessian usually has the right inertia after two or three shifts.
-/// - After 32 matrices that were refused, all refusals of the next one are. If these were right, twice as many
-/// matrices
-///   are believed before the next check. Two matrices in a row that are not refused begin the count anew.
-/// - Once a refusal was wrong, all refusals are checked, until those of a matrix were right.
+/// - After 32 matrices that were refused, all refusals of the next ones are, until one of them says enough: a wrong
+///   refusal, or several of one matrix that were right. One alone, mostly that of the matrix without a shift, says
+///   little; four such matrices are enough. Where all were right, twice as many matrices are believed before the next
+///   check. Two matrices in a row that are not refused begin the count anew.
+/// - Once a refusal was wrong, all refusals are checked, until matrices say in the same way that they are right.
 class RefusalChecks {
  public:
   /// Before the matrices of another solve.
@@ -37,14 +38,18 @@ class RefusalChecks {
   static constexpr int most_believed = 4;
   static constexpr int first_patience = 32;
   static constexpr int enough_calm = 2;
+  static constexpr int enough_refused_once = 4;
 
   void count_refused_matrix() noexcept {
     calm_ = 0;
     ++refused_matrices_;
     if (was_wrong_) {
       patience_ = first_patience;
+      refused_once_ = 0;
       checks_all_ = true;
     } else if (checks_all_) {
+      if (refusals_ == 1 && ++refused_once_ < enough_refused_once) return;
+      refused_once_ = 0;
       patience_ *= 2;
       refused_matrices_ = 0;
       checks_all_ = false;
@@ -57,6 +62,7 @@ class RefusalChecks {
   bool was_wrong_ = false;    // one of them
   int refused_matrices_ = 0;  // since it was calm, or since all refusals of one were right
   int calm_ = 0;              // matrices in a row that were not refused
+  int refused_once_ = 0;      // matrices whose only refusal was checked and right
   int patience_ = first_patience;
   bool checks_all_ = false;
 };

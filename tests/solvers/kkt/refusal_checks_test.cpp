@@ -7,11 +7,13 @@
 namespace dmocbench::kkt {
 namespace {
 
-/// Which of so many matrices, each of them refused once and rightly, are checked.
-std::vector<int> checked_of(RefusalChecks& checks, int matrices) {
+/// Which of so many matrices, each of them refused rightly and so many times, are checked.
+std::vector<int> checked_of(RefusalChecks& checks, int matrices, int refusals = 2) {
   std::vector<int> checked;
   for (int matrix = 1; matrix <= matrices; ++matrix) {
-    if (checks.ask()) checked.push_back(matrix);
+    bool is_checked = false;
+    for (int refusal = 0; refusal < refusals; ++refusal) is_checked = checks.ask();
+    if (is_checked) checked.push_back(matrix);
     checks.end_matrix();
   }
   return checked;
@@ -20,6 +22,14 @@ std::vector<int> checked_of(RefusalChecks& checks, int matrices) {
 TEST(RefusalChecks, ComeTwiceAsLateWhereTheLastRefusalsWereRight) {
   RefusalChecks checks;
   EXPECT_EQ(checked_of(checks, 300), (std::vector<int>{33, 33 + 65, 33 + 65 + 129}));
+}
+
+TEST(RefusalChecks, DoNotEndWithAMatrixThatWasRefusedOnceOnly) {
+  RefusalChecks checks;
+  EXPECT_EQ(checked_of(checks, 40, 1), (std::vector<int>{33, 34, 35, 36}));
+  checks.forget();
+  EXPECT_EQ(checked_of(checks, 33, 1), std::vector<int>{33});
+  EXPECT_EQ(checked_of(checks, 40, 2), std::vector<int>{1});
 }
 
 TEST(RefusalChecks, AskAboutEveryFourthRefusalOfAMatrix) {

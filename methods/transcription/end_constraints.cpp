@@ -1,0 +1,101 @@
+#include "methods/transcription/end_constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/expression/schedule.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// What is known of the point (q, v, u, t) at an end: the values, 0 where there is none.
+struct KnownPoint {
+  const char* name;             ///< of the function that states it
+  double time;                  ///< of the end
+  std::vector<double> values;   ///< q, v, u, t
+  std::vector<bool> are_given;  ///< as many
+};
+
+KnownPoint known_point(const char* name, const EndBounds& end, Eigen::Index controls, double time, bool is_time_given) {
+  KnownPoint point{name, time, {}, {}};
+  for (const Bounds* const bounds : {&end.q, &end.v}) {
+    for (Eigen::Index i = 0; i < bounds->lower.size(); ++i) {
+      point.values.push_back(bounds->is_fixed(i) ? bounds->lower[i] : 0.0);
+      point.are_given.push_back(bounds->is_fixed(i));
+    }
+  }
+  point.values.resize(point.values.size() + static_cast<std::size_t>(controls), 0.0);
+  point.are_given.resize(point.values.size(), false);
+  point.values.push_back(time);
+  point.are_given.push_back(is_time_given);
+  return point;
+}
+
+/// True unless every constraint is kept where the components that are not given vanish, which settles most problems
+/// fast.
+bool may_be_broken(const TracedProblem& traced, const KnownPoint& point) {
+  const Eigen::Index n = traced.configuration_size();
+  const Eigen::Map<const Eigen::VectorXd> x(point.values.data(), static_cast<Eigen::Index>(point.values.size()));
+  const MotionPoint numbers{x.head(n), x.segment(n, n), x.segment(2 * n, traced.control_size())};
+  const Eigen::MatrixXd table = traced.table({&numbers, 1}, Eigen::VectorXd::Constant(1, point.time));
+  const auto h = table.row(0).segment(3 * n + 1, traced.path_constraint_count());
+  return !(h.array() >= 0.0).all();
+}
+
+bool reads_given_only(const Schedule& formula, const std::vector<bool>& are_given) {
+  return std::ranges::all_of(formula.steps(), [&](const Schedule::Step& step) {
+    return step.operation != Operation::input || are_given[step.input_index];
+  });
+}
+
+/// What numbers known to twelve digits leave unknown of a formula: Σ |∂h/∂x_i x_i| 1e-12.
+double uncertainty(const Expression& h, const ExpressionVector& inputs, std::span<const double> values) {
+  const std::vector<double> slopes = replay<double>(Schedule(gradient(h, inputs)), values);
+  double sum = 1.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += std::abs(slopes[i] * values[i]);
+  return 1e-12 * sum;
+}
+
+void require_constraints_at(const KnownPoint& point, const Problem& problem, const TracedProblem& traced) {
+  if (!may_be_broken(traced, point)) return;
+  const Eigen::Index n = traced.configuration_size();
+  const Eigen::Index m = traced.control_size();
+  const ExpressionVector x = input_vector(0, 2 * n + m + 1);
+  const ExpressionVector constraints =
+      traced.at(ControlledState{x.head(n), x.segment(n, n), x.segment(2 * n, m), x[2 * n + m]}).path_constraints;
+  const std::vector<std::string> names = problem.path_constraint_names();
+  const std::span<const double> values(point.values);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(constraints.size()); ++i) {
+    const Expression& h = constraints[static_cast<Eigen::Index>(i)];
+    const Schedule formula(std::span(&h, 1));
+    if (!reads_given_only(formula, point.are_given)) continue;
+    const double value = replay<double>(formula, values).front();
+    if (!(value < -uncertainty(h, x, values))) continue;  // what is no number at an end may be one inside
+    throw Error(
+        fmt::format("{}: {} and path_constraints contradict each other: path_constraints[{}]{} is {:g} there (t = "
+                    "{:g}), and has to be at least 0",
+                    problem.name(), point.name, i, names.empty() ? "" : " (" + names[i] + ")", value, point.time));
+  }
+}
+
+}  // namespace
+
+void require_path_constraints_at_ends(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
+                                      double horizon) {
+  if (traced.path_constraint_count() == 0) return;
+  const Eigen::Index m = traced.control_size();
+  require_constraints_at(known_point("initial_state", bounds.first, m, 0.0, true), problem, traced);
+  require_constraints_at(known_point("final_state", bounds.last, m, horizon, !bounds.horizon.is_free()), problem,
+                         traced);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "methods/mechanics/bounds.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+/// Throws `Error` that names a path constraint which the ends alone break: one that reads no control and no component
+/// of q, v or T that is left free there, and is negative by more than rounding.
+///
+/// Programs have h >= 0 at stages only (eq:gDLOCP5), so that no row would tell; yet no motion with such an end keeps to
+/// h >= 0. `horizon` is the time of the last end, where it is fixed.
+void require_path_constraints_at_ends(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
+                                      double horizon);
+
+}  // namespace dmocbench
