@@ -242,6 +242,18 @@ TEST(InteriorPoint, NeedsWithSeveralStagesAsManyIterationsAsWithAnExactInertia) 
   }
 }
 
+/// On fine grids only the largest terminal weights see that a long segment has no conjugate point. Where the failure of
+/// smaller ones was believed, Hessians were shifted that were right.
+TEST(InteriorPoint, NeedsOnAFineGridAsManyIterationsAsWithAnExactInertia) {
+  const TwoLinkManipulator problem;
+  Transcription program(problem, *make_element("hamiltonian"), make_tableau("gauss", 3), Grid::uniform(192));
+  const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+  const Solution exact = solve_by_interior_point(program, start, options_with("sparse"));
+  const Solution found = solve_by_interior_point(program, start);
+  expect_same_answer(found, exact);
+  EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.2 * exact.major_iterations.value_or(0));
+}
+
 /// The length of the quaternion is redundant. Where the inertia by intervals is believed, 300 iterations do not
 /// suffice.
 TEST(InteriorPoint, ChecksTheInertiaWhereADirectionIsRedundant) {

@@ -151,7 +151,7 @@ class GroupSweeps {
     }
     weights_.setConstant(state_size(entries_.shape), 1e3);
     arrays_.terminal_weights = weights_.data();
-    plan_ = that_is_there(elimination_plan(entries_, arrays_, entries_.intervals / 2));
+    plan_ = that_is_there(elimination_plan(entries_, arrays_, {entries_.intervals / 2}));
   }
 
   struct Result {

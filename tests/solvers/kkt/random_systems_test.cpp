@@ -117,6 +117,30 @@ TEST(RandomSystems, AreSolvedOrRefusedAsDenseLinearAlgebraSays) {
   EXPECT_LE(minima - corrected[0], minima / 50);
 }
 
+/// An entry is large in the middle of the horizon, so that pivoting there chooses it, and zero everywhere else.
+TEST(RandomSystems, AreSolvedWhereAPivotOfTheMiddleVanishesElsewhere) {
+  constexpr unsigned seeds = 300;
+  int minima = 0;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    SystemChoice choice(seed);
+    const RandomShape shape = choice.shape();
+    RandomStructuredProgram program(shape, seed);
+    KktNumbers numbers = choice.numbers(program, shape.hessian);
+    const auto intervals = static_cast<Eigen::Index>(shape.intervals);
+    for (const PatternRun& run : program.jacobian_structure().runs()) {
+      if (intervals < 2 || run.length != intervals) continue;
+      numbers.jacobian.segment(run.entry, intervals).setZero();
+      numbers.jacobian[run.entry + intervals / 2] = 1e2;
+      break;
+    }
+    if (dense_verdict(DenseKkt(program, numbers), 1e-6) != DenseVerdict::minimum) continue;
+    ++minima;
+    const auto kkt = IntervalKkt::make(program).value();
+    EXPECT_EQ(verdict_of(*kkt, numbers), FactorisationStatus::solved) << "seed " << seed << ": " << shape.label();
+  }
+  EXPECT_GT(minima, seeds / 2);
+}
+
 /// Steps that leave no more than rounding are right within 1e-10 or, of an ill-conditioned system, within what its
 /// condition makes of the rounding of its data: of 1,621 systems 15 are such, with errors of up to 1e-8.
 TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebraSays) {

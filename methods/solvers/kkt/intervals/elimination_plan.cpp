@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -28,36 +30,48 @@ Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays
   return matrix;
 }
 
-/// The order of rows and columns that complete pivoting chooses; none if the matrix is singular to rounding. With
+/// The order of rows and columns that complete pivoting chooses, for one or several matrices at once: a pivot is as
+/// large as it can be in the matrix where it is smallest. None if a matrix is singular to rounding. With
 /// `columns_in_order` only rows are exchanged: the columns keep their order, and the first ones become the dependent
-/// unknowns.
-std::optional<Order> find_order(Eigen::MatrixXd left, bool columns_in_order) {
+/// unknowns. `Order::pivots` are those of the first matrix.
+std::optional<Order> find_order(std::vector<Eigen::MatrixXd> matrices, bool columns_in_order) {
   const auto numbers = [](Eigen::Index count) {
     return Eigen::VectorXi::LinSpaced(count, 0, static_cast<int>(count) - 1);
   };
-  Order order{numbers(left.rows()), numbers(left.cols()), Eigen::VectorXd(left.rows())};
-  if (!left.allFinite()) return std::nullopt;
-  Eigen::VectorXd row_scale = left.cwiseAbs().rowwise().maxCoeff();
-  if (left.rows() > 0 && !(row_scale.minCoeff() > 0.0)) return std::nullopt;
+  const Eigen::Index rows = matrices.front().rows();
+  const Eigen::Index columns = matrices.front().cols();
+  Order order{numbers(rows), numbers(columns), Eigen::VectorXd(rows)};
+  std::vector<Eigen::VectorXd> row_scales;
+  for (const Eigen::MatrixXd& left : matrices) {
+    if (!left.allFinite()) return std::nullopt;
+    row_scales.emplace_back(left.cwiseAbs().rowwise().maxCoeff());
+    if (rows > 0 && !(row_scales.back().minCoeff() > 0.0)) return std::nullopt;
+  }
   constexpr double smallest = 1e-12;  // of a row's largest entry: below it a pivot is rounding
-  for (Eigen::Index p = 0; p < left.rows(); ++p) {
+  for (Eigen::Index p = 0; p < rows; ++p) {
     // The largest remaining entry, with every row measured by its own largest entry.
-    const Eigen::Index height = left.rows() - p;
-    const Eigen::Index width = columns_in_order ? 1 : left.cols() - p;
+    const Eigen::Index height = rows - p;
+    const Eigen::Index width = columns_in_order ? 1 : columns - p;
+    Eigen::ArrayXXd sizes = Eigen::ArrayXXd::Constant(height, width, std::numeric_limits<double>::infinity());
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      sizes = sizes.min(matrices[m].block(p, p, height, width).array().abs().colwise() /
+                        row_scales[m].tail(height).array());
+    }
     Eigen::Index row = 0;
     Eigen::Index column = 0;
-    (left.block(p, p, height, width).array().abs().colwise() / row_scale.tail(height).array()).maxCoeff(&row, &column);
+    if (!(sizes.maxCoeff(&row, &column) > smallest)) return std::nullopt;
     row += p;
     column += p;
-    const double pivot = left(row, column);
-    if (!(std::abs(pivot) > smallest * row_scale[row])) return std::nullopt;
-    left.row(p).swap(left.row(row));
-    left.col(p).swap(left.col(column));
-    std::swap(row_scale[p], row_scale[row]);
+    order.pivots[p] = std::abs(matrices.front()(row, column));
     std::swap(order.rows[p], order.rows[row]);
     std::swap(order.columns[p], order.columns[column]);
-    order.pivots[p] = std::abs(pivot);
-    for (Eigen::Index i = p + 1; i < left.rows(); ++i) left.row(i) -= left(i, p) / pivot * left.row(p);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      Eigen::MatrixXd& left = matrices[m];
+      left.row(p).swap(left.row(row));
+      left.col(p).swap(left.col(column));
+      std::swap(row_scales[m][p], row_scales[m][row]);
+      for (Eigen::Index i = p + 1; i < rows; ++i) left.row(i) -= left(i, p) / left(p, p) * left.row(p);
+    }
   }
   return order;
 }
@@ -161,8 +175,9 @@ void append_scatters(const IntervalEntries& entries, const Slots& slots, Elimina
 }  // namespace
 
 std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, const NewtonArrays& arrays,
-                                                Eigen::Index interval) {
-  const Eigen::MatrixXd equalities = equalities_of(entries, arrays, interval);
+                                                const std::vector<Eigen::Index>& intervals) {
+  std::vector<Eigen::MatrixXd> equalities;
+  for (const Eigen::Index interval : intervals) equalities.push_back(equalities_of(entries, arrays, interval));
   auto order = find_order(equalities, false);
   if (!order) return std::nullopt;
   const Shape& shape = entries.shape;

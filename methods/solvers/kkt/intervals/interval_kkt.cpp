@@ -10,6 +10,13 @@
 
 namespace dmocbench::kkt {
 
+namespace {
+
+/// Intervals that a new order of elimination is chosen by, besides the middle one.
+constexpr Eigen::Index sampled_intervals = 9;
+
+}  // namespace
+
 IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
@@ -42,8 +49,8 @@ NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const KktRightHandS
   return arrays;
 }
 
-bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
-  auto plan = elimination_plan(entries_, arrays, entries_.intervals / 2);
+bool IntervalKkt::choose_plan(const NewtonArrays& arrays, const std::vector<Eigen::Index>& intervals) {
+  auto plan = elimination_plan(entries_, arrays, intervals);
   has_plan_ = plan.has_value();
   if (!plan) return false;
   plan_ = std::move(*plan);
@@ -56,7 +63,8 @@ bool IntervalKkt::choose_plan(const NewtonArrays& arrays) {
 FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                        const KktStep& step) {
   NewtonArrays arrays = arrays_of(matrix, right_hand_side);
-  if (!has_plan_ && !choose_plan(arrays)) return FactorisationStatus::singular;
+  const Eigen::Index middle = entries_.intervals / 2;
+  if (!has_plan_ && !choose_plan(arrays, {middle})) return FactorisationStatus::singular;
   weights_.rescale(arrays);
   for (bool may_choose_order = true;; may_choose_order = false) {
     arrays.terminal_weights = weights_.values().data();
@@ -66,7 +74,11 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     if (found.status == FactorisationStatus::solved) break;
     if (found.status == FactorisationStatus::untrusted) {
       if (!may_choose_order) return found.status;
-      if (!choose_plan(arrays)) return FactorisationStatus::singular;
+      // A pivot that is large in one interval may be zero in another, where a velocity changes its sign, say.
+      std::vector<Eigen::Index> intervals{middle};
+      for (Eigen::Index i = 0; i < sampled_intervals; ++i)
+        intervals.push_back(i * (entries_.intervals - 1) / (sampled_intervals - 1));
+      if (!choose_plan(arrays, intervals)) return FactorisationStatus::singular;
       continue;
     }
     // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.

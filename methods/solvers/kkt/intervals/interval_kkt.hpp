@@ -44,7 +44,7 @@ class IntervalKkt : public KktSystem {
   };
 
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side);
-  [[nodiscard]] bool choose_plan(const NewtonArrays& arrays);
+  [[nodiscard]] bool choose_plan(const NewtonArrays& arrays, const std::vector<Eigen::Index>& intervals);
   [[nodiscard]] Elimination join(const NewtonArrays& arrays, const KktMatrix& matrix,
                                  const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool join_segments();

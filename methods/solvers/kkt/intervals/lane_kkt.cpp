@@ -15,6 +15,8 @@ static_assert(lane_count == instance_lanes);
 
 /// Every so many refusals in a row the other multiples of the weights are tried.
 constexpr int most_believed = 4;
+/// Systems in a row that are not refused, after which a lane goes back to the usual weights, which keep more digits.
+constexpr int enough_calm = 3;
 
 /// The reason why the ends of a program do not fit; null if they do.
 const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntries& entries) {
@@ -54,7 +56,7 @@ LaneKkt::Made LaneKkt::make(const NonlinearProgram& program, const KktMatrix& us
   const NewtonArrays arrays{{usual.jacobian.data(), usual.hessian.data(), usual.diagonal.data(), nullptr, nullptr,
                              usual.compliance.data(), padded.data()}};
   copy_padded(*entries, arrays, 1, padded);
-  auto plan = elimination_plan(*entries, arrays, entries->intervals / 2);
+  auto plan = elimination_plan(*entries, arrays, {entries->intervals / 2});
   if (!plan)
     return tl::unexpected(std::string("the equalities of an interval depend on each other at the usual point"));
   return std::unique_ptr<LaneKkt>(new LaneKkt(std::move(*entries), std::move(*plan), choose));
@@ -84,6 +86,7 @@ LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelCho
 void LaneKkt::forget(std::size_t lane) {
   weights_[lane] = fresh_weights_;
   refusals_[lane] = 0;
+  calm_[lane] = 0;
   tries_others_[lane] = false;
   has_other_weights_[lane] = false;
 }
@@ -177,18 +180,23 @@ LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
     }
     weights_[lane].observe(reachability_);
     if (is_definite_[lane]) {
+      calm_[lane] = refusals_[lane] > 0 ? 0 : calm_[lane] + 1;
+      if (calm_[lane] == enough_calm) weights_[lane].prefer_middle();
       refusals_[lane] = 0;
       tries_others_[lane] = false;
       return Outcome::solved;
     }
   }
-  // The usual multiple tells the inertia of DMOC, and of the midpoint rule; collocation with several stages needs more.
-  // Where refusal follows on refusal, its digits may be lost on the way from one end to the other: no shift helps then.
+  // The largest multiple tells the inertia of DMOC, and of the midpoint rule; collocation with several stages needs
+  // more. Where refusal follows on refusal, its digits may be lost on the way from one end to the other: no shift helps
+  // then.
+  calm_[lane] = 0;
   const bool needs_more = entries_.shape.node_sums == 0 && !plan_.shape.is_plain;
-  const bool is_doubtful = needs_more || tries_others_[lane] || ++refusals_[lane] % most_believed == 0;
+  const bool is_doubtful = needs_more || tries_others_[lane] || (refusals_[lane] + 1) % most_believed == 0;
   tries_others_[lane] = is_doubtful && weights_[lane].next_multiple();
-  has_other_weights_[lane] = tries_others_[lane];
+  has_other_weights_[lane] = tries_others_[lane] || (!is_doubtful && weights_[lane].take_largest());
   if (has_other_weights_[lane]) return Outcome::again;
+  ++refusals_[lane];
   return pivots_hold ? Outcome::failed : Outcome::wrong_inertia;
 }
 

@@ -80,6 +80,7 @@ class LaneKkt {
   Mask has_other_weights_{};                // than its matrix began with
   Mask tries_others_{};                     // one after the other, until one tells or none is left
   std::array<int, lane_count> refusals_{};  // in a row
+  std::array<int, lane_count> calm_{};      // systems in a row that were not refused
   std::vector<TerminalWeights::Diagonal> free_diagonals_;
   std::vector<double> compliances_;   // by diagonal and lane
   std::vector<double> lane_weights_;  // by entry of the state and lane

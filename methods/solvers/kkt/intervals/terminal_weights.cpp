@@ -14,10 +14,10 @@ namespace {
 
 /// The multiples of the stiffness that are tried, one after the other.
 constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
-/// The multiple whose failure says most: the smallest may be too small, the largest may drown the stiffness.
+/// The multiple to begin with after a failure: smaller ones may be too small, the largest may drown the stiffness.
 constexpr std::size_t middle = 2;
-/// Failures that are believed after all multiples were tried in vain. They are fewer than make `RefinedKkt` ask the
-/// sparse factorisation, which costs more than all multiples do.
+/// How often, after all multiples were tried in vain, the failure of the largest one is believed without the smaller
+/// ones: fewer times than make `RefinedKkt` ask the sparse factorisation, which costs more than all multiples do.
 constexpr int patience = 2;
 /// A weight that drowned the stiffness tells that it was at most this share of the weight.
 constexpr double drowned_share = 1e-3;
@@ -112,21 +112,30 @@ void TerminalWeights::rescale(const std::vector<double>& compliances) {
 }
 
 bool TerminalWeights::next_multiple() {
-  if (believed_ > 0) {
-    --believed_;
-    return false;
-  }
-  if (tried_ + 1 == multiples.size()) {
+  // A weight that may be too small says nothing of the Hessian, so no failure is believed before that of the largest.
+  const bool is_largest = level_ + 1 == multiples.size();
+  if (tried_ + 1 == multiples.size() || (is_largest && believed_ > 0)) {
+    believed_ = believed_ > 0 ? believed_ - 1 : patience;
     level_ = middle;
     tried_ = 0;
-    believed_ = patience;
     return false;
   }
   ++tried_;
-  level_ = (level_ + 1) % multiples.size();
+  take((level_ + 1) % multiples.size());
+  return true;
+}
+
+bool TerminalWeights::take_largest() {
+  constexpr std::size_t largest = multiples.size() - 1;
+  if (level_ == largest) return false;
+  take(largest);
+  return true;
+}
+
+void TerminalWeights::take(std::size_t level) {
+  level_ = level;
   update();
   values_ = multiples[level_] * scale_ * stiffness_;
-  return true;
 }
 
 void TerminalWeights::prefer_middle() noexcept { level_ = middle; }

@@ -41,10 +41,13 @@ class TerminalWeights {
   static constexpr double smallest_curvature = 1e-12;
   /// Those of unknowns that the order of elimination leaves free.
   [[nodiscard]] std::vector<Diagonal> free_diagonals() const;
-  /// After a failure: takes the next multiple, which stays if it succeeds. False if none is left for this matrix.
+  /// After a failure: takes the next larger multiple, behind the largest the smallest; it stays if it succeeds. False
+  /// if none is left for this matrix. The largest is always among those that were tried.
   [[nodiscard]] bool next_multiple();
-  /// Begins with the multiple whose failure says most. For a segment that is the whole horizon: nothing is joined, so
-  /// the digits that a large weight takes from the reachability are not missed.
+  /// Takes the largest multiple, which stays; false if it was taken already.
+  [[nodiscard]] bool take_largest();
+  /// Begins with the multiple that is neither small nor the largest. For a segment that is the whole horizon: nothing
+  /// is joined, so fewer of the digits that a large weight takes from the reachability are missed.
   void prefer_middle() noexcept;
   /// All multiples are to be tried after the next failure.
   void distrust_next_failure() noexcept { believed_ = 0; }
@@ -57,6 +60,7 @@ class TerminalWeights {
  private:
   [[nodiscard]] double compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const;
   [[nodiscard]] double stiffness_of_free_unknowns(const std::vector<double>& compliances) const;
+  void take(std::size_t level);
   void update();
 
   Eigen::Index intervals_;
@@ -64,7 +68,7 @@ class TerminalWeights {
   std::vector<double> compliances_;  // of the free ones, for the last matrix
   std::size_t level_ = 0;            // which multiple
   std::size_t tried_ = 0;            // others, for this matrix
-  int believed_ = 0;                 // next failures that are believed without further multiples
+  int believed_ = 0;                 // next failures of the largest that are believed without smaller ones
   double scale_ = 1.0;
   Eigen::VectorXd stiffness_;  // relative to the scale
   Eigen::VectorXd observed_;   // since the last matrix
