@@ -208,7 +208,7 @@ Table sequence_summary(const std::vector<SequenceStep>& steps) {
   names.insert(names.end(), {"compared_with_cold", "warm_is_worse"});
   Table table(names);
   table.explain(meanings_in_summary());
-  table.declare(types_of(scheme_columns<Step>()));
+  table.declare(types_of(scheme_columns<SequenceStep>()));
   table.declare({{"sequence", {FieldKind::text, false}}});
   for (const char* const count : {"intervals", "steps", "solved", "compared_with_cold"})
     table.declare({{count, {FieldKind::integer, false}}});
