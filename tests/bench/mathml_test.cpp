@@ -75,7 +75,8 @@ TEST(Mathml, HasTheValuesOfRandomFormulas) {
     std::vector<Expression> inputs;
     for (std::size_t i = 0; i < 3; ++i) inputs.push_back(Expression::input(i));
     const std::vector<Expression> formulas = program.run<Expression>(inputs);
-    expect_equal_values(formulas, abc, trial % 3, program.point(), "formula " + std::to_string(trial));
+    expect_equal_values(formulas, abc, static_cast<std::size_t>(trial % 3), program.point(),
+                        "formula " + std::to_string(trial));
     shared += typeset(formulas, abc, 0, "w").shared.size();
   }
   EXPECT_GT(shared, 0U);
