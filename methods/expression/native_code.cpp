@@ -1,8 +1,12 @@
 #include "methods/expression/native_code.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include <xbyak/xbyak.h>
 
@@ -43,6 +47,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     align(cache_line);
     const std::size_t begin = getSize();
     reserve_stack(machine.stack_places);
+    fetch_addresses(machine);
     shl(last_, 3);
     sub(last_, static_cast<std::uint32_t>(registers_.bytes));
     xor_(offset_, offset_);
@@ -58,7 +63,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     jmp(next_vector, T_NEAR);
     L(end);
     vzeroupper();
-    leave();
+    release_stack();
     ret();
     return begin;
   }
@@ -83,10 +88,39 @@ class StageWriter : public Xbyak::CodeGenerator {
 
   void reserve_stack(std::size_t places) {
     push(rbp);
+    for (const Xbyak::Reg64& saved : saved_registers) push(saved);
     mov(rbp, rsp);
     if (places == 0) return;
     and_(rsp, ~(cache_line - 1));
     sub(rsp, static_cast<std::uint32_t>(places * registers_.bytes));
+  }
+  void release_stack() {
+    mov(rsp, rbp);
+    for (std::size_t i = saved_registers.size(); i-- > 0;) pop(saved_registers[i]);
+    pop(rbp);
+  }
+
+  /// Addresses of series are fetched once, the most used ones first, for as many as there are registers.
+  void fetch_addresses(const MachineSteps& machine) {
+    std::vector<std::pair<std::size_t, std::uint32_t>> uses;  // how often, and the series
+    const auto count = [&](const OperandPlace& place) {
+      if (place.kind != OperandPlace::Kind::series) return;
+      if (place.number >= uses.size()) uses.resize(place.number + 1);
+      ++uses[place.number].first;
+    };
+    for (const MachineStep& step : machine.steps) {
+      count(step.result);
+      count(step.left);
+      if (operand_count(step.operation) > 1) count(step.right);
+    }
+    addresses_.assign(uses.size(), std::nullopt);
+    for (std::uint32_t i = 0; i < uses.size(); ++i) uses[i].second = i;
+    const std::size_t fetched = std::min(uses.size(), address_registers.size());
+    std::ranges::partial_sort(uses, uses.begin() + static_cast<std::ptrdiff_t>(fetched), std::greater<>());
+    for (std::size_t i = 0; i < fetched && uses[i].first > 0; ++i) {
+      addresses_[uses[i].second] = address_registers[i];
+      mov(address_registers[i], ptr[series_ + uses[i].second * sizeof(double*)]);
+    }
   }
 
   void write(const MachineStep& step) {
@@ -127,10 +161,11 @@ class StageWriter : public Xbyak::CodeGenerator {
     return {registers_.kind, is_register ? static_cast<int>(place.number) : 0};
   }
 
-  /// The address of a place that is no register. That of a series is fetched first.
+  /// The address of a place that is no register. That of a series is fetched first, if it is in none.
   Xbyak::Address memory(const OperandPlace& place) {
     switch (place.kind) {
       case OperandPlace::Kind::series:
+        if (const auto& address = addresses_[place.number]) return ptr[*address + offset_];
         mov(begin_, ptr[series_ + place.number * sizeof(double*)]);
         return ptr[begin_ + offset_];
       case OperandPlace::Kind::constant:
@@ -149,6 +184,9 @@ class StageWriter : public Xbyak::CodeGenerator {
   const Xbyak::Reg64 last_ = rsi;        // the second one, which becomes the offset of the last vector
   const Xbyak::Reg64 offset_ = rax;      // of the present vector, in bytes
   const Xbyak::Reg64 begin_ = rdx;       // of a series
+  const std::array<Xbyak::Reg64, 5> saved_registers{rbx, r12, r13, r14, r15};  // those of the caller
+  const std::array<Xbyak::Reg64, 10> address_registers{rcx, r8, r9, r10, r11, rbx, r12, r13, r14, r15};
+  std::vector<std::optional<Xbyak::Reg64>> addresses_;  // by series: the register that has its address
 };
 
 }  // namespace

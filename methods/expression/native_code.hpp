@@ -34,7 +34,7 @@ struct NativeCode {
   void run(TapeKernel kernel, double* const* series, std::size_t width) const {
     for (const Stage& stage : stages) {
       stage.arithmetic(series, width);
-      kernel(stage.functions.data(), stage.functions.size(), series, width);
+      if (!stage.functions.empty()) kernel(stage.functions.data(), stage.functions.size(), series, width);
     }
   }
 };

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "methods/expression/step_order.hpp"
+
 namespace dmocbench {
 
 namespace {
@@ -167,7 +169,8 @@ class RegisterAllocator {
 
 MachineSteps allocate_registers(const NativeStage& stage, const std::vector<NativePlan::Home>& homes,
                                 std::size_t registers) {
-  return RegisterAllocator(stage.arithmetic, homes, registers).allocate();
+  const std::vector<VectorStep> steps = overlapping_order(stage.arithmetic, homes.size(), registers);
+  return RegisterAllocator(steps, homes, registers).allocate();
 }
 
 }  // namespace dmocbench
