@@ -48,6 +48,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     const std::size_t begin = getSize();
     reserve_stack(machine.stack_places);
     fetch_addresses(machine);
+    for (const MachineStep& step : machine.once) write(step);
     shl(last_, 3);
     sub(last_, static_cast<std::uint32_t>(registers_.bytes));
     xor_(offset_, offset_);

@@ -1,7 +1,10 @@
 #include "methods/expression/register_allocation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "methods/expression/step_order.hpp"
@@ -165,12 +168,69 @@ class RegisterAllocator {
   MachineSteps result_;
 };
 
+std::array<OperandPlace*, 3> places_of(MachineStep& step) { return {&step.result, &step.left, &step.right}; }
+
+bool is_register(const OperandPlace& place) { return place.kind == OperandPlace::Kind::in_register; }
+bool is_constant(const OperandPlace& place) { return place.kind == OperandPlace::Kind::constant; }
+
+/// The constants that steps read, those first that are read most often.
+std::vector<std::uint32_t> constants_by_use(std::vector<MachineStep>& steps, std::size_t values) {
+  std::vector<std::uint32_t> uses(values);
+  std::vector<std::uint32_t> constants;
+  for (MachineStep& step : steps) {
+    for (const OperandPlace* place : places_of(step)) {
+      if (is_constant(*place) && uses[place->number]++ == 0) constants.push_back(place->number);
+    }
+  }
+  std::ranges::stable_sort(constants, std::greater<>(), [&](std::uint32_t constant) { return uses[constant]; });
+  return constants;
+}
+
+/// Registers that no step uses get constants, once for all intervals.
+void keep_constants(MachineSteps& machine, std::size_t values, std::size_t registers) {
+  std::uint32_t first_unused = 0;
+  for (MachineStep& step : machine.steps) {
+    for (const OperandPlace* place : places_of(step)) {
+      if (is_register(*place)) first_unused = std::max(first_unused, place->number + 1);
+    }
+  }
+  std::vector<std::uint32_t> constants = constants_by_use(machine.steps, values);
+  constants.resize(std::min(constants.size(), registers - first_unused));
+  std::vector<std::optional<OperandPlace>> kept(values);
+  for (std::size_t i = 0; i < constants.size(); ++i) {
+    kept[constants[i]] = {OperandPlace::Kind::in_register, first_unused + static_cast<std::uint32_t>(i)};
+    machine.once.push_back(
+        {VectorOperation::copy, *kept[constants[i]], {OperandPlace::Kind::constant, constants[i]}, {}});
+  }
+  std::vector<std::optional<OperandPlace>> meant(registers);  // the register that is read in the place of another
+  std::vector<MachineStep> steps;
+  steps.reserve(machine.steps.size());
+  for (MachineStep step : machine.steps) {
+    for (OperandPlace* operand : {&step.left, &step.right}) {
+      const std::optional<OperandPlace>* other = nullptr;
+      if (is_constant(*operand)) other = &kept[operand->number];
+      if (is_register(*operand)) other = &meant[operand->number];
+      if (other != nullptr && *other) *operand = **other;
+    }
+    if (is_register(step.result)) meant[step.result.number].reset();
+    const bool is_load = step.operation == VectorOperation::copy && is_register(step.result) && is_register(step.left);
+    if (is_load) {
+      meant[step.result.number] = step.left;
+    } else {
+      steps.push_back(step);
+    }
+  }
+  machine.steps = std::move(steps);
+}
+
 }  // namespace
 
 MachineSteps allocate_registers(const NativeStage& stage, const std::vector<NativePlan::Home>& homes,
                                 std::size_t registers) {
   const std::vector<VectorStep> steps = overlapping_order(stage.arithmetic, homes.size(), registers);
-  return RegisterAllocator(steps, homes, registers).allocate();
+  MachineSteps machine = RegisterAllocator(steps, homes, registers).allocate();
+  keep_constants(machine, homes.size(), registers);
+  return machine;
 }
 
 }  // namespace dmocbench

@@ -25,14 +25,16 @@ struct MachineStep {
   OperandPlace right;                                 ///< the second operand, where there is one
 };
 
-/// Straight-line code, and what it takes of the stack.
+/// Straight-line code for the present intervals, and what it takes of the stack.
 struct MachineSteps {
+  std::vector<MachineStep> once;   ///< before the first intervals: loads of constants
   std::vector<MachineStep> steps;  ///< in their order
   std::size_t stack_places = 0;    ///< vectors on the stack
 };
 
 /// The arithmetic of a stage on so many registers, at least three. Where they do not suffice, the value leaves them
-/// that is needed last (Belady's rule), which for straight-line code loads as few values as possible.
+/// that is needed last (Belady's rule), which for straight-line code loads as few values as possible. Registers that
+/// are left hold constants.
 [[nodiscard]] MachineSteps allocate_registers(const NativeStage& stage, const std::vector<NativePlan::Home>& homes,
                                               std::size_t registers);
 

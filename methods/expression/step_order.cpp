@@ -42,9 +42,8 @@ class ListScheduler {
     for (std::size_t i = groups_.size(); i-- > 0;) {
       Group& group = groups_[i];
       group.way_to_end += latency(steps_[group.first].operation);
-      visit_producers(group, [&](Group& producer) {
-        producer.way_to_end = std::max(producer.way_to_end, group.way_to_end);
-      });
+      visit_producers(group,
+                      [&](Group& producer) { producer.way_to_end = std::max(producer.way_to_end, group.way_to_end); });
     }
   }
 

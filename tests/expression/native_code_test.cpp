@@ -231,7 +231,9 @@ TEST(RegisterAllocation, ComputesTheSameOnAnyNumberOfRegisters) {
     std::size_t steps = 0;
     for (const NativeStage& stage : plan.stages) {
       const MachineSteps machine = allocate_registers(stage, plan.homes, registers);
-      SimulatedProcessor(registers, machine.stack_places, plan).run(machine.steps, series);
+      SimulatedProcessor processor(registers, machine.stack_places, plan);
+      processor.run(machine.once, series);
+      processor.run(machine.steps, series);
       for (const TapeInstruction& function : stage.functions) {
         series[function.result] = std::exp(series[function.operands[0]]);
       }
