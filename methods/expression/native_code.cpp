@@ -35,7 +35,7 @@ constexpr VectorRegisters vector_registers_of(InstructionSet set) {
 class StageWriter : public Xbyak::CodeGenerator {
  public:
   StageWriter(const NativePlan& plan, const VectorRegisters& registers)
-      : CodeGenerator(first_size, Xbyak::AutoGrow),
+      : CodeGenerator(expected_size(plan), Xbyak::AutoGrow),
         plan_(plan),
         registers_(registers),
         constants_(plan.homes.size()),
@@ -84,8 +84,16 @@ class StageWriter : public Xbyak::CodeGenerator {
   }
 
  private:
-  static constexpr std::size_t first_size = 4096;
   static constexpr std::uint32_t cache_line = 64;
+
+  /// Code that outgrows its memory is copied. Memory that is not written costs nothing.
+  static std::size_t expected_size(const NativePlan& plan) {
+    constexpr std::size_t page = 4096;
+    constexpr std::size_t bytes_of_a_step = 24;
+    std::size_t steps = 0;
+    for (const NativeStage& stage : plan.stages) steps += stage.arithmetic.size();
+    return (1 + steps * bytes_of_a_step / page) * page;
+  }
 
   void reserve_stack(std::size_t places) {
     push(rbp);

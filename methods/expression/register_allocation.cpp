@@ -203,9 +203,7 @@ void keep_constants(MachineSteps& machine, std::size_t values, std::size_t regis
         {VectorOperation::copy, *kept[constants[i]], {OperandPlace::Kind::constant, constants[i]}, {}});
   }
   std::vector<std::optional<OperandPlace>> meant(registers);  // the register that is read in the place of another
-  std::vector<MachineStep> steps;
-  steps.reserve(machine.steps.size());
-  for (MachineStep step : machine.steps) {
+  const auto is_needless = [&](MachineStep& step) {
     for (OperandPlace* operand : {&step.left, &step.right}) {
       const std::optional<OperandPlace>* other = nullptr;
       if (is_constant(*operand)) other = &kept[operand->number];
@@ -214,13 +212,15 @@ void keep_constants(MachineSteps& machine, std::size_t values, std::size_t regis
     }
     if (is_register(step.result)) meant[step.result.number].reset();
     const bool is_load = step.operation == VectorOperation::copy && is_register(step.result) && is_register(step.left);
-    if (is_load) {
-      meant[step.result.number] = step.left;
-    } else {
-      steps.push_back(step);
-    }
+    if (is_load) meant[step.result.number] = step.left;
+    return is_load;
+  };
+  // One after the other: what a register means depends on the steps before.
+  auto end = machine.steps.begin();
+  for (MachineStep& step : machine.steps) {
+    if (!is_needless(step)) *end++ = step;
   }
-  machine.steps = std::move(steps);
+  machine.steps.erase(end, machine.steps.end());
 }
 
 }  // namespace

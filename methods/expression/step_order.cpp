@@ -1,8 +1,8 @@
 #include "methods/expression/step_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -10,6 +10,9 @@
 namespace dmocbench {
 
 namespace {
+
+// In longer stages registers are full nearly all the time, which leaves little to choose.
+constexpr std::size_t most_steps = 1024;
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
@@ -36,6 +39,7 @@ class ListScheduler {
  public:
   ListScheduler(const std::vector<VectorStep>& steps, std::size_t values, std::size_t registers)
       : steps_(steps), most_alive_(registers - std::min(registers, registers_for_operands)), producer_(values, nobody) {
+    known_later_.fill(nobody);
     find_groups();
     link_readers();
     // Readers stand behind what they read.
@@ -53,11 +57,12 @@ class ListScheduler {
     }
     std::vector<VectorStep> result;
     result.reserve(steps_.size());
-    for (std::size_t left = groups_.size(); left > 0; --left, ++time_) {
+    for (std::size_t left = groups_.size(); left > 0; --left) {
       const std::uint32_t next = take_next();
       const Group& group = groups_[next];
       for (std::uint32_t i = group.first; i < group.end; ++i) result.push_back(steps_[i]);
       issue(next);
+      pass_cycle();
     }
     return result;
   }
@@ -65,6 +70,7 @@ class ListScheduler {
  private:
   // Operands from memory and results pass through registers, too.
   static constexpr std::size_t registers_for_operands = 4;
+  static constexpr std::size_t cycles_ahead = 32;  // more than any latency
 
   struct Group {
     std::uint32_t first = 0;  // of its steps
@@ -74,11 +80,12 @@ class ListScheduler {
     std::uint32_t way_to_end = 0;  // cycles of the longest one
     std::uint32_t known_at = 0;    // the cycle from which its operands are known
     std::uint32_t first_reader = 0;
+    std::uint32_t next_known = nobody;  // another one whose operands are known from the same cycle
     bool is_issued = false;
   };
-  using Entry = std::pair<std::uint32_t, std::uint32_t>;  // a key, and a group
 
   void find_groups() {
+    groups_.reserve(steps_.size());
     for (std::uint32_t i = 0; i < steps_.size(); ++i) {
       const bool belongs_to_group = steps_[i].operation == VectorOperation::copy && i > 0 &&
                                     steps_[i].left == steps_[groups_.back().first].result &&
@@ -108,36 +115,41 @@ class ListScheduler {
     }
     std::uint32_t next = 0;
     for (Group& group : groups_) {
-      group.first_reader = next;
       next += group.unread;
+      group.first_reader = next;  // filled from behind
     }
     readers_.resize(next);
-    std::vector<std::uint32_t> filled(groups_.size());
     for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-      visit_producers(groups_[i], [&](Group& producer) {
-        readers_[producer.first_reader + filled[static_cast<std::size_t>(&producer - groups_.data())]++] = i;
-      });
+      visit_producers(groups_[i], [&](Group& producer) { readers_[--producer.first_reader] = i; });
     }
   }
 
-  void make_ready(std::uint32_t group) {
-    waiting_.emplace(groups_[group].known_at, group);
-    in_order_.push(group);
+  void make_ready(std::uint32_t number) {
+    if (groups_[number].known_at <= time_) {
+      make_known(number);
+    } else {
+      std::uint32_t& first = known_later_[groups_[number].known_at % cycles_ahead];
+      groups_[number].next_known = std::exchange(first, number);
+    }
+  }
+  void make_known(std::uint32_t number) {
+    constexpr int bits = 32;
+    known_.push(std::uint64_t{groups_[number].way_to_end} << bits | (nobody - number));  // of equal ones the first
+  }
+  void pass_cycle() {
+    ++time_;
+    std::uint32_t number = std::exchange(known_later_[time_ % cycles_ahead], nobody);
+    for (; number != nobody; number = groups_[number].next_known) make_known(number);
   }
 
   std::uint32_t take_next() {
-    if (alive_ >= most_alive_) {
-      while (groups_[in_order_.top()].is_issued) in_order_.pop();
-      return in_order_.top();
-    }
-    for (;; time_ = std::max(time_, waiting_.top().first)) {
-      for (; !waiting_.empty() && waiting_.top().first <= time_; waiting_.pop()) {
-        // Of equal ones the first.
-        known_.emplace(groups_[waiting_.top().second].way_to_end, nobody - waiting_.top().second);
+    while (groups_[first_left_].is_issued) ++first_left_;
+    if (alive_ >= most_alive_) return first_left_;  // all that it reads stood before it
+    for (;; pass_cycle()) {
+      for (; !known_.empty(); known_.pop()) {
+        const std::uint32_t number = nobody - static_cast<std::uint32_t>(known_.top());
+        if (!groups_[number].is_issued) return number;
       }
-      while (!known_.empty() && groups_[nobody - known_.top().second].is_issued) known_.pop();
-      if (!known_.empty()) return nobody - known_.top().second;
-      while (groups_[waiting_.top().second].is_issued) waiting_.pop();
     }
   }
 
@@ -160,16 +172,17 @@ class ListScheduler {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> readers_;
   std::uint32_t time_ = 0;
-  std::size_t alive_ = 0;  // results that will be read
-  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> in_order_;  // ready ones
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;                   // ready ones by cycles
-  std::priority_queue<Entry> known_;  // those with operands that are known
+  std::size_t alive_ = 0;                                  // results that will be read
+  std::uint32_t first_left_ = 0;                           // in the order of the schedule
+  std::priority_queue<std::uint64_t> known_;               // those whose operands are known, by their ways to the end
+  std::array<std::uint32_t, cycles_ahead> known_later_{};  // by cycles: the first of a list
 };
 
 }  // namespace
 
 std::vector<VectorStep> overlapping_order(const std::vector<VectorStep>& steps, std::size_t values,
                                           std::size_t registers) {
+  if (steps.size() > most_steps) return steps;
   return ListScheduler(steps, values, registers).order();
 }
 
