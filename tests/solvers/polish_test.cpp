@@ -19,9 +19,8 @@ TEST(Polish, CarriesALooseSolutionToRounding) {
       tests::Solved loose = tests::solve(*problem, {method, 2}, Grid::uniform(48), tests::common_start(*problem), 1e-6);
       const tests::Solved tight =
           tests::solve(*problem, {method, 2}, Grid::uniform(48), tests::common_start(*problem), 1e-11);
-      const int steps = polish(*loose.transcription, loose.solution);
-      EXPECT_GE(steps, 1);
-      EXPECT_LE(steps, 4);
+      constexpr int sufficient = 2;  // Newton's method doubles digits; steps behind these move what rounding left
+      EXPECT_GE(polish(*loose.transcription, loose.solution, sufficient), 1);
       EXPECT_LT(tests::value_of(loose.solution.kkt_residual), 1e-9);
       EXPECT_LT(tests::value_of(loose.solution.constraint_violation), 1e-11);
       EXPECT_LT((loose.solution.primal - tight.solution.primal).lpNorm<Eigen::Infinity>(), 1e-7);

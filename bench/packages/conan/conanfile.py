@@ -33,6 +33,10 @@ class DmocbenchConan(ConanFile):
         root = os.path.join(self.recipe_folder, "..", "..", "..")
         copy(self, "*", root, self.export_sources_folder, excludes=("build*", "results*", ".git/*"))
 
+    def requirements(self):
+        if self.settings.arch == "x86_64":
+            self.requires("xbyak/7.21")
+
     def system_requirements(self):
         Apt(self).install(["coinor-libipopt-dev", "libmumps-seq-dev", "liblapacke-dev", "pkg-config"])
         Dnf(self).install(["coin-or-Ipopt-devel", "MUMPS-devel", "lapack-devel", "pkgconf"])
