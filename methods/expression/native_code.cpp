@@ -97,7 +97,7 @@ class StageWriter : public Xbyak::CodeGenerator {
 
   void reserve_stack(std::size_t places) {
     push(rbp);
-    for (const Xbyak::Reg64& saved : saved_registers) push(saved);
+    for (const Xbyak::Reg64& saved : saved_registers_) push(saved);
     mov(rbp, rsp);
     if (places == 0) return;
     and_(rsp, ~(cache_line - 1));
@@ -105,7 +105,7 @@ class StageWriter : public Xbyak::CodeGenerator {
   }
   void release_stack() {
     mov(rsp, rbp);
-    for (std::size_t i = saved_registers.size(); i-- > 0;) pop(saved_registers[i]);
+    for (std::size_t i = saved_registers_.size(); i-- > 0;) pop(saved_registers_[i]);
     pop(rbp);
   }
 
@@ -124,11 +124,11 @@ class StageWriter : public Xbyak::CodeGenerator {
     }
     addresses_.assign(uses.size(), std::nullopt);
     for (std::uint32_t i = 0; i < uses.size(); ++i) uses[i].second = i;
-    const std::size_t fetched = std::min(uses.size(), address_registers.size());
+    const std::size_t fetched = std::min(uses.size(), address_registers_.size());
     std::ranges::partial_sort(uses, uses.begin() + static_cast<std::ptrdiff_t>(fetched), std::greater<>());
     for (std::size_t i = 0; i < fetched && uses[i].first > 0; ++i) {
-      addresses_[uses[i].second] = address_registers[i];
-      mov(address_registers[i], ptr[series_ + uses[i].second * sizeof(double*)]);
+      addresses_[uses[i].second] = address_registers_[i];
+      mov(address_registers_[i], ptr[series_ + uses[i].second * sizeof(double*)]);
     }
   }
 
@@ -193,8 +193,8 @@ class StageWriter : public Xbyak::CodeGenerator {
   const Xbyak::Reg64 last_ = rsi;        // the second one, which becomes the offset of the last vector
   const Xbyak::Reg64 offset_ = rax;      // of the present vector, in bytes
   const Xbyak::Reg64 begin_ = rdx;       // of a series
-  const std::array<Xbyak::Reg64, 5> saved_registers{rbx, r12, r13, r14, r15};  // those of the caller
-  const std::array<Xbyak::Reg64, 10> address_registers{rcx, r8, r9, r10, r11, rbx, r12, r13, r14, r15};
+  const std::array<Xbyak::Reg64, 5> saved_registers_{rbx, r12, r13, r14, r15};  // those of the caller
+  const std::array<Xbyak::Reg64, 10> address_registers_{rcx, r8, r9, r10, r11, rbx, r12, r13, r14, r15};
   std::vector<std::optional<Xbyak::Reg64>> addresses_;  // by series: the register that has its address
 };
 
@@ -209,6 +209,7 @@ std::unique_ptr<const NativeCode> make_native_code(const NativePlan& plan, Instr
   try {
     const auto writer = std::make_shared<StageWriter>(plan, registers);
     std::vector<std::size_t> begins;
+    begins.reserve(plan.stages.size());
     for (const NativeStage& stage : plan.stages) begins.push_back(writer->write(stage));
     writer->finish();
     for (std::size_t i = 0; i < begins.size(); ++i) {

@@ -186,22 +186,9 @@ std::vector<std::uint32_t> constants_by_use(std::vector<MachineStep>& steps, std
   return constants;
 }
 
-/// Registers that no step uses get constants, once for all intervals.
-void keep_constants(MachineSteps& machine, std::size_t values, std::size_t registers) {
-  std::uint32_t first_unused = 0;
-  for (MachineStep& step : machine.steps) {
-    for (const OperandPlace* place : places_of(step)) {
-      if (is_register(*place)) first_unused = std::max(first_unused, place->number + 1);
-    }
-  }
-  std::vector<std::uint32_t> constants = constants_by_use(machine.steps, values);
-  constants.resize(std::min(constants.size(), registers - first_unused));
-  std::vector<std::optional<OperandPlace>> kept(values);
-  for (std::size_t i = 0; i < constants.size(); ++i) {
-    kept[constants[i]] = {OperandPlace::Kind::in_register, first_unused + static_cast<std::uint32_t>(i)};
-    machine.once.push_back(
-        {VectorOperation::copy, *kept[constants[i]], {OperandPlace::Kind::constant, constants[i]}, {}});
-  }
+/// Steps read the constants where they are kept, by values; loads of them are left out.
+void read_kept(std::vector<MachineStep>& steps, const std::vector<std::optional<OperandPlace>>& kept,
+               std::size_t registers) {
   std::vector<std::optional<OperandPlace>> meant(registers);  // the register that is read in the place of another
   const auto is_needless = [&](MachineStep& step) {
     for (OperandPlace* operand : {&step.left, &step.right}) {
@@ -216,11 +203,30 @@ void keep_constants(MachineSteps& machine, std::size_t values, std::size_t regis
     return is_load;
   };
   // One after the other: what a register means depends on the steps before.
-  auto end = machine.steps.begin();
-  for (MachineStep& step : machine.steps) {
+  auto end = steps.begin();
+  for (MachineStep& step : steps) {
     if (!is_needless(step)) *end++ = step;
   }
-  machine.steps.erase(end, machine.steps.end());
+  steps.erase(end, steps.end());
+}
+
+/// Registers that no step uses get constants, once for all intervals.
+void keep_constants(MachineSteps& machine, std::size_t values, std::size_t registers) {
+  std::uint32_t first_unused = 0;
+  for (MachineStep& step : machine.steps) {
+    for (const OperandPlace* place : places_of(step)) {
+      if (is_register(*place)) first_unused = std::max(first_unused, place->number + 1);
+    }
+  }
+  std::vector<std::uint32_t> constants = constants_by_use(machine.steps, values);
+  constants.resize(std::min(constants.size(), registers - first_unused));
+  std::vector<std::optional<OperandPlace>> kept(values);
+  for (std::size_t i = 0; i < constants.size(); ++i) {
+    const OperandPlace place{OperandPlace::Kind::in_register, first_unused + static_cast<std::uint32_t>(i)};
+    kept[constants[i]] = place;
+    machine.once.push_back({VectorOperation::copy, place, {OperandPlace::Kind::constant, constants[i]}, {}});
+  }
+  read_kept(machine.steps, kept, registers);
 }
 
 }  // namespace

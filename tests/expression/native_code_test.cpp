@@ -15,6 +15,7 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/late_code.hpp"
 #include "methods/expression/register_allocation.hpp"
+#include "methods/expression/step_order.hpp"
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"
@@ -243,6 +244,74 @@ TEST(RegisterAllocation, ComputesTheSameOnAnyNumberOfRegisters) {
     EXPECT_LE(steps, loads_before) << "fewer registers took fewer loads";
     loads_before = steps;
   }
+}
+
+/// Chains of so many sums, one after the other; sum j of chain i is value 1 + i * length + j. Value 0 is in memory.
+std::vector<VectorStep> chains_of_sums(std::uint32_t chains, std::uint32_t length) {
+  std::vector<VectorStep> steps;
+  for (std::uint32_t i = 0; i < chains; ++i) {
+    for (std::uint32_t j = 0; j < length; ++j) {
+      const std::uint32_t result = 1 + i * length + j;
+      steps.push_back({VectorOperation::add, result, j == 0 ? 0 : result - 1, 0});
+    }
+    steps.push_back({VectorOperation::copy, i, (i + 1) * length, (i + 1) * length});
+  }
+  return steps;
+}
+
+std::vector<std::uint32_t> results_of(const std::vector<VectorStep>& steps) {
+  std::vector<std::uint32_t> results;
+  for (const VectorStep& step : steps) {
+    if (step.operation != VectorOperation::copy) results.push_back(step.result);
+  }
+  return results;
+}
+
+TEST(StepOrder, LetsNoSumWaitForTheOneBeforeItWhereOthersCould) {
+  constexpr std::uint32_t chains = 5;
+  constexpr std::uint32_t length = 6;
+  const std::vector<VectorStep> steps = chains_of_sums(chains, length);
+  const std::vector<VectorStep> ordered = overlapping_order(steps, 1 + chains * length, 16);
+  const std::vector<std::uint32_t> results = results_of(ordered);
+  ASSERT_EQ(ordered.size(), steps.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto before = std::span(results).first(i);
+    if (results[i] % length == 1) continue;  // the first of a chain
+    const auto operand = std::ranges::find(before, results[i] - 1);
+    ASSERT_NE(operand, before.end()) << "a sum comes before what it reads";
+    EXPECT_GE(before.end() - operand, 4) << "position " << i;
+  }
+}
+
+TEST(StepOrder, KeepsCopiesBehindTheirValues) {
+  const std::vector<VectorStep> ordered = overlapping_order(chains_of_sums(5, 6), 31, 16);
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    if (ordered[i].operation != VectorOperation::copy) continue;
+    ASSERT_GT(i, 0U);
+    EXPECT_EQ(ordered[i].left, ordered[i - 1].result);
+  }
+}
+
+TEST(StepOrder, StaysThatOfTheScheduleWhereRegistersAreFew) {
+  const std::vector<VectorStep> steps = chains_of_sums(5, 6);
+  EXPECT_EQ(results_of(overlapping_order(steps, 31, 4)), results_of(steps));
+}
+
+TEST(RegisterAllocation, LoadsConstantsOnceWhereRegistersAreLeft) {
+  const Schedule schedule(ExpressionVector{{2.0 * Expression::input(0) + 3.0}});
+  TapeSeries table{std::vector<std::uint32_t>(schedule.steps().size()), 3, 4};
+  for (std::uint32_t i = 0, next = 0; i < schedule.steps().size(); ++i) {
+    if (operand_count(schedule.steps()[i].operation) == 0) table.of_steps[i] = next++;
+  }
+  const NativePlan plan = native_plan(schedule, table);
+  const auto loads = [](const std::vector<MachineStep>& steps) {
+    return std::ranges::count_if(steps, [](const MachineStep& step) {
+      return step.left.kind == OperandPlace::Kind::constant || step.right.kind == OperandPlace::Kind::constant;
+    });
+  };
+  const MachineSteps roomy = allocate_registers(plan.stages.front(), plan.homes, 16);
+  EXPECT_EQ(loads(roomy.once), 2);
+  EXPECT_EQ(loads(roomy.steps), 0);
 }
 
 TEST(LateCode, IsMadeOnceEnoughIntervalsHaveBeenEvaluatedAndChangesNoValue) {
