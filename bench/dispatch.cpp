@@ -11,6 +11,7 @@
 
 #include "bench/experiment/command_line.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/environment.hpp"
 
 namespace dmocbench {
 
@@ -48,12 +49,13 @@ int dispatch(std::span<const Program> programs, int argc, char** argv) {
     argv[1] = call.data();
     return found->run(argc - 1, argv + 1);
   }
-  if (name == "--version") {
-    fmt::print("dmocbench {}\n", DMOCBENCH_VERSION);
-    return 0;
-  }
   const bool is_help = name == "--help" || name == "-h";
   return run_program("dmocbench", description, argc, argv, [&](CommandLine& /*line*/) {
+    if (name == "--version") {
+      check_environment();
+      fmt::print("dmocbench {}\n", DMOCBENCH_VERSION);
+      return 0;
+    }
     if (is_help) {
       print_programs(programs);
     } else {

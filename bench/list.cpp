@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/claims/claims_table.hpp"
 #include "bench/experiment/experiment.hpp"
 #include "bench/experiment/meanings.hpp"
 #include "bench/experiment/metadata.hpp"
@@ -140,7 +141,12 @@ int print_json(const nlohmann::ordered_json& json) {
 int print_schema(const std::string& name) {
   if (name == "problems") return print_json(problem_cards_schema());
   if (name == "metadata") return print_json(metadata_schema());
-  throw Error(fmt::format("--schema {}: there are the schemas problems (of --json) and metadata (of NAME.json)", name));
+  if (name == "claims") return print_json(row_schema("claims.csv", claims_table({})));
+  if (name == "claims_rows") return print_json(row_schema("claims_rows.csv", claims_rows_table({})));
+  throw Error(
+      fmt::format("--schema {}: there are the schemas problems (of --json), metadata (of NAME.json), claims and "
+                  "claims_rows (of the rows of these tables)",
+                  name));
 }
 
 int print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
@@ -157,7 +163,9 @@ int print_all(CommandLine& line) {
   bool as_json = false;
   std::string schema;
   line.flag("--json", as_json, "the problems as cards in JSON, for other programs");
-  line.option("--schema", schema, "a JSON Schema instead: problems (of --json) or metadata (NAME.json beside results)");
+  line.option(
+      "--schema", schema,
+      "a JSON Schema instead: problems (of --json), metadata (NAME.json beside results), claims or claims_rows");
   parse_with_libraries(line);
   if (!schema.empty()) return print_schema(schema);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,

@@ -86,18 +86,24 @@ std::string told_together(std::ptrdiff_t count, ClaimVerdict verdict) {
 }  // namespace
 
 Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
-  Table table({"claim", "table", "records", "columns"});
+  struct Evidence {
+    std::string claim;
+    std::string table;
+    std::string records;
+    std::string columns;
+  };
+  const Columns<Evidence> columns{{"claim", "", "its name", &Evidence::claim},
+                                  {"table", "", "the file that was read", &Evidence::table},
+                                  {"records", "", "of that file, 2-5 9; the header is record 1", &Evidence::records},
+                                  {"columns", "", "that were read, with spaces between them", &Evidence::columns}};
+  std::vector<Evidence> evidence;
   for (const JudgedClaim& claim : claims) {
     for (const ReadRows& rows : claim.rows) {
-      Row row;
-      row.set("claim", claim.id);
-      row.set("table", rows.table);
-      row.set("records", packed_ranges(rows.records));
-      row.set("columns", fmt::format("{}", fmt::join(rows.columns, " ")));
-      table.append(std::move(row));
+      evidence.push_back(
+          {claim.id, rows.table, packed_ranges(rows.records), fmt::format("{}", fmt::join(rows.columns, " "))});
     }
   }
-  return table;
+  return table_of(columns, evidence);
 }
 
 Table claims_table(const std::vector<JudgedClaim>& claims) { return table_of(claim_columns(), claims); }

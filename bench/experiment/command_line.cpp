@@ -18,8 +18,7 @@
 
 #include "bench/experiment/process_pool.hpp"
 #include "methods/error.hpp"
-#include "methods/runtime/instruction_set.hpp"
-#include "methods/runtime/parallel.hpp"
+#include "methods/runtime/environment.hpp"
 #include "methods/runtime/stop_scope.hpp"
 
 namespace dmocbench {
@@ -47,11 +46,6 @@ bool is_out_of_threads(const std::exception& error) noexcept {
 }
 
 }  // namespace
-
-void check_environment() {
-  static_cast<void>(thread_count());
-  static_cast<void>(preferred_instruction_set());
-}
 
 // An array of Eigen, a vector, or the heap itself.
 bool is_out_of_memory(const std::exception& error) noexcept {

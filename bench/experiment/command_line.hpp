@@ -52,10 +52,6 @@ class CommandLine {
   std::vector<std::string> lists_;  ///< options with commas between their values
 };
 
-/// Throws `Error` where DMOCBENCH_THREADS or DMOCBENCH_INSTRUCTION_SET asks for what there is not, before anything is
-/// done.
-void check_environment();
-
 /// What went wrong, for a person: the words of our own errors; of others what they mean, where that is known.
 [[nodiscard]] std::string sentence_of(const std::exception& error);
 

@@ -144,6 +144,12 @@ nlohmann::ordered_json row_schema(const std::string& title, const std::vector<De
           {"additionalProperties", false}};
 }
 
+nlohmann::ordered_json row_schema(const std::string& title, const Table& table) {
+  std::vector<DeclaredColumn> columns;
+  for (const std::string& column : table.columns()) columns.push_back(declaration_of(column, Json::object(), table));
+  return row_schema(title, columns);
+}
+
 nlohmann::ordered_json metadata_schema() {
   const Json text = of_type("string");
   const Json count = {{"type", "integer"}, {"minimum", 0}};

@@ -42,6 +42,9 @@ struct DeclaredColumn {
 /// columns of texts texts, others that read as numbers numbers; booleans are 0 or 1.
 [[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns);
 
+/// The JSON Schema of the rows of a table, by what it says of its columns itself.
+[[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const Table& table);
+
 /// The JSON Schema of a run's metadata, NAME.json: what every run tells, and the schema of what it tells of its tables.
 [[nodiscard]] nlohmann::ordered_json metadata_schema();
 

@@ -51,6 +51,13 @@ std::string linked(const Row& claim) {
                      escaped(in_words(problem_and_name(claim.text("claim")).first)));
 }
 
+/// As a sentence begins.
+std::string capitalised(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text;
+}
+
 std::string answer_html(const Question& question, const Table& claims) {
   const std::vector<const Row*> answers = claims_named(claims, question.claim);
   if (answers.empty()) return "";
@@ -60,8 +67,8 @@ std::string answer_html(const Question& question, const Table& claims) {
     measured.push_back(fmt::format("{} {}: {}", linked(*claim), badge(claim->text("verdict")),
                                    escaped(first_clauses(claim->text("measured"), question.clauses))));
   }
-  std::string html = fmt::format("<li><b>{}.</b> {}: {}.", question.topic, escaped(answers.front()->text("states")),
-                                 fmt::join(measured, "; "));
+  std::string html = fmt::format("<li><b>{}.</b> {}: {}.", question.topic,
+                                 escaped(capitalised(answers.front()->text("states"))), fmt::join(measured, "; "));
   std::vector<std::string> verdicts;
   const std::vector<const Row*> beside = claims_named(claims, question.beside);
   verdicts.reserve(beside.size());

@@ -31,7 +31,7 @@ constexpr std::size_t most_instants = 129;
 
 std::vector<double> column_of(const Table& table, const std::string& column) {
   const std::size_t count = table.rows().size();
-  const std::size_t stride = (count + most_instants - 2) / (most_instants - 1);
+  const std::size_t stride = std::max<std::size_t>(1, (count + most_instants - 3) / (most_instants - 1));
   std::vector<double> values;
   for (std::size_t k = 0; k < count; k += stride) values.push_back(table.rows()[k].number(column, std::nan("")));
   if ((count - 1) % stride != 0) values.push_back(table.rows().back().number(column, std::nan("")));

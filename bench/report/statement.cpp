@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <regex>
 #include <span>
 
 #include <fmt/format.h>
@@ -93,12 +94,18 @@ WrittenFormulas written(const std::vector<StatedFormula>& formulas, const std::v
   return result;
 }
 
+/// "m/s^2" with its exponents raised.
+std::string unit_in_print(const std::string& unit) {
+  static const std::regex exponent(R"(\^(-?[0-9]+))");
+  return std::regex_replace(escaped(unit), exponent, "<sup>$1</sup>");
+}
+
 std::string letters_html(const StatedProblem& stated) {
   std::string html;
   for (const StatedProblem::Letter& letter : stated.letters) {
     const Parameter& parameter = *letter.parameter;
     html += fmt::format("<li>{} {}, {}</li>\n", math(letter.mathml + "<mo>=</mo>" + mathml_of_number(parameter.value)),
-                        escaped(parameter.unit), escaped(parameter.meaning));
+                        unit_in_print(parameter.unit), escaped(parameter.meaning));
   }
   return html.empty() ? "" : "<ul class=\"letters\">\n" + html + "</ul>\n";
 }

@@ -13,6 +13,7 @@
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "methods/error.hpp"
+#include "methods/runtime/environment.hpp"
 
 namespace dmocbench::speed {
 

@@ -13,6 +13,7 @@
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
 #include "methods/program/forwarding_program.hpp"
+#include "methods/runtime/environment.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/parsed.hpp"
 #include "methods/solvers/counted_program.hpp"
@@ -121,6 +122,7 @@ int main(int argc, char** argv) {
   using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
   using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
   try {
+    check_environment();
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     if (arguments.empty()) throw Error("which programs? counted --list names them");
     set_thread_count(1);

@@ -16,6 +16,7 @@
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/problem.hpp"
+#include "methods/runtime/environment.hpp"
 #include "methods/solvers/polish.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
@@ -227,6 +228,7 @@ const char* dmocbench_problem_name(size_t number) {
 
 dmocbench_problem* dmocbench_make_problem(const char* name) {
   return guarded<dmocbench_problem*>(nullptr, [&] {
+    dmocbench::check_environment();
     auto handle = std::make_unique<dmocbench_problem>();
     handle->problem = dmocbench::make_problem(&required(name, "the name"));
     for (const dmocbench::Parameter& parameter : handle->problem->parameters()) {

@@ -34,7 +34,8 @@ DMOCBENCH_API size_t dmocbench_problem_count(void);
 /* The name of a problem, from 0; NULL beyond the last. */
 DMOCBENCH_API const char* dmocbench_problem_name(size_t number);
 
-/* The problem of that name with its default parameters; NULL if there is none. Freed by dmocbench_free_problem. */
+/* The problem of that name with its default parameters; NULL if there is none, or where the environment (DMOCBENCH_THREADS,
+ * DMOCBENCH_INSTRUCTION_SET, DMOCBENCH_NATIVE_CODE) asks for what there is not. Freed by dmocbench_free_problem. */
 DMOCBENCH_API dmocbench_problem* dmocbench_make_problem(const char* name);
 /* Ends a problem; NULL is allowed. */
 DMOCBENCH_API void dmocbench_free_problem(dmocbench_problem* problem);

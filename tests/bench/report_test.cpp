@@ -206,7 +206,7 @@ TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
       "leg/equal_solutions,differs,paper,they are equal,to 1e-2\narm/other,differs,paper,nothing,5\n");
   const std::string page = report_page(results, "");
   const std::string overview = page.substr(0, page.find("<section id=\"claims\""));
-  EXPECT_TRUE(has(overview, "<b>Accuracy.</b> they are equal: "));
+  EXPECT_TRUE(has(overview, "<b>Accuracy.</b> They are equal: "));
   EXPECT_TRUE(has(overview, "reproduced</span>: to 1e-9; "));
   EXPECT_TRUE(has(overview, "differs</span>: to 1e-2."));
   EXPECT_FALSE(has(overview, "on 3 grids") || has(overview, "Structure"));

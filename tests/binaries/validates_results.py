@@ -19,6 +19,14 @@ def read(name):
     return json.loads((folder / name).read_text())
 
 
+def declares_all(name, schema):
+    """Every column has a type and a meaning."""
+    columns = schema["properties"].items()
+    untyped = [column for column, of in columns if "enum" not in of and {"number", "string"} <= set(of["type"])]
+    unexplained = [column for column, of in columns if "description" not in of]
+    assert not untyped and not unexplained, (name, untyped, unexplained)
+
+
 def as_json(field, schema):
     """A field of a table as the schema of its column says that it is read."""
     if field == "":
@@ -57,10 +65,7 @@ for file in sorted((folder / "results").glob("*.json")):
     refuses(of_metadata, {**metadata, "complete": "yes"})
     for name, told in metadata["tables"].items():
         of_row = validator_of(told["schema"])
-        columns = told["schema"]["properties"].items()
-        untyped = [column for column, schema in columns if "enum" not in schema and {"number", "string"} <= set(schema["type"])]
-        unexplained = [column for column, schema in columns if "description" not in schema]
-        assert not untyped and not unexplained, (name, untyped, unexplained)
+        declares_all(name, told["schema"])
         with open(folder / "results" / name, newline="") as table:
             for row in csv.DictReader(table):
                 row = {column: as_json(field, told["schema"]["properties"][column]) for column, field in row.items()}
@@ -78,4 +83,12 @@ for file in sorted((folder / "results").glob("*.json")):
             of_row.validate({**row, "objective": None, "seconds": None})
             properties = told["schema"]["properties"]
             assert properties["seconds"]["unit"] == "s"
+for name in ("claims", "claims_rows"):  # which no run's metadata tell of
+    schema = read(name + ".schema.json")
+    declares_all(name, schema)
+    with open(folder / "results" / (name + ".csv"), newline="") as table:
+        rows = list(csv.DictReader(table))
+    for row in rows:
+        validator_of(schema).validate({column: as_json(field, schema["properties"][column]) for column, field in row.items()})
+    assert rows and rows[0].keys() == schema["properties"].keys(), name
 assert validated > 5, validated

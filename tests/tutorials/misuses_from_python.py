@@ -1,5 +1,6 @@
 """What is wrong is refused by a sentence, and threads do not disturb each other."""
 import ctypes
+import os
 import sys
 import threading
 
@@ -16,6 +17,10 @@ def refuses(word, result):
 refuses("moon", tutorial.make_problem(b"moon"))
 refuses("NULL", tutorial.make_problem(None))
 problem = tutorial.make_problem(b"forced_oscillator")
+for variable in ("DMOCBENCH_INSTRUCTION_SET", "DMOCBENCH_NATIVE_CODE"):  # that of the threads is read once
+    os.environ[variable] = "sometimes"
+    refuses(variable, tutorial.make_problem(b"forced_oscillator"))
+    del os.environ[variable]
 refuses("colour", tutorial.set_parameter(problem, b"colour", 1.0))
 assert tutorial.control_name(problem, 99) is None
 
