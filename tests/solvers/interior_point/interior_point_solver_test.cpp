@@ -255,7 +255,7 @@ TEST(InteriorPoint, NeedsOnAFineGridAsManyIterationsAsWithAnExactInertia) {
   EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.2 * exact.major_iterations.value_or(0));
 }
 
-/// Without a watchdog, ten and more shortened steps follow each other, and 58 iterations are needed.
+/// Without a watchdog, more than ten shortened steps follow each other.
 TEST(InteriorPoint, DoesNotCrawlWhereWholeStepsLeadOn) {
   const CartPole problem;
   Transcription program(problem, *make_element("tangent"), make_tableau("gauss", 2), Grid::uniform(1024));
