@@ -162,6 +162,7 @@ std::unique_ptr<const NativeCode> make_native_code(const NativePlan& plan, Instr
   try {
     const auto writer = std::make_shared<StageWriter>(plan, registers);
     std::vector<std::size_t> begins;
+    begins.reserve(plan.stages.size());
     for (const NativeStage& stage : plan.stages) begins.push_back(writer->write(stage));
     writer->finish();
     for (std::size_t i = 0; i < begins.size(); ++i) {

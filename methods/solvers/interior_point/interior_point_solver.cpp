@@ -46,7 +46,7 @@ class InteriorPointRun final : public PreparedRun {
            Solution& solution) override {
     std::optional<Status> end = begin(start, multipliers, barrier_parameter);
     while (!end) end = iterate();
-    write(*end, solution);
+    write(*end, solution);  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
   }
 
  private:
