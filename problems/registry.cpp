@@ -75,7 +75,7 @@ void Registry::add(Maker make) {
   const std::string name = make()->name();
   if (!is_name(name)) {
     throw Error("a problem cannot be named \"" + name +
-                "\": names are small letters, digits and underscores, a letter first, and not \"all\"");
+                R"(": names are small letters, digits and underscores, a letter first, and not "all")");
   }
   require_new(name, "");
   entries_.push_back({name, make, ""});

@@ -19,21 +19,21 @@ namespace {
 
 bool is_solved(const StepSolve& solve) { return solve.status == name_of(Status::solved); }
 
-/// The answer, and how it was reached; its time is the smallest of several solves. Without multipliers the start is
-/// cold.
-std::pair<Solution, StepSolve> solve_step(PreparedSolve& prepared, const Eigen::VectorXd& start,
-                                          const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
-                                          int repeats) {
+/// The answer; its time is the smallest of several solves. Without multipliers the start is cold.
+Solution solve_step(PreparedSolve& prepared, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                    std::optional<double> barrier_parameter, int repeats) {
   Solution solution = prepared.solve(start, multipliers, barrier_parameter);
-  double seconds = solution.seconds;
   for (int i = 1; i < repeats && dmocbench::is_solved(solution.status); ++i) {
-    seconds = std::min(seconds, prepared.solve(start, multipliers, barrier_parameter).seconds);
+    solution.seconds = std::min(solution.seconds, prepared.solve(start, multipliers, barrier_parameter).seconds);
   }
+  return solution;
+}
+
+StepSolve told_of(const Solution& solution) {
   constexpr double micro = 1e6;
-  StepSolve step{.status = std::string(name_of(solution.status)),
-                 .iterations = solution.major_iterations.value_or(0),
-                 .microseconds = micro * seconds};
-  return {std::move(solution), step};
+  return {.status = std::string(name_of(solution.status)),
+          .iterations = solution.major_iterations.value_or(0),
+          .microseconds = micro * solution.seconds};
 }
 
 void set_quantiles(Row& row, const std::string& what, std::vector<double> values) {
@@ -107,41 +107,50 @@ SequenceRun::SequenceRun(const SolvedCase& solved, std::unique_ptr<Neighbours> n
                                                make_tableau(case_.tableau, case_.stages), case_.grid,
                                                OpenParameters{neighbours_->open_parameters()})),
       prepared_(std::make_unique<PreparedSolve>(*program_, "interior_point", options)),
-      trajectory_(*solved.trajectory),
+      trajectory_(*solved.trajectory),  // NOLINT(bugprone-unchecked-optional-access): a solved case has one
       multipliers_(solved.solution.multipliers),
       barrier_parameter_(solved.solution.barrier_parameter) {}
 
 SequenceStep SequenceRun::next(bool also_cold) {
   const std::shared_ptr<const Problem> problem = neighbours_->next(++step_, trajectory_);
   neighbours_->give_values(*program_);
-  if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
-  const Motion motion = neighbours_->moves_on() ? one_interval_later(trajectory_) : smooth_motion(trajectory_);
-  const Eigen::VectorXd start = sample(*program_, moved_to_ends(motion, program_->bounds()));
-  std::optional<double> mu = barrier_parameter_;  // none: there is no barrier
-  if (mu && choices_.barrier_parameter) mu = choices_.barrier_parameter;
+  const std::optional<double> barrier_parameter = start_barrier_parameter();
+  const Eigen::VectorXd start = warm_start();
+  Solution answer = solve_step(*prepared_, start, multipliers_, barrier_parameter, choices_.repeats);
   SequenceStep step{.scheme = {case_.problem->name(), case_.method, case_.tableau, case_.stages},
                     .intervals = case_.intervals(),
                     .sequence = neighbours_->name(),
                     .number = step_,
-                    .warm = {},
-                    .start_barrier_parameter = mu};
-  auto [solution, warm] = solve_step(*prepared_, start, multipliers_, mu, choices_.repeats);
-  step.warm = warm;
-  if (also_cold || !is_solved(warm)) {
-    auto [cold_solution, cold] = solve_step(*prepared_, sample(*program_, guessed_motion(*problem)), Eigen::VectorXd(),
-                                            std::nullopt, choices_.repeats);
-    step.cold = cold;
-    if (!is_solved(warm)) solution = std::move(cold_solution);
+                    .warm = told_of(answer),
+                    .start_barrier_parameter = barrier_parameter};
+  if (also_cold || !is_solved(step.warm)) {
+    const Eigen::VectorXd guess = sample(*program_, guessed_motion(*problem));
+    Solution cold = solve_step(*prepared_, guess, Eigen::VectorXd(), std::nullopt, choices_.repeats);
+    step.cold = told_of(cold);
+    if (!is_solved(step.warm)) answer = std::move(cold);
   }
-  if (!dmocbench::is_solved(solution.status)) {
-    is_at_end_ = true;
-    return step;
-  }
-  multipliers_ = solution.multipliers;
-  barrier_parameter_ = solution.barrier_parameter;
-  trajectory_ = read_trajectory(*program_, solution.primal, multipliers_);
+  is_at_end_ = !dmocbench::is_solved(answer.status);
+  if (is_at_end_) return step;
+  go_on_from(answer);
   step.objective = trajectory_.cost;
   return step;
+}
+
+Eigen::VectorXd SequenceRun::warm_start() {
+  if (neighbours_->moves_on()) multipliers_ = shifted(program_->layout().structure().rows, multipliers_);
+  const Motion motion = neighbours_->moves_on() ? one_interval_later(trajectory_) : smooth_motion(trajectory_);
+  return sample(*program_, moved_to_ends(motion, program_->bounds()));
+}
+
+std::optional<double> SequenceRun::start_barrier_parameter() const {
+  const bool has_barrier = barrier_parameter_.has_value();
+  return has_barrier && choices_.barrier_parameter ? choices_.barrier_parameter : barrier_parameter_;
+}
+
+void SequenceRun::go_on_from(const Solution& answer) {
+  multipliers_ = answer.multipliers;
+  barrier_parameter_ = answer.barrier_parameter;
+  trajectory_ = read_trajectory(*program_, answer.primal, multipliers_);
 }
 
 Table step_table(const std::vector<SequenceStep>& steps) {

@@ -53,6 +53,12 @@ class SequenceRun {
   [[nodiscard]] bool is_at_end() const noexcept { return is_at_end_; }
 
  private:
+  /// The last motion, moved to the next problem's ends. Moves the multipliers with it.
+  [[nodiscard]] Eigen::VectorXd warm_start();
+  /// None where there is no barrier.
+  [[nodiscard]] std::optional<double> start_barrier_parameter() const;
+  void go_on_from(const Solution& answer);
+
   Case case_;
   std::unique_ptr<Neighbours> neighbours_;
   SequenceChoices choices_;

@@ -233,7 +233,8 @@ double relative_size(const Trajectory& answer, const Eigen::MatrixXd& q, const E
   const double cost = std::max(std::abs(answer.cost), rounding_share / cost_scale);
   const double of_motion = std::max(largest_row(q) / scale_of(answer.q), largest_row(p) / scale_of(answer.p));
   const double largest = std::max(of_motion, std::abs(objective) / cost);
-  return std::isfinite(largest) ? largest : infinite;
+  if (!std::isfinite(largest)) return infinite;
+  return largest;
 }
 
 ErrorEstimator::ErrorEstimator(const Transcription& program)

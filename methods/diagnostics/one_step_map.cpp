@@ -25,6 +25,7 @@ OneStepMap<Scalar>::OneStepMap(const TracedProblem& problem, const Element& elem
   newton_ = TracedNewton<Scalar>(residual, static_cast<std::size_t>(n_), unknowns_);
   // The impulse is the virtual work along a translation, which moves every stage as it moves q_0.
   std::vector<std::vector<ConjugatePair>> pairs;
+  pairs.reserve(trace.stages.size());
   for (const ControlledState& stage : trace.stages) {
     pairs.push_back({{local.left_q, problem.at(stage).control_force}});
   }

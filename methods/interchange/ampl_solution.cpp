@@ -28,9 +28,10 @@ class SolutionLines {
   /// The next line, which has to be whole.
   std::string_view next(std::string_view wanted) {
     const std::size_t end = rest_.find('\n');
-    if (end == std::string_view::npos)
+    if (end == std::string_view::npos) {
       throw Error(fmt::format("it ends with line {}, and {} is missing: it is cut off, or no answer of a solver",
                               number_ + 1, wanted));
+    }
     const std::string_view line = trimmed(rest_.substr(0, end));
     rest_.remove_prefix(end + 1);
     ++number_;

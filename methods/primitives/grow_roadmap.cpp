@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -115,10 +116,10 @@ class Growth {
     std::vector<int> rest(nodes_.size(), never);
     rest[goal] = 0;
     for (bool is_changed = true; std::exchange(is_changed, false);) {
-      for (auto edge = edges_.rbegin(); edge != edges_.rend(); ++edge) {
-        const int through = rest[edge->to] + library_.primitives[edge->primitive].duration;
-        if (through >= rest[edge->from]) continue;
-        rest[edge->from] = through;
+      for (const auto& edge : std::views::reverse(edges_)) {
+        const int through = rest[edge.to] + library_.primitives[edge.primitive].duration;
+        if (through >= rest[edge.from]) continue;
+        rest[edge.from] = through;
         is_changed = true;
       }
     }

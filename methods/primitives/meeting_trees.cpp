@@ -79,7 +79,8 @@ class Joining {
     constexpr int newton_steps = 4;
     const auto count = static_cast<Eigen::Index>(pairs.size());
     std::vector<Eigen::VectorXd> misses;
-    for (const StatePair& pair : pairs) misses.push_back(target_of(pair) - steering_of(pair).end());
+    misses.reserve(pairs.size());
+    for (const StatePair& pair : pairs) misses.emplace_back(target_of(pair) - steering_of(pair).end());
     std::vector<Eigen::MatrixXd> controls;
     Eigen::MatrixXd ends;
     Eigen::VectorXd costs;
@@ -125,8 +126,9 @@ class Joining {
   [[nodiscard]] std::vector<Eigen::MatrixXd> controls_of(const std::vector<StatePair>& pairs,
                                                          const std::vector<Eigen::VectorXd>& misses) const {
     std::vector<Eigen::MatrixXd> controls;
+    controls.reserve(pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      controls.push_back(steering_of(pairs[k]).deviations(misses[k]).rowwise() + usual_.transpose());
+      controls.emplace_back(steering_of(pairs[k]).deviations(misses[k]).rowwise() + usual_.transpose());
     }
     return controls;
   }

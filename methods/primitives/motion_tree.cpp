@@ -52,6 +52,7 @@ std::vector<Eigen::Index> cheapest_of_cells(const Reached& reached, const Motion
     if (!is_new && reached.costs[row] < reached.costs[place->second]) place->second = row;
   }
   std::vector<Eigen::Index> rows;
+  rows.reserve(cells.size());
   for (const auto& [key, row] : cells) rows.push_back(row);
   return rows;
 }

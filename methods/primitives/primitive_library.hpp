@@ -39,7 +39,7 @@ struct PrimitiveLibrary {
   /// Of no states and primitives.
   [[nodiscard]] static PrimitiveLibrary of(const Problem& problem, double step, int intervals_per_step);
   /// Throws `Error` in one sentence unless it was made for that problem with those parameters, and all sizes fit.
-  void require_made_for(const Problem& problem) const;
+  void require_made_for(const Problem& asked) const;
 };
 
 }  // namespace dmocbench

@@ -21,7 +21,8 @@ class CountedProgram final : public ForwardingProgram {
     counts_ = {};
     seconds_ = 0.0;
     left_out_ = 0.0;
-    most_seconds_ = most_seconds > 0.0 ? most_seconds : unbounded;
+    most_seconds_ = unbounded;
+    if (most_seconds > 0.0) most_seconds_ = most_seconds;
     begin_ = Clock::now();
   }
 

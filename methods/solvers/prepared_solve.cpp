@@ -36,7 +36,7 @@ const Solution& PreparedSolve::solve(const Eigen::VectorXd& start, const Eigen::
   require(start.size(), program_.variable_count(), "the start has", "variables");
   if (from.size() > 0) require(from.size(), program_.constraint_count(), "the multipliers have", "constraints");
   const std::optional<double> mu = barrier_parameter ? barrier_parameter : solver_->options().start_barrier_parameter;
-  if (mu && !(*mu > 0.0 && std::isfinite(*mu))) {
+  if (mu && (!(*mu > 0.0) || std::isinf(*mu))) {
     throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *mu));
   }
   if (!run_) {

@@ -95,7 +95,7 @@ struct Sensitivities::Optimum {
     return rates;
   }
 
-  void solve(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints, Sensitivity& result) {
+  void solve(const Eigen::VectorXd& gradient, const Eigen::VectorXd& constraints, Sensitivity& result) const {
     if (system->solve(kkt_matrix_of(at), {gradient, constraints}, {result.primal, result.multipliers}) ==
         kkt::FactorisationStatus::solved) {
       return;

@@ -37,7 +37,7 @@ void SolverOptions::validate() const {
   if (!(most_seconds >= 0.0) || std::isinf(most_seconds)) {
     throw Error(fmt::format("the time limit must be a number of seconds, or 0 for none, got {}", most_seconds));
   }
-  if (start_barrier_parameter && !(*start_barrier_parameter > 0.0 && std::isfinite(*start_barrier_parameter))) {
+  if (start_barrier_parameter && (!(*start_barrier_parameter > 0.0) || std::isinf(*start_barrier_parameter))) {
     throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *start_barrier_parameter));
   }
 }

@@ -45,7 +45,7 @@ struct EndFunctions : LocalFunctions {
 };
 
 /// Nothing if the ends are clamped and no formula depends on them.
-[[nodiscard]] std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& traced,
+[[nodiscard]] std::optional<EndFunctions> trace_ends(const Problem& problem, const TracedProblem& closed,
                                                      const EndRules& rules);
 
 }  // namespace dmocbench

@@ -69,10 +69,10 @@ class LaneTranscription::Part {
     lane_loops().sum(costs_.data(), static_cast<std::ptrdiff_t>(intervals_), sums.data());
     for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] += sums[lane];
   }
-  void constraints(const double* x, VectorOut result) { constraints_.evaluate(bind(x), result); }
-  void gradient(const double* x, VectorOut result) { gradient_.evaluate(bind(x), result); }
-  void jacobian(const double* x, VectorOut values) { jacobian_.evaluate(bind(x), values); }
-  void hessian(const double* x, const double* multipliers, VectorOut values) {
+  void constraints(const double* x, const VectorOut& result) { constraints_.evaluate(bind(x), result); }
+  void gradient(const double* x, const VectorOut& result) { gradient_.evaluate(bind(x), result); }
+  void jacobian(const double* x, const VectorOut& values) { jacobian_.evaluate(bind(x), values); }
+  void hessian(const double* x, const double* multipliers, const VectorOut& values) {
     for (std::size_t r = 0; r < numbers_.rows; ++r) inputs_[numbers_.multiplier(r)] = {multipliers + rows_[r], false};
     hessian_.evaluate(bind(x), values);
   }
@@ -80,6 +80,7 @@ class LaneTranscription::Part {
  private:
   static std::vector<std::size_t> heads(const std::vector<ColumnPlace>& places) {
     std::vector<std::size_t> heads;
+    heads.reserve(places.size());
     for (const ColumnPlace& place : places) heads.push_back(place.first * instance_lanes);
     return heads;
   }
@@ -139,9 +140,9 @@ LaneTranscription::LaneTranscription(const Transcription& program)
   const Layout& layout = program.layout();
   parts_.push_back(
       std::make_unique<Part>(program, program.functions(), layout.unknown_places(), layout.row_places(), false));
-  if (program.end_functions()) {
-    parts_.push_back(std::make_unique<Part>(program, *program.end_functions(), layout.end_unknown_places(),
-                                            layout.end_row_places(), true));
+  if (const auto& ends = program.end_functions()) {
+    parts_.push_back(
+        std::make_unique<Part>(program, *ends, layout.end_unknown_places(), layout.end_row_places(), true));
   }
   for (const auto& part : parts_) part->give_times(steps_, times_);
   if (parameter_count() == 0) return;

@@ -111,7 +111,7 @@ void Transcription::require_readable_ends(const Values& values) const {
 void Transcription::use(Values values) {
   values.bounds = complete_bounds(*problem_, std::move(values.bounds));
   const HorizonBounds& horizon = values.bounds.horizon;
-  if (!(values.horizon >= horizon.lower && values.horizon <= horizon.upper)) {
+  if (!(values.horizon >= horizon.lower) || !(values.horizon <= horizon.upper)) {
     throw Error(fmt::format("{}: the horizon {:g} lies outside its bounds {:g} and {:g}", problem_->name(),
                             values.horizon, horizon.lower, horizon.upper));
   }

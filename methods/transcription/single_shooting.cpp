@@ -30,23 +30,26 @@ class SubMatrix {
             std::size_t column_count)
       : rows_(positions(rows, row_count)),
         columns_(positions(columns, column_count)),
-        matrix_(std::ssize(rows), std::ssize(columns)) {}
+        row_count_(std::ssize(rows)),
+        column_count_(std::ssize(columns)) {}
 
   void add(int row, int column, double value) {
     const Eigen::Index i = rows_[static_cast<std::size_t>(row)];
     const Eigen::Index j = columns_[static_cast<std::size_t>(column)];
     if (i >= 0 && j >= 0) entries_.emplace_back(i, j, value);
   }
-  [[nodiscard]] Eigen::SparseMatrix<double> matrix() {
-    matrix_.setFromTriplets(entries_.begin(), entries_.end());
-    return std::move(matrix_);
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const {
+    Eigen::SparseMatrix<double> matrix(row_count_, column_count_);
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    return matrix;
   }
 
  private:
   std::vector<Eigen::Index> rows_;
   std::vector<Eigen::Index> columns_;
+  Eigen::Index row_count_;
+  Eigen::Index column_count_;
   std::vector<Eigen::Triplet<double, Eigen::Index>> entries_;
-  Eigen::SparseMatrix<double> matrix_;
 };
 
 }  // namespace

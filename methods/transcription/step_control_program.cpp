@@ -35,12 +35,12 @@ ExpressionVector single(const Expression& entry) { return ExpressionVector::Cons
 
 }  // namespace
 
-StepControlProgram::StepControlProgram(const Problem& problem, Tableau tableau, const StepFunction& sigma,
+StepControlProgram::StepControlProgram(const Problem& problem, Tableau tableau, StepFunction sigma,
                                        std::size_t intervals)
     : problem_(problem),
       traced_(problem),
       tableau_(std::move(tableau)),
-      sigma_(sigma),
+      sigma_(std::move(sigma)),
       n_(traced_.configuration_size()),
       m_(traced_.control_size()),
       intervals_(static_cast<Eigen::Index>(intervals)),
@@ -175,7 +175,7 @@ void StepControlProgram::fix_ends() {
   LegendreTransform legendre(traced_);
   const double horizon = problem_.horizon();
   const auto fix_end = [&](const BoundaryState& end, Eigen::Index node, double t, double sign) {
-    const Eigen::VectorXd momentum = legendre.momentum(end.q, end.v, t);
+    Eigen::VectorXd momentum = legendre.momentum(end.q, end.v, t);
     for (Eigen::Index i = 0; i < n_; ++i) {
       fix(variables_, head(columns_.q, i, intervals_ + 1) + node, end.q[i]);
       fix(rows_, head(columns_.momentum_rows, i, intervals_ + 1) + node, sign * momentum[i]);

@@ -27,7 +27,7 @@ namespace dmocbench {
 class StepControlProgram final : public NonlinearProgram {
  public:
   /// Throws `Error` if the problem has bounds, constraints, free ends or a free horizon.
-  StepControlProgram(const Problem& problem, Tableau tableau, const StepFunction& sigma, std::size_t intervals);
+  StepControlProgram(const Problem& problem, Tableau tableau, StepFunction sigma, std::size_t intervals);
 
   [[nodiscard]] std::size_t variable_count() const override { return structure_.unknowns.size(); }
   [[nodiscard]] std::size_t constraint_count() const override { return structure_.rows.size(); }

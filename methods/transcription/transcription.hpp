@@ -160,7 +160,7 @@ class Transcription final : public NonlinearProgram {
   /// What the functions that set values change.
   struct Values {
     ProblemBounds bounds;
-    double horizon;
+    double horizon = 0.0;
   };
   [[nodiscard]] Values present_values() const { return {problem_bounds_, guessed_horizon_}; }
   /// Checks values and makes them those of the program; the open parameters are set before.

@@ -29,7 +29,7 @@ std::string in_one_row(const MathTerms& terms) {
 }
 
 /// What is written, as text without markup; multiplication shows as a blank.
-std::string plain(std::string markup) {
+std::string plain(const std::string& markup) {
   std::string text;
   bool is_tag = false;
   for (const char letter : markup) {
@@ -84,6 +84,7 @@ TEST(Mathml, HasTheValuesOfRandomFormulas) {
 
 std::vector<Expression> values_of(const std::vector<StatedFormula>& formulas) {
   std::vector<Expression> values;
+  values.reserve(formulas.size());
   for (const StatedFormula& formula : formulas) values.push_back(formula.value);
   return values;
 }
@@ -102,9 +103,9 @@ TEST(Mathml, HasTheValuesOfEveryProblemsFormulas) {
     for (int trial = 0; trial < 5; ++trial) {
       expect_equal_values(values_of(statement.along), statement.inputs, statement.letters.size(),
                           point_of(statement.inputs.size()), name);
-      if (!statement.at_ends.empty())
-        expect_equal_values(values_of(statement.at_ends), statement.end_inputs, statement.letters.size(),
-                            point_of(statement.end_inputs.size()), name);
+      if (statement.at_ends.empty()) continue;
+      expect_equal_values(values_of(statement.at_ends), statement.end_inputs, statement.letters.size(),
+                          point_of(statement.end_inputs.size()), name);
     }
   }
 }

@@ -15,6 +15,7 @@ using tests::expect_error_naming;
 
 std::vector<SweptQuantity> quantities(const std::vector<std::string>& texts, bool are_sampled = false) {
   std::vector<SweptQuantity> all;
+  all.reserve(texts.size());
   for (const std::string& text : texts) all.push_back(parse_over(text, are_sampled));
   return all;
 }

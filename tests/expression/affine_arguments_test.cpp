@@ -41,10 +41,10 @@ struct Interval {
                                    h* lambda,
                                    exp(x[0] * x[1]) / middle[0]};
 
-  [[nodiscard]] std::vector<double> random_point() const {
+  [[nodiscard]] static std::vector<double> random_point() {
     tests::RandomPoints random;
-    std::vector<double> point;
-    for (int i = 0; i < 7; ++i) point.push_back(random.number(0.5, 1.5));
+    std::vector<double> point(7);
+    for (double& value : point) value = random.number(0.5, 1.5);
     return point;
   }
 };
@@ -52,7 +52,7 @@ struct Interval {
 TEST(AffineArguments, FormulasOfArgumentsAreTheFormulas) {
   const Interval interval;
   const AffineArguments arguments(interval.formulas, interval.x);
-  const std::vector<double> point = interval.random_point();
+  const std::vector<double> point = Interval::random_point();
   expect_same_values(values_at(point, arguments.formulas(), arguments.definitions()),
                      values_at(point, interval.formulas));
 }
@@ -67,7 +67,7 @@ TEST(AffineArguments, CoefficientsDoNotDependOnTheUnknowns) {
 
 TEST(AffineArguments, SecondDerivativesAreThoseOfTheGradient) {
   const Interval interval;
-  const std::vector<double> point = interval.random_point();
+  const std::vector<double> point = Interval::random_point();
   for (const Expression& f : interval.formulas) {
     const ExpressionVector first = gradient(f, interval.x);
     const ExpressionVector second = symmetric_jacobian(first, interval.x).reshaped();

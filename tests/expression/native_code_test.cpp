@@ -343,6 +343,7 @@ TEST(LateCode, IsMadeWhileThreadsEvaluateTheTape) {
       tests::evaluate(Tape(schedule, preferred_instruction_set(), NativeCodeUse::never), inputs, count);
   std::vector<SeriesTable> found(4);
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (SeriesTable& result : found) {
     threads.emplace_back([&] {
       for (std::uint64_t evaluated = 0; evaluated < worthwhile; evaluated += count) {

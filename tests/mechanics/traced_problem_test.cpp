@@ -105,6 +105,7 @@ TEST(TracedProblem, TheTableHoldsTheFormulasAtEveryPoint) {
     formulas << values.momentum, values.configuration_force, values.control_force,
         ExpressionVector::Constant(1, values.running_cost), values.path_constraints, values.mass.reshaped();
     std::vector<MotionPoint> points;
+    points.reserve(3);
     for (int i = 0; i < 3; ++i) {
       points.push_back({random.vector(n, 0.4, 0.7), random.vector(n, 0.4, 0.7), random.vector(m, 0.4, 0.7)});
     }

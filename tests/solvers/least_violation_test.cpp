@@ -130,7 +130,7 @@ const SphericalPendulum spherical_pendulum;
 const Hovercraft hovercraft;
 const OrbitalTransfer orbit;
 
-std::function<std::unique_ptr<Problem>()> restated(const Problem& base, std::function<void(Statement&)> state) {
+std::function<std::unique_ptr<Problem>()> restated(const Problem& base, const std::function<void(Statement&)>& state) {
   return [&base, state] { return std::make_unique<Restated>(base, state); };
 }
 

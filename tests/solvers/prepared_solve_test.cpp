@@ -55,7 +55,7 @@ TEST(PreparedSolve, GivesBitByBitWhatASolveOfItsOwnGivesHoweverOften) {
       const Solution cold = solved_anew(*program, start);
       const Solution warm = solved_anew(*program, cold.primal, cold.multipliers);
       PreparedSolve prepared(*program);
-      const std::string label = name + " " + method;
+      const std::string label = std::string(name).append(" ").append(method);
       expect_same(prepared.solve(start), cold, label + " first");
       expect_same(prepared.solve(cold.primal, cold.multipliers), warm, label + " warm");
       expect_same(prepared.solve(start), cold, label + " again");

@@ -90,8 +90,8 @@ TEST(AssemblePattern, PutsEveryLocalEntryWhereItBelongsAndNothingTwice) {
     std::vector<ColumnPlace> columns;
     for (const std::size_t row : heads) {
       for (const std::size_t column : heads) {
-        rows.push_back(row);
-        columns.push_back(column);
+        rows.emplace_back(row);
+        columns.emplace_back(column);
       }
     }
     const AssembledPattern assembled = assemble_pattern({rows, columns, intervals});

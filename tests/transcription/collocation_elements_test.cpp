@@ -61,11 +61,11 @@ class CollocationRows : public testing::TestWithParam<std::string> {
       all.push_back(slope(j));
       rest -= tableau_.b[j] * all.back();
     }
-    all.push_back(rest / tableau_.b[s - 1]);
+    all.emplace_back(rest / tableau_.b[s - 1]);
     return all;
   }
-  [[nodiscard]] Eigen::Vector2d stage(const Eigen::Vector2d& left, double h, Eigen::Index i, const Eigen::MatrixXd& a,
-                                      const std::vector<Eigen::Vector2d>& k) const {
+  [[nodiscard]] static Eigen::Vector2d stage(const Eigen::Vector2d& left, double h, Eigen::Index i,
+                                             const Eigen::MatrixXd& a, const std::vector<Eigen::Vector2d>& k) {
     Eigen::Vector2d value = left;
     for (std::size_t j = 0; j < k.size(); ++j) value += h * a(i, static_cast<Eigen::Index>(j)) * k[j];
     return value;

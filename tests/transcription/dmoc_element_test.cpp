@@ -107,7 +107,7 @@ class DiscretePrinciple {
         slopes.push_back(read([&](Eigen::Index i) { return layout.rate_column(j, i); }, n_, k));
         last -= Long(tableau.b[j]) * slopes.back();
       }
-      slopes.push_back(last / Long(tableau.b[s - 1]));
+      slopes.emplace_back(last / Long(tableau.b[s - 1]));
       for (Eigen::Index i = 0; i < s; ++i) {
         LongVector q = left;
         for (Eigen::Index j = 0; j < s; ++j) {

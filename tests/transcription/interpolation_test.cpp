@@ -28,8 +28,9 @@ Trajectory sampled_control(int stages, Eigen::Index intervals, double (*u)(doubl
   trajectory.stage_times.resize(intervals * stages);
   trajectory.stage_u.resize(intervals * stages, 1);
   for (Eigen::Index row = 0; row < trajectory.stage_times.size(); ++row) {
+    const Eigen::Index interval = row / stages;
     const double t =
-        (static_cast<double>(row / stages) + trajectory.tableau.c[row % stages]) / static_cast<double>(intervals);
+        (static_cast<double>(interval) + trajectory.tableau.c[row % stages]) / static_cast<double>(intervals);
     trajectory.stage_times[row] = t;
     trajectory.stage_u(row, 0) = u(t);
   }

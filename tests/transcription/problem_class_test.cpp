@@ -25,7 +25,7 @@ Solved solved(const Problem& problem, const Scheme& scheme, Eigen::Index interva
 
 class ProblemClass : public testing::TestWithParam<Scheme> {
  protected:
-  void expect_same(const Problem& one_way, const Problem& other_way, double tolerance = 1e-9) const {
+  static void expect_same(const Problem& one_way, const Problem& other_way, double tolerance = 1e-9) {
     const Solved a = solved(one_way, GetParam(), 12);
     const Solved b = solved(other_way, GetParam(), 12);
     EXPECT_NEAR(a.trajectory.cost, b.trajectory.cost, tolerance * std::max(1.0, std::abs(a.trajectory.cost)));
@@ -340,7 +340,9 @@ TEST(ProblemClassRefusals, PrintSmallNumbersAsTheyAre) {
     const Restated problem(base, change);
     return tests::sentence_of_error([&] { tests::transcribe(problem, {"dmoc", 1}, Grid::uniform(8)); });
   };
-  const auto says = [](const std::string& text, const std::string& part) { return text.find(part) != text.npos; };
+  const auto says = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
   EXPECT_PRED2(says, sentence([](Statement& s) { s.u = all_between(1, 1e-7, -1e-7); }),
                "the lower bound 1e-07 above the upper bound -1e-07");
   EXPECT_PRED2(says, sentence([](Statement& s) { s.horizon = {1e-7, 2e-8}; }), "got 1e-07 and 2e-08");

@@ -105,6 +105,7 @@ double order_of_state(const std::string& method, int stages, const std::vector<l
   };
   const Trajectory reference = motion_on(finest);
   std::vector<GridError> errors;
+  errors.reserve(grids.size());
   for (const long long intervals : grids) {
     errors.push_back({1.0 / static_cast<double>(intervals), trajectory_error(motion_on(intervals), reference).state});
   }

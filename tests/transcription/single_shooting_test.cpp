@@ -63,7 +63,7 @@ TEST_P(SingleShootingOf, HasTheDerivativesThatDifferencesShow) {
   Eigen::MatrixXd hessian(x.size(), x.size());
   program.hessian_structure().for_each([&](Eigen::Index entry, int row, int column) {
     hessian(row, column) = entries[entry];
-    hessian(column, row) = entries[entry];
+    hessian(column, row) = entries[entry];  // NOLINT(readability-suspicious-call-argument): mirrored
   });
   constexpr double step = 1e-5;
   const double scale = 1.0 + gradient.lpNorm<Eigen::Infinity>();

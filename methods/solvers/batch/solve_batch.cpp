@@ -199,6 +199,7 @@ BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes,
   single.validate();
   const std::size_t threads = options.threads > 0 ? options.threads : thread_count();
   std::vector<std::unique_ptr<LaneProgram>> lanes;
+  lanes.reserve(threads);
   for (std::size_t i = 0; i < threads; ++i) lanes.push_back(make_lanes());
   batch::BatchDesk desk(program, lanes.front()->parameter_count(), next, take, options);
   // All of them read the program, which belongs to one thread at a time as soon as threads work.

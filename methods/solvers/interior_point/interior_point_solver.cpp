@@ -47,9 +47,10 @@ class InteriorPointRun final : public PreparedRun {
            Solution& solution) override {
     std::optional<Status> end = begin(start, multipliers, barrier_parameter);
     while (!end) end = iterate();
+    const Status status = *end;  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
     // What the line search refuses may lead on, but is no answer.
-    if (*end != Status::solved && watchdog_.is_on()) watchdog_.go_back(at_, values_, step_);
-    write(*end, solution);
+    if (status != Status::solved && watchdog_.is_on()) watchdog_.go_back(at_, values_, step_);
+    write(status, solution);
   }
 
  private:

@@ -167,7 +167,7 @@ std::unique_ptr<Element> make_shooting_element(std::string_view name) {
   const std::size_t bar = rest.rfind('_');
   const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(rest.substr(bar + 1));
   if (!substeps) {
-    throw Error(fmt::format("\"{}\" names no number of substeps; \"{}_1\" does", name, name));
+    throw Error(fmt::format(R"("{}" names no number of substeps; "{}_1" does)", name, name));
   }
   const Shooting shooting = is_single ? Shooting::single : Shooting::multiple;
   const std::string_view integrator = rest.substr(0, bar);

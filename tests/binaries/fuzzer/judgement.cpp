@@ -108,10 +108,11 @@ std::vector<std::string> faults_of(const std::vector<std::string>& line, const E
   const std::vector<std::string> places = places_of(line);
   for (const auto& [path, text] : before) {
     const auto now = after.find(path);
-    if (now == after.end())
+    if (now == after.end()) {
       faults.push_back("removes " + path);
-    else if (now->second != text && !is_within(path, places))
+    } else if (now->second != text && !is_within(path, places)) {
       faults.push_back("changes " + path);
+    }
   }
   for (const auto& [path, text] : after) {
     if (before.contains(path)) continue;

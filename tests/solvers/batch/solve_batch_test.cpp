@@ -70,7 +70,7 @@ struct Case {
     return solutions;
   }
 
-  [[nodiscard]] Solution solve_alone(const BatchInstance& instance) {
+  [[nodiscard]] Solution solve_alone(const BatchInstance& instance) const {
     SolverOptions options;
     options.start_multipliers = instance.multipliers;
     batch::InstanceProgram alone(*program, instance.start, instance.rows);

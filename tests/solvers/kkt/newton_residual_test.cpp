@@ -31,7 +31,7 @@ Eigen::MatrixXd written_as_dense(const BlockPattern& pattern, const Eigen::Vecto
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, columns);
   pattern.for_each([&](Eigen::Index e, int row, int column) {
     matrix(row, column) = values[e];
-    if (mirrored) matrix(column, row) = values[e];
+    if (mirrored) matrix(column, row) = values[e];  // NOLINT(readability-suspicious-call-argument): mirrored
   });
   return matrix;
 }

@@ -64,7 +64,7 @@ TEST(QuadraticSolver, MinimisesUnderInequalityRows) {
     auto problem = random_program(20, 15, 0.5, seed);
     // Half of the rows become one-sided or two-sided inequalities around the point that fulfils them all.
     for (Eigen::Index i = 20; i < 35; i += 2) {
-      problem.program.lower[i] -= i % 4 == 0 ? infinity : 0.1;
+      problem.program.lower[i] = i % 4 == 0 ? -infinity : problem.program.lower[i] - 0.1;
       problem.program.upper[i] += 0.2;
     }
     expect_optimal(problem, solve(problem.program));

@@ -29,7 +29,7 @@ TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
   for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       for (const Eigen::Index intervals : {16, 32, 64}) {
-        SCOPED_TRACE(name + " " + method + " N = " + std::to_string(intervals));
+        SCOPED_TRACE(testing::Message() << name << " " << method << " N = " << intervals);
         const auto problem = make_problem(name);
         const tests::Solved by_ipopt =
             tests::solve(*problem, {method, 1}, Grid::uniform(intervals), tests::common_start(*problem));

@@ -177,6 +177,7 @@ void append_scatters(const IntervalEntries& entries, const Slots& slots, Elimina
 std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, const NewtonArrays& arrays,
                                                 const std::vector<Eigen::Index>& intervals) {
   std::vector<Eigen::MatrixXd> equalities;
+  equalities.reserve(intervals.size());
   for (const Eigen::Index interval : intervals) equalities.push_back(equalities_of(entries, arrays, interval));
   auto order = find_order(equalities, false);
   if (!order) return std::nullopt;

@@ -122,7 +122,7 @@ void LaneKkt::rescale_weights(const NewtonArrays& arrays, const Mask& wanted) {
   for (std::size_t i = 0; i < free_diagonals_.size(); ++i) {
     const TerminalWeights::Diagonal& diagonal = free_diagonals_[i];
     const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first * lane_count; };
-    lane_loops().sum_of_reciprocals(diagonal.hessian ? numbers(*diagonal.hessian) : nullptr, numbers(*diagonal.added),
+    lane_loops().sum_of_reciprocals(diagonal.hessian ? numbers(*diagonal.hessian) : nullptr, numbers(diagonal.added),
                                     TerminalWeights::smallest_curvature, entries_.intervals,
                                     &compliances_[i * lane_count]);
   }

@@ -122,7 +122,7 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   stiffness.diagonal() -= terminal_weights_;
   // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
   // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
-  const Matrix factor = semidefinite_factor<Matrix>(reachability);
+  const auto factor = semidefinite_factor<Matrix>(reachability);
   const Matrix weighed = product<most>(stiffness, factor);
   Matrix between = identity + product<most>(factor.transpose(), weighed);
   if (!is_positive_definite(between)) return false;

@@ -35,7 +35,11 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
     Diagonal& diagonal = diagonals_.emplace_back();
     for (const LocalEntry& entry : entries.local) {
       if (entry.block != LocalEntry::Block::hessian || entry.row != column || entry.column != column) continue;
-      (entry.source == Source::diagonal ? diagonal.added : diagonal.hessian) = entry;
+      if (entry.source == Source::diagonal) {
+        diagonal.added = entry;
+      } else {
+        diagonal.hessian = entry;
+      }
     }
   }
 }
@@ -43,7 +47,7 @@ TerminalWeights::TerminalWeights(const IntervalEntries& entries)
 void TerminalWeights::use(const EliminationPlan& plan) {
   const auto is_free = [&](const Diagonal& diagonal) {
     return std::ranges::any_of(plan.scatters, [&](const Scatter& item) {
-      return !item.is_multiplier && item.index < free_size(plan.shape) && item.first == diagonal.added->first;
+      return !item.is_multiplier && item.index < free_size(plan.shape) && item.first == diagonal.added.first;
     });
   };
   const bool some_are_free = std::ranges::any_of(diagonals_, is_free);
@@ -61,7 +65,7 @@ void TerminalWeights::forget() {
 /// Σ 1/|curvature| over the intervals.
 double TerminalWeights::compliance_of(const Diagonal& diagonal, const NewtonArrays& arrays) const {
   const auto numbers = [&](const LocalEntry& entry) { return arrays.of(entry.source) + entry.first; };
-  const double* const added = numbers(*diagonal.added);
+  const double* const added = numbers(diagonal.added);
   const double* const hessian = diagonal.hessian ? numbers(*diagonal.hessian) : nullptr;
   return sum_of_stretches(intervals_, [&](Eigen::Index begin, Eigen::Index length) {
     double sum = 0.0;

@@ -34,7 +34,7 @@ class TerminalWeights {
   /// The diagonal entry of the matrix that a moving unknown of the intervals has: `added` (of d) and, where it has one,
   /// that of the Hessian. Their sum c, interval by interval, makes its compliance Σ 1/(|c| + smallest_curvature).
   struct Diagonal {
-    std::optional<LocalEntry> added;  ///< always there
+    LocalEntry added{};
     std::optional<LocalEntry> hessian;
     bool is_free = true;
   };
