@@ -1,8 +1,6 @@
 // Global minima by roadmaps of DMOC primitives (section 5 of the paper): plans, what a full solve makes of them, and
 // multi-start beside it.
-#include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

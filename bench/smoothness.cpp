@@ -1,7 +1,6 @@
 // Orders where the optimal control is not smooth, beside optima that are: (main_theorem) and its remark on constraints.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 
 #include "bench/experiment/column.hpp"

@@ -1,6 +1,5 @@
 #include "bench/adaptive/certified_problem.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

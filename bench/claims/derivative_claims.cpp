@@ -1,8 +1,6 @@
 // What automatic differentiation saves: "the optimization process performs in a faster and more robust way when
 // providing the derivatives by automatic differentiation rather than via finite differences" (section 4.1).
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "bench/claims/timed_ratios.hpp"
 #include "bench/experiment/solve_case.hpp"

@@ -1,5 +1,4 @@
 // Energy and modified energy, without forces and against their work along optimal motions.
-#include <cmath>
 
 #include "bench/claims/claim.hpp"
 

@@ -1,6 +1,5 @@
 // Convergence of states, costates and controls (main_theorem) and the adjoint scheme behind it (th:orderapp), for every
 // tableau against the indirect solution.
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -1,5 +1,4 @@
 // The Lemma on exact Legendre transforms, and (th:ordercalculation) as a whole.
-#include <cmath>
 
 #include "bench/claims/claim.hpp"
 

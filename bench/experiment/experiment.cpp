@@ -1,7 +1,6 @@
 #include "bench/experiment/experiment.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "bench/experiment/part_file.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

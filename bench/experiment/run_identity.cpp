@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <iterator>
-#include <set>
 
 #include <boost/crc.hpp>
 #include <fmt/format.h>

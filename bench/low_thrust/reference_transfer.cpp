@@ -69,13 +69,13 @@ void ReferenceTransfer::certify(const Trajectory& anchor, int revolutions) {
 void ReferenceTransfer::let_two_methods_agree(int revolutions, const Solver& solver) {
   fine_ = solved_transfer(problem_, "dmoc", 4, 32LL * revolutions, motion_, solver);
   const Trajectory other = solved_transfer(problem_, "tangent", 3, 48LL * revolutions, motion_, solver);
-  const TrajectoryError difference = trajectory_error(*fine_, other);
-  const double worst = std::max(difference.objective / fine_->cost, difference.state / fine_->q.cwiseAbs().maxCoeff());
+  const TrajectoryError difference = trajectory_error(fine_, other);
+  const double worst = std::max(difference.objective / fine_.cost, difference.state / fine_.q.cwiseAbs().maxCoeff());
   digits_ = std::min(16.0, -std::log10(worst));
 }
 
 Trajectory ReferenceTransfer::like(const Trajectory& trajectory) const {
-  return indirect_ ? indirect_->sampled_like(trajectory) : *fine_;
+  return indirect_ ? indirect_->sampled_like(trajectory) : fine_;
 }
 
 }  // namespace dmocbench

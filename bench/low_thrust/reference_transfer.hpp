@@ -30,7 +30,7 @@ class ReferenceTransfer {
   /// The motion that solves start from.
   [[nodiscard]] const Motion& motion() const noexcept { return motion_; }
   /// J.
-  [[nodiscard]] double cost() const { return indirect_ ? indirect_->cost() : fine_->cost; }
+  [[nodiscard]] double cost() const { return indirect_ ? indirect_->cost() : fine_.cost; }
   /// "indirect" or "two methods".
   [[nodiscard]] std::string kind() const { return indirect_ ? "indirect" : "two methods"; }
   /// Digits of state, costate, control and cost that two indirect runs share; of cost and state that two methods share.
@@ -45,7 +45,7 @@ class ReferenceTransfer {
   std::shared_ptr<const Problem> problem_;
   Motion motion_;
   std::optional<IndirectSolution> indirect_;
-  std::optional<Trajectory> fine_;  // where the indirect method does not certify
+  Trajectory fine_;  // empty, but where the indirect method does not certify
   double digits_ = 0.0;
 };
 

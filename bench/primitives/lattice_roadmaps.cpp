@@ -1,5 +1,4 @@
 // Roadmaps of systems without a symmetry: lattices of states between the ends of the problem.
-#include <utility>
 
 #include "bench/primitives/roadmap_systems.hpp"
 #include "methods/primitives/lattice_roadmap.hpp"

@@ -6,7 +6,6 @@
 #include <exception>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <string_view>
 
 #include "methods/runtime/parsed.hpp"

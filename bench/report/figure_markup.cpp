@@ -1,10 +1,8 @@
 #include "bench/report/figure_markup.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <regex>
-#include <span>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #include "bench/speed/measured_page.hpp"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

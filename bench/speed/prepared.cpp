@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>

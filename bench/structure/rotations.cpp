@@ -1,10 +1,8 @@
 #include "bench/structure/rotations.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/process_pool.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "methods/adaptive/interval_conditions.hpp"
 #include "methods/error.hpp"

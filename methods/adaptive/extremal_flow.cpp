@@ -1,7 +1,6 @@
 #include "methods/adaptive/extremal_flow.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 

@@ -1,7 +1,6 @@
 #include "methods/primitives/steering.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/QR>
 

@@ -1,6 +1,5 @@
 #include "methods/primitives/symmetry_group.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/solvers/kkt_of_conditions.hpp"

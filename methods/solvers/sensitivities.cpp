@@ -1,7 +1,5 @@
 #include "methods/solvers/sensitivities.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "methods/error.hpp"

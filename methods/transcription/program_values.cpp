@@ -1,6 +1,5 @@
 // The functions of `Transcription` that give a program other values.
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

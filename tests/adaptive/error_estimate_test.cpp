@@ -1,7 +1,6 @@
 #include "methods/adaptive/error_estimate.hpp"
 
 #include <cmath>
-#include <memory>
 
 #include <gtest/gtest.h>
 

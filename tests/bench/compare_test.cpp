@@ -1,5 +1,3 @@
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>

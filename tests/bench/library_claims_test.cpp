@@ -1,7 +1,6 @@
 // Claims about minima and about the whole library, on doctored tables.
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include <gtest/gtest.h>
 

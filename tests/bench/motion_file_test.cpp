@@ -1,7 +1,5 @@
 #include "methods/tables/motion_file.hpp"
 
-#include <functional>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <fcntl.h>

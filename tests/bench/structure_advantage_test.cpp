@@ -1,6 +1,5 @@
 // What the experiment structure_advantage counts, and which rows it compares.
 
-#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 // Claims on energy, momentum, smoothness, coercivity and the order theorem: each false number flips the row it should.
-#include <map>
 
 #include <gtest/gtest.h>
 

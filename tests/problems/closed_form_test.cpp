@@ -2,7 +2,6 @@
 #include "problems/closed_form.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <ostream>

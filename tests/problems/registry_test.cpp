@@ -1,6 +1,5 @@
 #include "problems/registry.hpp"
 
-#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>

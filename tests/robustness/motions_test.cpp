@@ -1,9 +1,7 @@
 // Problems as users bring them, unlike those of the library: each row of every family, solver and grid is a motion to
 // the accuracy that is stated, or says that it is none. Minima are those that all families share on finer grids (three
 // Gauss stages on 96 to 320 intervals), to the digits given, unless a closed form is.
-#include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // A prepared solve allocates nothing after the first one.
 
 #include <cstddef>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "methods/transcription/motions/bent_motion.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // The rows of Hamiltonian collocation, combined such that the momenta cancel, are DMOC's rows.
 
 #include <string>
-#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <utility>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "methods/transcription/lane_transcription.hpp"
 
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,5 @@
 #include "methods/solvers/auto/auto_solver.hpp"
 
-#include <map>
-#include <utility>
-
 #include "methods/solvers/counted_program.hpp"
 
 namespace dmocbench {

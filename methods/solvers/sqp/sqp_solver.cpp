@@ -1,7 +1,6 @@
 #include "methods/solvers/sqp/sqp_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>

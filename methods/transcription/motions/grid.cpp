@@ -1,6 +1,5 @@
 #include "methods/transcription/motions/grid.hpp"
 
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>

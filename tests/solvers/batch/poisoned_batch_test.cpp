@@ -1,7 +1,6 @@
 // Instances that cannot be solved, or not even be begun, among others that can: what is wrong with one is said of it
 // alone.
 
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>

@@ -1,7 +1,6 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 
 #include <limits>
-#include <memory>
 #include <random>
 #include <string>
 

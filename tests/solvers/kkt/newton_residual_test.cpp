@@ -2,11 +2,9 @@
 
 #include "methods/solvers/kkt/newton_residual.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include <gtest/gtest.h>
 

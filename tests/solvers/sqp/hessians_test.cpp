@@ -1,6 +1,5 @@
 #include "methods/solvers/sqp/hessians.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Dense>

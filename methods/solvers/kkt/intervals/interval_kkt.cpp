@@ -1,7 +1,6 @@
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "methods/error.hpp"

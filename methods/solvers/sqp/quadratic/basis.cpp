@@ -1,7 +1,6 @@
 #include "methods/solvers/sqp/quadratic/basis.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <ranges>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <ranges>
 #include <utility>
