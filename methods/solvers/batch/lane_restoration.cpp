@@ -17,7 +17,6 @@ bool LaneRun::begin_restoration(std::size_t number) {
   lane.line_search.leave(values_in(number, values_));
   lane.theta_restored = constants::kappa_resto * theta;
   lane.jammed = 0;
-  forget_searches(number);
   lane.phase = Phase::restoring;
   lane.is_searching = false;
   lane.moves = false;

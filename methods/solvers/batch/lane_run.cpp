@@ -90,7 +90,6 @@ void LaneRun::begin(std::size_t number) {
   lane.evaluations = {};
   lane.moves = false;
   lane.is_newton = false;
-  forget_searches(number);
   lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? constants::of_warm_start : constants::mu_0;
   kkt_->forget(number);
   problem_.set_rows(number, instance.rows);
@@ -318,7 +317,6 @@ void LaneRun::update_barrier_parameter(std::size_t number) {
   if (lowered == lane.mu) return;
   lane.mu = lowered;
   lane.line_search.forget();
-  forget_searches(number);
 }
 
 /// An instance whose parameters are not allowed.

@@ -24,7 +24,7 @@ namespace dmocbench::batch {
 namespace constants = interior_point::constants;
 
 /// The interior-point method on eight instances side by side: what `InteriorPointRun` (interior_point_solver.cpp) does
-/// with one, without second-order corrections and watchdog, and with the first half of its restoration (lane_restoration.cpp).
+/// with one, without second-order corrections, and with the first half of its restoration (lane_restoration.cpp).
 /// Numbers in brackets are the equations, A-1 to A-9 the steps, of Wächter and Biegler (2006).
 ///
 /// All lanes go through the same round: system, line search, derivatives, judgement. Each has a phase, which says what
@@ -52,11 +52,9 @@ class LaneRun {
     interior_point::InertiaShift shift;
     double theta_restored = 0.0;  ///< θ at which the restoration of feasibility may end
     int jammed = 0;               ///< its very short steps in a row
-    int shortened = 0;            ///< searches in a row before the present one that halved their step
     double mu = 0.0;
     // Of the present step.
     bool is_searching = false;  ///< its length is not accepted yet
-    bool is_halved = false;     ///< its search has halved it
     bool moves = false;         ///< there is one
     bool waits = false;         ///< for another attempt at its system in the next round
     double derivative = 0.0;    ///< of φ along it
@@ -79,7 +77,6 @@ class LaneRun {
   [[nodiscard]] kkt::LaneKkt::Systems systems();
   void assemble_systems(const OfLanes& shift);
   void begin_search(std::size_t number);
-  void forget_searches(std::size_t number);
   void search(const LaneMask& fresh);
   [[nodiscard]] bool try_step(std::size_t number);
   // Restoration of feasibility.

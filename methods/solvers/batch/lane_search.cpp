@@ -64,7 +64,6 @@ void LaneRun::search(const LaneMask& fresh) {
       if (!lane.is_searching) continue;
       lane.is_searching = lane.phase == Phase::restoring ? !try_feasibility_step(number) : !try_step(number);
       if (!lane.is_searching) continue;
-      lane.is_halved = true;
       length_[index_of(number)] *= 0.5;
       if (length_[index_of(number)] >= lane.smallest_length) continue;
       length_[index_of(number)] = 0.0;
@@ -82,20 +81,9 @@ void LaneRun::begin_search(std::size_t number) {
     lane.smallest_length = constants::shortest_feasibility_step;
     return;
   }
-  lane.shortened = std::exchange(lane.is_halved, false) ? lane.shortened + 1 : 0;
-  if (lane.shortened >= constants::watchdog_trigger) {
-    // Here `interior_point` tries whole steps.
-    length_[index_of(number)] = 0.0;
-    return give_up(number);
-  }
   lane.is_newton = lane.shift.value() == 0.0;
   lane.shift.keep();
   lane.smallest_length = lane.line_search.smallest_length(values_.theta[index_of(number)], lane.derivative);
-}
-
-void LaneRun::forget_searches(std::size_t number) {
-  lanes_[number].shortened = 0;
-  lanes_[number].is_halved = false;
 }
 
 interior_point::PointValues LaneRun::values_in(std::size_t number, const LaneValues& values) const {

@@ -37,10 +37,6 @@ inline constexpr int most_jammed = 20;  // very short ones in a row, where bound
 inline constexpr int filter_reset_trigger = 10;
 inline constexpr int max_filter_resets = 5;
 
-// By Ipopt's values of watchdog_shortened_iter_trigger and watchdog_trial_iter_max.
-inline constexpr int watchdog_trigger = 10;   // searches in a row that are shortened
-inline constexpr int most_watched_steps = 3;  // whole steps that are taken though the line search refuses them
-
 // Ours, see README.md.
 inline constexpr double of_warm_start = 1e-6;  // a warm start's μ, and in the place of κ_1
 inline constexpr double most_growth = 10.0;    // of the violation in one step: "No leaps"

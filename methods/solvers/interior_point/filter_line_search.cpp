@@ -53,7 +53,9 @@ double FilterLineSearch::smallest_length(double theta, double derivative) const 
 
 bool FilterLineSearch::accept(const PointValues& from, const PointValues& to, double derivative, double length) {
   const double rounding = rounding_of_phi_ * (std::abs(from.objective) + std::abs(from.phi - from.objective));
-  const bool is_usable = std::isfinite(to.theta) && std::isfinite(to.phi) && !leaps(from, to);
+  // Where the violation leaps, the linearised constraints say nothing of the point, however low its cost.
+  const bool leaps = to.theta > std::max(constants::most_growth * from.theta, theta_at_start_);
+  const bool is_usable = std::isfinite(to.theta) && std::isfinite(to.phi) && !leaps;
   const bool passes = is_usable && filter_.accepts(to.theta - rounding_of_theta_, to.phi - rounding);
   if (!passes || !decreases(from, to, derivative, length, rounding)) {
     is_blocked_ = is_usable && !passes;
@@ -61,10 +63,6 @@ bool FilterLineSearch::accept(const PointValues& from, const PointValues& to, do
   }
   end_search(from.theta);
   return true;
-}
-
-bool FilterLineSearch::leaps(const PointValues& from, const PointValues& to) const {
-  return to.theta > std::max(constants::most_growth * from.theta, theta_at_start_);
 }
 
 /// where `rounding` of φ counts as no difference.

@@ -31,10 +31,6 @@ class FilterLineSearch {
   /// are those of the Newton step, also where its correction is tried. The filter takes up `from` where A-7 says so.
   [[nodiscard]] bool accept(const PointValues& from, const PointValues& to, double derivative, double length);
 
-  /// Whether the violation leaps from one point to another: then the linearised constraints say nothing of that one,
-  /// however low its cost.
-  [[nodiscard]] bool leaps(const PointValues& from, const PointValues& to) const;
-
   /// Before restoration: the filter takes up the point that is left, A-9.
   void leave(const PointValues& at);
   /// Whether restoration may end at a point.

@@ -17,7 +17,6 @@
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
-#include "methods/solvers/interior_point/watchdog.hpp"
 #include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/stop_rule.hpp"
@@ -47,10 +46,7 @@ class InteriorPointRun final : public PreparedRun {
            Solution& solution) override {
     std::optional<Status> end = begin(start, multipliers, barrier_parameter);
     while (!end) end = iterate();
-    const Status status = *end;  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
-    // What the line search refuses may lead on, but is no answer.
-    if (status != Status::solved && watchdog_.is_on()) watchdog_.go_back(at_, values_, step_);
-    write(status, solution);
+    write(*end, solution);  // NOLINT(bugprone-unchecked-optional-access): the loop ends with a status
   }
 
  private:
@@ -63,7 +59,6 @@ class InteriorPointRun final : public PreparedRun {
     iterations_ = 0;
     descents_ = 0;
     was_short_ = false;
-    watchdog_.forget();
     message_.clear();
     const bool is_warm = multipliers.size() > 0;
     if (program_.has_bounds()) {
@@ -92,9 +87,26 @@ class InteriorPointRun final : public PreparedRun {
     ++iterations_;
     // The Newton step (13), its Hessian shifted by Algorithm IC until the inertia is right.
     program_.evaluate_hessian(at_);
-    const bool has_step = newton_.compute(at_, mu_, gradient_, values_.constraints, step_);
-    if (!has_step && watchdog_.is_on()) return go_back();
-    const bool is_accepted = has_step && search_line();
+    bool is_accepted = false;
+    if (newton_.compute(at_, mu_, gradient_, values_.constraints, step_)) {
+      // From the fraction to the boundary (15a), halve α until filter and decrease accept the point or α < α_min.
+      const double derivative = newton_.directional_derivative(at_, mu_, step_);
+      const double alpha_min = line_search_.smallest_length(values_.theta, derivative);
+      double alpha = program_.bounds().fraction_to_boundary(at_, step_, tau_of(mu_));
+      is_accepted = try_step(step_, alpha, derivative, alpha) || try_second_order_correction(alpha, derivative);
+      while (!is_accepted && 0.5 * alpha >= alpha_min) {
+        alpha *= 0.5;
+        is_accepted = try_step(step_, alpha, derivative, alpha);
+      }
+      length_ = alpha;
+      was_short_ = is_accepted && alpha <= constants::short_step;
+      // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
+      if (is_accepted) {
+        set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
+        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau_of(mu_));
+        program_.bounds().update_multipliers(step_, alpha_z, mu_, at_);
+      }
+    }
     // Restore feasibility where no step is acceptable.
     if (!is_accepted) {
       if (!is_finite(program_.hessian())) return Status::evaluation_failed;
@@ -103,80 +115,9 @@ class InteriorPointRun final : public PreparedRun {
     program_.differentiate(at_.x);
     if (!is_accepted) reset_bound_multipliers();
     if (!is_accepted || has_runaway_multipliers()) newton_.estimate_multipliers(at_);
-    if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) {
-      return watchdog_.is_on() ? go_back() : Status::evaluation_failed;
-    }
+    if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
     report("newton");
     return std::nullopt;
-  }
-
-  /// From a watched point without derivatives or step to where the watchdog began.
-  [[nodiscard]] std::optional<Status> go_back() {
-    watchdog_.go_back(at_, values_, step_);
-    program_.differentiate(at_.x);
-    if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
-    report("back");
-    return std::nullopt;
-  }
-
-  /// A-5, from the fraction to the boundary (15a).
-  [[nodiscard]] bool search_line() {
-    const double derivative = newton_.directional_derivative(at_, mu_, step_);
-    const double longest = program_.bounds().fraction_to_boundary(at_, step_, tau_of(mu_));
-    if (watchdog_.is_due()) watchdog_.begin(at_, values_, step_, derivative, longest);
-    if (watchdog_.is_on()) return take_watched_step(longest);
-    if (!try_step(step_, longest, derivative, longest) && !try_second_order_correction(longest, derivative)) {
-      return shorten(longest, derivative);
-    }
-    watchdog_.count(false);
-    move_multipliers(longest);
-    return true;
-  }
-
-  /// Halves α until filter and decrease accept the point or α < α_min.
-  [[nodiscard]] bool shorten(double longest, double derivative) {
-    const double alpha_min = line_search_.smallest_length(values_.theta, derivative);
-    bool is_accepted = false;
-    double alpha = longest;
-    while (!is_accepted && 0.5 * alpha >= alpha_min) {
-      alpha *= 0.5;
-      is_accepted = try_step(step_, alpha, derivative, alpha);
-    }
-    watchdog_.count(is_accepted);
-    if (is_accepted) {
-      move_multipliers(alpha);
-    } else {
-      length_ = alpha;
-      was_short_ = false;
-    }
-    return is_accepted;
-  }
-
-  /// As long as bounds allow, and judged as the first step from where the watchdog began. One that is refused is taken
-  /// all the same, up to the last; behind it the search goes on from there.
-  [[nodiscard]] bool take_watched_step(double longest) {
-    const WatchdogStart& start = watchdog_.start();
-    const bool is_usable = evaluate_trial(step_, longest);
-    const bool is_accepted =
-        is_usable && line_search_.accept(start.values, trial_values_, start.derivative, start.longest);
-    const bool may_go_on = is_usable && !line_search_.leaps(start.values, trial_values_);
-    if (!is_accepted && !(may_go_on && watchdog_.allows_another())) {
-      watchdog_.go_back(at_, values_, step_);
-      return shorten(start.longest, start.derivative);
-    }
-    if (is_accepted) watchdog_.forget();
-    accept_trial();
-    move_multipliers(longest);
-    return true;
-  }
-
-  /// λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
-  void move_multipliers(double alpha) {
-    length_ = alpha;
-    was_short_ = alpha <= constants::short_step;
-    set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
-    const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau_of(mu_));
-    program_.bounds().update_multipliers(step_, alpha_z, mu_, at_);
   }
 
   void write(Status status, Solution& solution) const {
@@ -208,7 +149,6 @@ class InteriorPointRun final : public PreparedRun {
     mu_ = lowered;
     values_.phi = program_.barrier_function(at_, mu_, values_.objective);
     line_search_.forget();
-    watchdog_.forget();
   }
 
   /// false if a value is not finite.
@@ -263,7 +203,6 @@ class InteriorPointRun final : public PreparedRun {
     }
     const double enough = constants::kappa_resto * values_.theta;
     line_search_.leave(values_);
-    watchdog_.forget();
     for (int jammed = 0; jammed < constants::most_jammed && take_feasibility_step();
          jammed = length_ < constants::very_short_step ? jammed + 1 : 0) {
       ++iterations_;
@@ -333,7 +272,6 @@ class InteriorPointRun final : public PreparedRun {
   std::unique_ptr<kkt::KktSystem> kkt_;
   NewtonStep newton_;
   FilterLineSearch line_search_;
-  Watchdog watchdog_;
   StopRule stop_rule_;
   Iterate at_;
   Evaluation values_;  // at the iterate

@@ -15,7 +15,6 @@
 #include "problems/forced_oscillator.hpp"
 #include "problems/orbital_transfer.hpp"
 #include "problems/particle_steering.hpp"
-#include "problems/planar_quadrotor_flip.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/robustness/rigid_body_slew.hpp"
 #include "tests/support/random_points.hpp"
@@ -252,34 +251,6 @@ TEST(InteriorPoint, NeedsOnAFineGridAsManyIterationsAsWithAnExactInertia) {
   const Solution found = solve_by_interior_point(program, start);
   expect_same_answer(found, exact);
   EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.2 * exact.major_iterations.value_or(0));
-}
-
-/// Without a watchdog, more than ten shortened steps follow each other.
-TEST(InteriorPoint, DoesNotCrawlWhereWholeStepsLeadOn) {
-  const CartPole problem;
-  Transcription program(problem, *make_element("tangent"), make_tableau("gauss", 2), Grid::uniform(1024));
-  const Solution found = solve_by_interior_point(program, sample(program, guessed_motion(problem)));
-  ASSERT_EQ(found.status, Status::solved) << found.message;
-  EXPECT_LE(found.major_iterations.value_or(1000), 48);
-}
-
-/// Points that the line search refuses are passed through only: one limit after the other reports the same point.
-TEST(InteriorPoint, ReportsNoPointThatTheWatchdogHasStillToJudge) {
-  const PlanarQuadrotorFlip problem;
-  Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 2), Grid::uniform(64));
-  const Eigen::VectorXd start = sample(program, guessed_motion(problem));
-  const int all = solve_by_interior_point(program, start).major_iterations.value_or(0);
-  Eigen::VectorXd before = start;
-  int watched = 0;
-  for (int limit = 1; limit < all; ++limit) {
-    SolverOptions options;
-    options.most_iterations = limit;
-    const Solution found = solve_by_interior_point(program, start, options);
-    ASSERT_EQ(found.status, Status::iteration_limit);
-    watched += found.primal == before ? 1 : 0;
-    before = found.primal;
-  }
-  EXPECT_GT(watched, 0);
 }
 
 /// The length of the quaternion is redundant. Where the inertia by intervals is believed, 300 iterations do not
