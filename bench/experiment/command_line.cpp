@@ -132,6 +132,7 @@ std::vector<std::string> CommandLine::parse() {
   refuse_empty_entries();
   app_.parse(argc_, argv_);
   check_environment();
+  order_by_one_thread();
   return {argv_, argv_ + argc_};
 }
 

@@ -113,6 +113,7 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
     return 2;
   }
   check_environment();
+  order_by_one_thread();
   if (!initialize(*this, arguments.front(), flags)) return 2;
   if (!file.empty()) require_writable(file);  // before anything is timed
   for (const std::string& flag : flags) {

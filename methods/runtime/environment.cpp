@@ -1,5 +1,7 @@
 #include "methods/runtime/environment.hpp"
 
+#include <cstdlib>
+
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/runtime/native_code_use.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -10,6 +12,11 @@ void check_environment() {
   static_cast<void>(thread_count());
   static_cast<void>(preferred_instruction_set());
   static_cast<void>(preferred_native_code_use());
+}
+
+void order_by_one_thread() {
+  const int keep_the_choice_of_the_user = 0;
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", keep_the_choice_of_the_user);  // NOLINT(concurrency-mt-unsafe): one thread yet
 }
 
 }  // namespace dmocbench

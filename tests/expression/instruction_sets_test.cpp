@@ -1,5 +1,3 @@
-#include <cstdlib>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
 namespace dmocbench {
@@ -80,40 +79,25 @@ TEST(InstructionSets, BaselineIsAlwaysThereAndNamesAreDistinct) {
   EXPECT_EQ(name_of(InstructionSet::avx512), "avx512");
 }
 
-/// DMOCBENCH_INSTRUCTION_SET is again what it was when the test ends.
 class PreferredInstructionSet : public testing::Test {
  protected:
-  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
-  void SetUp() override {
-    if (const char* value = std::getenv(variable)) before_ = value;
-  }
-  void TearDown() override {
-    unset();
-    if (before_) set(*before_);
-  }
-  static void set(const std::string& value) { setenv(variable, value.c_str(), 1); }
-  static void unset() { unsetenv(variable); }
-  // NOLINTEND(concurrency-mt-unsafe)
-
- private:
-  static constexpr const char* variable = "DMOCBENCH_INSTRUCTION_SET";
-  std::optional<std::string> before_;
+  tests::EnvironmentVariable variable_{"DMOCBENCH_INSTRUCTION_SET"};
 };
 
 TEST_F(PreferredInstructionSet, IsTheWidestUnlessTheEnvironmentNamesAnother) {
-  unset();
+  variable_.unset();
   EXPECT_EQ(preferred_instruction_set(), available_instruction_sets().back());
   for (const InstructionSet available : available_instruction_sets()) {
-    set(std::string(name_of(available)));
+    variable_.set(std::string(name_of(available)));
     EXPECT_EQ(preferred_instruction_set(), available);
     EXPECT_EQ(Tape(Schedule()).instruction_set(), available);
   }
 }
 
 TEST_F(PreferredInstructionSet, ThrowsWhenTheEnvironmentNamesNoneThatIsAvailable) {
-  set("abacus");
+  variable_.set("abacus");
   tests::expect_error_naming({"abacus", "baseline"}, [] { static_cast<void>(preferred_instruction_set()); });
-  set("");
+  variable_.set("");
   EXPECT_THROW(static_cast<void>(preferred_instruction_set()), Error);
 }
 
