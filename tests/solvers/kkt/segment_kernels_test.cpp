@@ -4,6 +4,7 @@
 
 #include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 #include "methods/solvers/kkt/intervals/segment_kernel.hpp"
+#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
@@ -14,6 +15,16 @@
 namespace dmocbench::kkt {
 namespace {
 
+Eigen::VectorXd step_of(KktSystem& kkt, const tests::KktNumbers& numbers) {
+  Eigen::VectorXd primal(numbers.gradient.size());
+  Eigen::VectorXd multipliers(numbers.rows.size());
+  EXPECT_EQ(kkt.solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers}),
+            FactorisationStatus::solved);
+  Eigen::VectorXd step(primal.size() + multipliers.size());
+  step << primal, multipliers;
+  return step;
+}
+
 void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eigen::Index intervals) {
   SCOPED_TRACE(problem.name() + ", " + scheme.label() + ", N = " + std::to_string(intervals));
   Transcription program(problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
@@ -21,17 +32,12 @@ void expect_same_steps(const Problem& problem, const tests::Scheme& scheme, Eige
   Eigen::VectorXd baseline;
   for (const InstructionSet set : available_instruction_sets()) {
     const auto kkt = IntervalKkt::make(program, segment_kernels_of(set)).value();
-    Eigen::VectorXd primal(numbers.gradient.size());
-    Eigen::VectorXd multipliers(numbers.rows.size());
-    ASSERT_EQ(kkt->solve(numbers.matrix(), {numbers.gradient, numbers.rows}, {primal, multipliers}),
-              FactorisationStatus::solved);
-    Eigen::VectorXd steps(primal.size() + multipliers.size());
-    steps << primal, multipliers;
+    const Eigen::VectorXd steps = step_of(*kkt, numbers);
     if (set == InstructionSet::baseline) {
       baseline = steps;
       continue;
     }
-    const Eigen::Index n = primal.size();
+    const Eigen::Index n = numbers.gradient.size();
     EXPECT_LT((steps - baseline).head(n).lpNorm<Eigen::Infinity>(), 1e-9 * baseline.head(n).lpNorm<Eigen::Infinity>())
         << name_of(set);
     EXPECT_LT((steps - baseline).tail(steps.size() - n).lpNorm<Eigen::Infinity>(),
@@ -55,6 +61,28 @@ TEST(SegmentKernels, AgreeOnEveryInstructionSet) {
 TEST(SegmentKernels, AgreeOnEveryInstructionSetWhereEverythingIsStated) {
   const tests::Everything everything;
   for (const tests::Scheme& scheme : tests::all_schemes(2)) expect_same_steps(everything.problem(), scheme, 69);
+}
+
+/// Segments of less than a block, of one block and a few steps, of two blocks; some lanes with a step less than others.
+TEST(SegmentKernels, TakeTheStepOfTheSparseFactorisationWhereverABlockOfStepsEnds) {
+  const auto problem = make_problem("orbital_transfer");
+  for (const tests::Scheme& scheme : tests::all_schemes(1)) {
+    for (Eigen::Index intervals = 56; intervals <= 136; ++intervals) {
+      SCOPED_TRACE(scheme.label() + ", N = " + std::to_string(intervals));
+      Transcription program(*problem, *make_element(scheme.method), scheme.tableau(), Grid::uniform(intervals));
+      const tests::KktNumbers numbers = tests::shifted_system(program, sample(program, guessed_motion(*problem)));
+      SparseKkt sparse(program);
+      const Eigen::VectorXd wanted = step_of(sparse, numbers);
+      for (const InstructionSet set : available_instruction_sets()) {
+        const auto by_intervals = IntervalKkt::make(program, segment_kernels_of(set)).value();
+        for (int again = 0; again < 2; ++again) {  // what a sweep leaves in its memory changes no later one
+          const Eigen::VectorXd found = step_of(*by_intervals, numbers);
+          EXPECT_LT((found - wanted).lpNorm<Eigen::Infinity>(), 1e-7 * wanted.lpNorm<Eigen::Infinity>())
+              << name_of(set);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

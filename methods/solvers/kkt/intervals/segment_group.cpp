@@ -28,7 +28,7 @@ GroupMemory::GroupMemory(const Shape& shape, std::size_t begin, std::size_t end,
     group_.first[lane] = static_cast<std::ptrdiff_t>(begin_of(lane));
     group_.length[lane] = static_cast<int>(begin_of(lane + 1) - begin_of(lane));
   }
-  group_.steps = *std::ranges::max_element(group_.length);
+  group_.steps = group_.length.back();
   group_.shortest = *std::ranges::min_element(group_.length);
   group_.recorded_steps = keeps_records ? group_.steps : std::min(group_.steps, steps_per_chunk);
   allocate(shape);
@@ -73,6 +73,7 @@ void GroupMemory::make_workspace(std::size_t numbers) {
   // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays)
   workspace_ = std::make_unique_for_overwrite<Line[]>(numbers / lane_count);
   group_.workspace = workspace_[0].numbers.data();
+  group_.has_constants = false;
 }
 
 std::vector<GroupMemory> cut_into_groups(const Shape& shape, std::size_t intervals) {

@@ -15,7 +15,7 @@ inline constexpr double smallest_trusted_ratio = 1e-7;
 /// Eight segments and their memory, which is first touched by the thread that fills it.
 class GroupMemory {
  public:
-  /// Of the intervals `begin` .. `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
+  /// Of the intervals `begin` to `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
   GroupMemory(const Shape& shape, std::size_t begin, std::size_t end, bool keeps_records);
 
   /// Of eight instances, one per lane, with as many intervals each.

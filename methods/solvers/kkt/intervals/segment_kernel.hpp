@@ -52,7 +52,7 @@ struct EliminationPlan {
 /// l at i * lane_count + l.
 struct SegmentGroup {
   std::array<std::ptrdiff_t, lane_count> first{};  ///< their first intervals
-  std::array<int, lane_count> length{};            ///< numbers of their intervals, which differ by at most one
+  std::array<int, lane_count> length{};            ///< numbers of their intervals: the last one's, or one less
   int steps = 0;                                   ///< the largest length
   int shortest = 0;                                ///< the smallest length
   int recorded_steps = 0;                          ///< for how many steps there is room in `records`: all of them, or
@@ -61,6 +61,7 @@ struct SegmentGroup {
   double* records = nullptr;                       ///< recorded_steps * RecordBlocks::size(), written backward
   double* checkpoints = nullptr;                   ///< per chunk, if they are several: the value at its end
   double* workspace = nullptr;                     ///< SegmentKernel::workspace_size numbers
+  bool has_constants = false;                      ///< the workspace holds what is the same in every sweep of the plan
 
   // The value of a segment as a function of its first state X and of the multiplier ν of its last one (README.md):
   // ½XᵀPX + pᵀX + νᵀ(ΦᵀX + γ) - ½νᵀΓν. State x (X, 1, ν) holds P, p, Φ; ν x (1, ν) holds γ, Γ.
