@@ -2,7 +2,7 @@
 # targets of the package, and the Markdown pages beside the code.
 get_property(targets GLOBAL PROPERTY DMOCBENCH_TARGETS)
 set(inputs)
-foreach(target IN LISTS targets ITEMS dmocbench_experiment)
+foreach(target IN LISTS targets ITEMS dmocbench_experiment dmocbench_c)
   get_target_property(headers ${target} HEADER_SET)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(header IN LISTS headers)
