@@ -21,7 +21,7 @@ struct Interrupted final : std::runtime_error {
 /// Throws `Interrupted` once a stop has been asked for.
 void throw_if_interrupted();
 
-/// Calls `work(i)` for i = 0 .. count - 1, each in a process of its own, at most `jobs` of them at a time, and
+/// Calls `work(i)` for i from 0 to count - 1, each in a process of its own, at most `jobs` of them at a time, and
 /// `done(i)` here after each has ended. Processes, not threads: the sparse factorisation below Ipopt is not made for
 /// threads.
 ///

@@ -69,7 +69,7 @@ class Tape {
   explicit Tape(const Schedule& schedule, InstructionSet set = preferred_instruction_set(),
                 NativeCodeUse use = preferred_native_code_use());
 
-  /// Evaluates intervals 0 .. count - 1, or from `begin` to `end` - 1.
+  /// Evaluates intervals 0 to count - 1, or from `begin` to `end` - 1.
   ///
   /// `inputs[i]` holds the values of input i and is read at the entries of these intervals only; inputs that the
   /// schedule does not read may be null. `outputs[j]` receives the values of output j, each at the entry of its
@@ -80,7 +80,7 @@ class Tape {
                 Workspace& workspace) const {
     evaluate(0, count, inputs, outputs, workspace);
   }
-  /// Evaluates intervals `begin` .. `end` - 1: output j of interval k goes to `outputs`[j][k].
+  /// Evaluates intervals `begin` to `end` - 1: output j of interval k goes to `outputs`[j][k].
   void evaluate(std::size_t begin, std::size_t end, std::span<const Input> inputs, std::span<double* const> outputs,
                 Workspace& workspace) const;
 

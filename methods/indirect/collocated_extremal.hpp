@@ -19,7 +19,7 @@ struct ExtremalPoint {
 struct CollocatedExtremal {
   int stages = 0;             ///< s
   double horizon = 0.0;       ///< T
-  Eigen::MatrixXd nodes;      ///< y at t_0 .. t_N, 4n × (N + 1)
+  Eigen::MatrixXd nodes;      ///< y at t_0 to t_N, 4n × (N + 1)
   Eigen::MatrixXd rates;      ///< ẏ at the stages, 4n × N s
   Eigen::MatrixXd algebraic;  ///< z at the stages, (2n + m) × N s
   double cost = 0.0;          ///< ∫ C dt by the method's quadrature, scaled

@@ -47,7 +47,7 @@ class IndirectSolution {
   /// and u from them by Newton's method.
   [[nodiscard]] IndirectPoint at(double t) const;
 
-  /// t_0 .. t_N of the solution's grid.
+  /// t_0 to t_N of the solution's grid.
   [[nodiscard]] Eigen::VectorXd node_times() const;
   /// J, the true cost.
   [[nodiscard]] double cost() const;

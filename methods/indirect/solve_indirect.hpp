@@ -26,7 +26,7 @@ struct IndirectOptions {
 [[nodiscard]] IndirectSolution solve_indirect(const Problem& problem, const Trajectory& start,
                                               const IndirectOptions& options = {});
 
-/// The residual of a solution, e.g. one read from a file, in this problem: the largest residual of rates in the
+/// The residual of a solution, for example one read from a file, in this problem: the largest residual of rates in the
 /// equations, of steps between nodes and of both ends, relative to the largest value of its kind (state or costate).
 /// It is of rounding size for a solution of the problem. Throws `Error` if the control cannot be found, or sizes do not
 /// fit.

@@ -61,9 +61,9 @@ class Problem {
   /// Description, source, units and reference optimum, for people.
   [[nodiscard]] virtual ProblemCard card() const { return {}; }
 
-  /// Names of q_1 .. q_n; they name the columns of result files.
+  /// Names of q_1 to q_n; they name the columns of result files.
   [[nodiscard]] virtual std::vector<std::string> configuration_names() const = 0;
-  /// Names of u_1 .. u_m.
+  /// Names of u_1 to u_m.
   [[nodiscard]] virtual std::vector<std::string> control_names() const = 0;
 
   /// The Lagrangian L(q, v, t).

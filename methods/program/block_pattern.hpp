@@ -17,7 +17,7 @@ struct SparsityPattern {
 };
 
 /// Consecutive entries of a sparse matrix: entry `entry` + i stands at (row + i row_step, column + i column_step), i =
-/// 0 .. length - 1. A step is 0 or 1, so a run is a stretch of a diagonal, a row or a column, or a single entry.
+/// 0 to length - 1. A step is 0 or 1, so a run is a stretch of a diagonal, a row or a column, or a single entry.
 struct PatternRun {
   Eigen::Index entry = 0;        ///< its number among all entries, of the first of the run
   Eigen::Index row = 0;          ///< of the first entry

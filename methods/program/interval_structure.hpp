@@ -8,8 +8,8 @@
 
 namespace dmocbench {
 
-/// Where an unknown or a row of a transcribed program belongs: to a node k = 0 .. N, to an interval k = 0 .. N - 1, or
-/// to the border (a quantity of the whole horizon).
+/// Where an unknown or a row of a transcribed program belongs: to a node k from 0 to N, to an interval k from 0 to N -
+/// 1, or to the border (a quantity of the whole horizon).
 struct Place {
   /// A node, an interval, or the whole horizon.
   enum class Kind : std::uint8_t { node, interval, border };

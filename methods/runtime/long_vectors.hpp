@@ -13,7 +13,7 @@ namespace dmocbench {
 /// Entries of a vector that are worth a thread of their own.
 inline constexpr std::size_t entries_per_stretch = 65536;
 
-/// Calls `use(stretch, begin, length)` for stretches that cover 0 .. size - 1, those of a long vector by several
+/// Calls `use(stretch, begin, length)` for stretches that cover 0 to size - 1, those of a long vector by several
 /// threads. How many there are depends on the size alone.
 template <class Use>
 void for_stretches(Eigen::Index size, const Use& use) {

@@ -39,9 +39,9 @@ class PartWork {
   void (*call_)(const void*, std::size_t);
 };
 
-/// Calls `work(part)` for part = 0 .. parts - 1 on `thread_count()` threads, in any order. Returns when all calls have
-/// returned, or rethrows the first exception. If the threads are busy already (with a call from another thread, or from
-/// inside `work`), the caller does all parts itself.
+/// Calls `work(part)` for part from 0 to parts - 1 on `thread_count()` threads, in any order. Returns when all calls
+/// have returned, or rethrows the first exception. If the threads are busy already (with a call from another thread, or
+/// from inside `work`), the caller does all parts itself.
 void for_each_part(std::size_t parts, const PartWork& work);
 
 }  // namespace dmocbench

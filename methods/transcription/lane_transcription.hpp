@@ -15,7 +15,7 @@
 namespace dmocbench {
 
 /// Eight instances of a transcription side by side, by its exact derivatives: the tapes of one interval run over the
-/// intervals of all eight, interval k of lanes 0 .. 7 being neighbours.
+/// intervals of all eight, interval k of lanes 0 to 7 being neighbours.
 class LaneTranscription final : public LaneProgram {
  public:
   /// The program must outlive it; its values are read in this call only. Throws `Error` where the horizon is free.

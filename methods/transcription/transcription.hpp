@@ -136,9 +136,9 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] bool has_free_horizon() const noexcept { return functions_.free_horizon; }
   /// T at a point.
   [[nodiscard]] double horizon(const VectorIn& x) const;
-  /// t_0 .. t_N and h_0 .. h_{N-1} at a point.
+  /// t_0 to t_N and h_0 to h_{N-1} at a point.
   [[nodiscard]] Eigen::VectorXd node_times(const VectorIn& x) const { return horizon(x) * grid_.relative_times(); }
-  /// H_0 .. h_{N-1} at a point..
+  /// h_0 to h_{N-1} at a point.
   [[nodiscard]] Eigen::VectorXd steps(const VectorIn& x) const { return horizon(x) * grid_.relative_widths(); }
 
   /// The step and the time of the left node that the interval formulas read: relative to the horizon where that is an

@@ -26,7 +26,7 @@ class Grid {
   [[nodiscard]] std::size_t intervals() const noexcept { return static_cast<std::size_t>(nodes_.size() - 1); }
   /// τ_0 .. τ_N.
   [[nodiscard]] const Eigen::VectorXd& relative_times() const noexcept { return nodes_; }
-  /// τ_{k+1} - τ_k for k = 0 .. N - 1; exactly 1/N on a uniform grid.
+  /// τ_{k+1} - τ_k for k from 0 to N - 1; exactly 1/N on a uniform grid.
   [[nodiscard]] const Eigen::VectorXd& relative_widths() const noexcept { return widths_; }
 
  private:

@@ -14,7 +14,7 @@ namespace dmocbench {
 struct Trajectory {
   Tableau tableau;  ///< of the method
 
-  Eigen::VectorXd node_times;  ///< t_0 .. t_N
+  Eigen::VectorXd node_times;  ///< t_0 to t_N
   Eigen::MatrixXd q;           ///< (N + 1) × n
   Eigen::MatrixXd p;           ///< (N + 1) × n, by the forced discrete Legendre transform (eq:varmech_dlegf) for DMOC
   Eigen::MatrixXd v;           ///< (N + 1) × n, with p = L_v(q, v)
