@@ -48,7 +48,7 @@ DMOCBENCH_API int dmocbench_get_parameter(dmocbench_problem* problem, const char
 /* Gives a parameter another value. 0 on success. */
 DMOCBENCH_API int dmocbench_set_parameter(dmocbench_problem* problem, const char* name, double value);
 
-/* The names of q_1 .. q_n and of u_1 .. u_m; NULL behind the last. */
+/* The name of a configuration and of a control, from 0; NULL behind the last. */
 DMOCBENCH_API const char* dmocbench_configuration_name(dmocbench_problem* problem, size_t number);
 /* The name of a control, from 0. */
 DMOCBENCH_API const char* dmocbench_control_name(dmocbench_problem* problem, size_t number);
