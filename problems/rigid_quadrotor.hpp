@@ -50,7 +50,13 @@ class RigidQuadrotor final : public Problem {
             {.objective = 4.27652988126,
              .digits = 12,
              .certificate = "Gauss with s = 3 and Lobatto with s = 4 on 128 intervals and a replay agree",
-             .remark = "no published value is known, and none is of this problem: the published one has no torques"})};
+             .remark = "no published value is known, and none is of this problem: the published one has no torques"}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          const ExpressionVector curve = curve_at(x.t);
+          return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
+                  {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
+                  {"thrust", "m/s^2", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override {
     return {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -118,13 +124,6 @@ class RigidQuadrotor final : public Problem {
   /// Horizontal translations.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const ExpressionVector curve = curve_at(x.t);
-    return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
-            {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
-            {"thrust", "m/s^2", x.u[0]}};
   }
 
  private:
