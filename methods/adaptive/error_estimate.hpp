@@ -19,8 +19,8 @@ struct ErrorEstimate {
   /// norm of the differences between the largest and the smallest value of each component; a q or p that is constant
   /// but for rounding counts by its size, or 1.
   double relative = 0.0;
-  /// What rounding of positions leaves of the momenta, ε max|q| max|L_vv| / h with the narrowest interval, over the
-  /// range of p: no estimate below it says anything.
+  /// Relative rounding error of the momenta; a smaller estimate means nothing. It is ε max|q| max|L_vv| / h, with h of
+  /// the narrowest interval, over the range of p.
   double floor = 0.0;
   /// Per interval how far the optimal flow, started at its first node, misses the next one: the largest of state and
   /// costate, each relative to its range. Of order h^(r + 1) for a method of order r.

@@ -20,7 +20,7 @@ struct KktMatrix {
   /// e >= 0, one per constraint, zero for exactly the equalities; empty if all are equalities.
   const Eigen::VectorXd& compliance;
 
-  /// E of a row: the inverse weight of an inequality; 0 for an equality..
+  /// The compliance of a constraint: the inverse weight of an inequality, 0 for an equality.
   [[nodiscard]] double compliance_of(Eigen::Index row) const { return compliance.size() > 0 ? compliance[row] : 0.0; }
 };
 
