@@ -66,7 +66,7 @@ class DoubleIntegrator : public Problem, public ClosedForm {
     const bool is_on_ramp = magnitude <= sigma;
     const double rest = 0.5 - magnitude;
     const double v = is_on_ramp ? peak * (0.5 - sigma) + 0.5 * slope * (sigma * sigma - s * s) : peak * rest;
-    // q of the second half falls short of d by what the first half has gone.
+    // By symmetry q of the second half is d less q of the first half at the mirrored time.
     const double before_ramp = 0.5 - sigma;
     const double along = sigma - magnitude;
     const double gone =

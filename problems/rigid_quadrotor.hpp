@@ -14,8 +14,8 @@ namespace dmocbench {
 ///   ω = (φ̇ - ψ̇ sin θ, θ̇ cos φ + ψ̇ cos θ sin φ, ψ̇ cos θ cos φ - θ̇ sin φ) = B(q) q̇,
 /// all divided by the mass, J in m² (a racing drone of 0.5 kg with moments of 0.0023, 0.0023, 0.004 kg m²):
 ///   L = ½(ẋ² + ẏ² + ż²) + ½ωᵀJω - g z,   f = (u₁ R e₃, BᵀJ(u₂, u₃, u₄)),
-///   C = ½[(x - sin 2πs)² + (y - 2 sin 4πs)² + (z - 2s)² + φ² + θ² + ψ² + r(u₁² + |ω|²) + ρ(u₂² + u₃² + u₄²)],  s =
-///   t/T,
+///   C = ½[(x - sin 2πs)² + (y - 2 sin 4πs)² + (z - 2s)² + φ² + θ² + ψ² + r(u₁² + |ω|²) + ρ(u₂² + u₃² + u₄²)],
+///   s = t/T,
 /// r = 0.1, ρ = 0.001, T = 1 s, from rest at q = 0: u₁ is the thrust by the mass in m/s², (u₂, u₃, u₄) the torque by
 /// the moments of inertia in rad/s².
 ///

@@ -37,7 +37,7 @@ struct AdaptiveOptions {
   std::string solver = "interior_point";  ///< as `make_solver` takes it
   SolverOptions solver_options;           ///< of every solve, but for the tolerance
 
-  /// What solves are given instead of a tolerance: a hundredth of `accuracy` if that is less, but not below 1e-12.
+  /// The tolerance of the solves: `tolerance`, or a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;
 
   /// The accuracies that may be asked for: doubles have 16 digits.

@@ -40,8 +40,8 @@ struct ErrorEstimate {
 ///    and tableau.
 /// 2. Global: the optimum satisfies the program's conditions of optimality if interval k sees its last node moved back
 ///    by these misses. To first order the error is therefore one more linear solve with the matrix of a Newton step at
-///    the answer; the right-hand side is that matrix, interval by interval, times the misses. What the solver has left
-///    of the conditions shows in the misses.
+///    the answer; the right-hand side is that matrix, interval by interval, times the misses. Residuals that the
+///    solver left are part of the misses.
 /// 3. The cost: to first order J* - J = Σ_k (∫ C dt along the replayed interval - its discrete cost + ψ_{k+1}·δx_k).
 ///    Where the cost is flat, the second order is larger: with the errors e of state and costate at the nodes,
 ///    ½ Σ_k [e^ψ_{k+1}·δx_k - δψ_k·(e^x_{k+1} - δx_k)], half the derivative of the Lagrangian along the error.

@@ -28,7 +28,7 @@ class LateCode {
     return 10'000 + 600'000 / static_cast<std::uint64_t>(operations);
   }
 
-  /// Code for a schedule and the series of its tape, after so many intervals; at once if they are none.
+  /// Code for a schedule and the series of its tape, made after `intervals` intervals; at once if that is 0.
   LateCode(Schedule schedule, TapeSeries series, InstructionSet set, std::uint64_t intervals);
 
   /// The code, if there is any yet.

@@ -116,8 +116,8 @@ class Problem {
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if there is none of that name.
   [[nodiscard]] double parameter(std::string_view name) const;
-  /// A parameter as formulas read it that other values may be put into later: in a transcription that keeps it open an
-  /// input of the trace, elsewhere its value. Throws as `parameter`.
+  /// A parameter for use in formulas, so that its value may change later: an input of the trace in a transcription that
+  /// keeps it open, elsewhere its value. Throws as `parameter`.
   [[nodiscard]] Expression varying(std::string_view name) const;
   /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
   void set_parameter(std::string_view name, double value);

@@ -56,7 +56,7 @@ void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const
 /// The constraint violation alone.
 [[nodiscard]] double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
 
-/// Multipliers for a point that came without: the λ that minimises |∇φ + (∂a/∂ξ)ᵀλ|₂ over the variables that are
+/// Multipliers for a point that has none: the λ that minimises |∇φ + (∂a/∂ξ)ᵀλ|₂ over the variables that are
 /// neither fixed nor at a bound. An inequality that is not at a bound gets 0.
 ///
 /// "At a bound" means closer than `activity_tolerance` · max(1, |bound|). Signs are not imposed: the residual of the
