@@ -46,7 +46,7 @@ Columns<Record> choice_columns() {
        "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
        "h = pace * sigma(q_k), known before the step (from_left)",
        from(&Record::choice, &StepChoice::rule)},
-      {"sigma", "", "what the steps are proportional to reads", from(&Record::choice, &StepChoice::sigma)},
+      {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma)},
       {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages)}};
 }
 template <class Record>
@@ -118,7 +118,7 @@ const Columns<Transfer> transfer_columns{
     {"eccentricity", "", "of both ellipses", [](const Transfer& row) { return fmt::format("{:g}", row.eccentricity); }},
     {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
      from(&Transfer::choice, &StepChoice::rule)},
-    {"sigma", "", "what the steps are proportional to reads", from(&Transfer::choice, &StepChoice::sigma)},
+    {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma)},
     {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages)},
     {"intervals", "", "number of intervals N", &Transfer::intervals},
     {"variables", "", "of the program", from(solved, &OptimalSteps::variables)},

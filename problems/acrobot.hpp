@@ -34,7 +34,16 @@ class Acrobot : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "swing-up of a double pendulum by a motor at its elbow in fixed time, least control effort",
             .source = "PROPT guide, example Acrobot, after Tedrake: Underactuated Robotics, chapter 3",
-            .reference = reference_optimum()};
+            .reference = reference_optimum(),
+            .picture = [](const ControlledState& x) -> Picture {
+              const Expression elbow_x = length_1 * sin(x.q[0]);
+              const Expression elbow_y = -length_1 * cos(x.q[0]);
+              return {{"elbow_x", "m", elbow_x},
+                      {"elbow_y", "m", elbow_y},
+                      {"tip_x", "m", elbow_x + length_2 * sin(x.q[0] + x.q[1])},
+                      {"tip_y", "m", elbow_y - length_2 * cos(x.q[0] + x.q[1])},
+                      {"torque", "N m", x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q_1", "q_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -77,16 +86,6 @@ class Acrobot : public Problem {
   /// Rotations of the whole: ξ = (1, 0), the momentum about the shoulder, on which the motor does not act.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression elbow_x = length_1 * sin(x.q[0]);
-    const Expression elbow_y = -length_1 * cos(x.q[0]);
-    return {{"elbow_x", "m", elbow_x},
-            {"elbow_y", "m", elbow_y},
-            {"tip_x", "m", elbow_x + length_2 * sin(x.q[0] + x.q[1])},
-            {"tip_y", "m", elbow_y - length_2 * cos(x.q[0] + x.q[1])},
-            {"torque", "N m", x.u[0]}};
   }
 
  private:

@@ -33,7 +33,10 @@ class Beam : public Problem, public ClosedForm {
                                           .certificate = "closed form, 8/(9 l) where x lies on the bound",
                                           .remark = "a bound that holds at the nodes alone costs less, by order h^2; "
                                                     "where nodes lie at 3 l and 1 - 3 l, as with multiples of ten "
-                                                    "intervals, it costs the same"}};
+                                                    "intervals, it costs the same"},
+            .picture = [](const ControlledState& x) -> Picture {
+              return {{"deflection", "", x.q[0]}, {"slope", "", x.v[0]}, {"bending", "", x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -70,10 +73,6 @@ class Beam : public Problem, public ClosedForm {
       point.psi_q *= -1.0;
     }
     return point;
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"deflection", "", x.q[0]}, {"slope", "", x.v[0]}, {"bending", "", x.u[0]}};
   }
 
  private:

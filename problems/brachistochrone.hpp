@@ -28,10 +28,16 @@ class Brachistochrone : public Problem {
   [[nodiscard]] std::string name() const override { return "brachistochrone"; }
   [[nodiscard]] std::unique_ptr<Problem> clone() const override { return copy_of(*this); }
   [[nodiscard]] ProblemCard card() const override {
-    return {.description = "the fastest descent between two points, controlled by the wire's reaction; free horizon",
-            .source = "Johann Bernoulli 1696; data of the Dymos example",
-            .guess = "the slide down a straight wire, u its reaction over the speed at half the time",
-            .reference = reference_optimum()};
+    return {
+        .description = "the fastest descent between two points, controlled by the wire's reaction; free horizon",
+        .source = "Johann Bernoulli 1696; data of the Dymos example",
+        .guess = "the slide down a straight wire, u its reaction over the speed at half the time",
+        .reference = reference_optimum(),
+        .picture = [](const ControlledState& x) -> Picture {
+          const Expression speed = sqrt(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
+          return {
+              {"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"speed", "m/s", speed}, {"reaction", "m/s^2", x.u[0] * speed}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -79,11 +85,6 @@ class Brachistochrone : public Problem {
   /// Horizontal translations; gravity does not act on this momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression speed = sqrt(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
-    return {{"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"speed", "m/s", speed}, {"reaction", "m/s^2", x.u[0] * speed}};
   }
 
   /// (R, φ₁) of the cycloid through both points: (φ - sin φ)/(1 - cos φ) = width/drop has one solution in (0, 2π).

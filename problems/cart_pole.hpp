@@ -44,7 +44,14 @@ class CartPole : public Problem {
                  .remark = "two minima: the pole swings back first (57.944780, from which the guess starts) or forward "
                            "first (58.807667), which the straight line and the published value are on; Dymos adds u(T) "
                            "= 0 and is 0.13 % above that one"},
-                {"bounded"})};
+                {"bounded"}),
+            .picture = [this](const ControlledState& x) -> Picture {
+              const double l = parameter("length");
+              return {{"cart_x", "m", x.q[0]},
+                      {"bob_x", "m", x.q[0] + l * sin(x.q[1])},
+                      {"bob_y", "m", -l * cos(x.q[1])},
+                      {"force", "N", x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -97,14 +104,6 @@ class CartPole : public Problem {
   /// Translations of the cart; the momentum of the whole changes by the work of the control alone.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const double l = parameter("length");
-    return {{"cart_x", "m", x.q[0]},
-            {"bob_x", "m", x.q[0] + l * sin(x.q[1])},
-            {"bob_y", "m", -l * cos(x.q[1])},
-            {"force", "N", x.u[0]}};
   }
 
  private:

@@ -31,7 +31,15 @@ class ContainerCrane : public Problem {
         .source =
             "Teo, Goh, Wong: A unified computational approach to optimal control problems (1991), after Sakawa, Shindo "
             "(1982); Augustin, Maurer: Sensitivity analysis and real-time control of a container crane (2001)",
-        .reference = reference_optimum()};
+        .reference = reference_optimum(),
+        .picture = [](const ControlledState& x) -> Picture {
+          return {{"trolley", "m", x.q[0]},
+                  {"load_x", "m", x.q[0] + x.q[1] * sin(x.q[2])},
+                  {"load_z", "m", -x.q[1] * cos(x.q[2])},
+                  {"swing", "rad", x.q[2]},
+                  {"u_1", "m/s^2", x.u[0]},
+                  {"u_2", "m/s^2", x.u[1]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"s", "l", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
@@ -70,15 +78,6 @@ class ContainerCrane : public Problem {
   /// The optimum is about 5e-3 without the controls in the cost, 4e-2 with them.
   [[nodiscard]] double cost_scale() const override { return 1e2; }
 
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"trolley", "m", x.q[0]},
-            {"load_x", "m", x.q[0] + x.q[1] * sin(x.q[2])},
-            {"load_z", "m", -x.q[1] * cos(x.q[2])},
-            {"swing", "rad", x.q[2]},
-            {"u_1", "m/s^2", x.u[0]},
-            {"u_2", "m/s^2", x.u[1]}};
-  }
-
  private:
   [[nodiscard]] std::optional<ReferenceOptimum> reference_optimum() const {
     const double weight = parameter("control_weight");
@@ -94,13 +93,13 @@ class ContainerCrane : public Problem {
         .objective = 0.0051504,
         .digits = 5,
         .certificate =
-            "Gauss with 1 and with 2 stages and Lobatto with 3 on 256 to 1024 intervals, and the "
-            "replays of their controls; no more digits, because the control is singular",
+            "Gauss with 1 and with 2 stages and Lobatto with 3 on 256 to 1024 intervals, and the replays of their "
+            "controls; no more digits, because the control is singular",
         .published = {{0.0051513, "PSOPT, example crane"}},
         .remark =
-            "the published value is that of its mesh, 2e-4 above; on fine grids a Newton step moves "
-            "the singular controls by tenths of their size though states and cost stay, whatever "
-            "the tolerance: such answers may stay unconfirmed"};
+            "the published value is that of its mesh, 2e-4 above; on fine grids a Newton step moves the singular "
+            "controls by tenths of their size though states and cost stay, whatever the tolerance: such answers may "
+            "stay unconfirmed"};
   }
 };
 

@@ -29,7 +29,10 @@ class DoubleIntegrator : public Problem, public ClosedForm {
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a unit mass from rest to rest in fixed time, least control effort",
             .source = "folklore; mineng_di of the PSOPT examples",
-            .reference = reference_optimum()};
+            .reference = reference_optimum(),
+            .picture = [](const ControlledState& x) -> Picture {
+              return {{"position", "m", x.q[0]}, {"velocity", "m/s", x.v[0]}, {"force", "N", x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"q"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -63,7 +66,7 @@ class DoubleIntegrator : public Problem, public ClosedForm {
     const bool is_on_ramp = magnitude <= sigma;
     const double rest = 0.5 - magnitude;
     const double v = is_on_ramp ? peak * (0.5 - sigma) + 0.5 * slope * (sigma * sigma - s * s) : peak * rest;
-    // q of the second half falls short of d by what the first half has gone.
+    // By symmetry q of the second half is d less q of the first half at the mirrored time.
     const double before_ramp = 0.5 - sigma;
     const double along = sigma - magnitude;
     const double gone =
@@ -79,10 +82,6 @@ class DoubleIntegrator : public Problem, public ClosedForm {
   /// Translations; without a potential the momentum changes by the work of the control alone.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector::Constant(1, 1.0);
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"position", "m", x.q[0]}, {"velocity", "m/s", x.v[0]}, {"force", "N", x.u[0]}};
   }
 
  private:

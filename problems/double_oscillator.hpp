@@ -41,7 +41,13 @@ class DoubleOscillator : public Problem {
              .published = {{0.000910190, "CTBenchmarks.jl, midpoint rule, N = 200"},
                            {0.000910336, "CTBenchmarks.jl, trapezoidal rule, N = 200"}},
              .remark = "the published values are those of their grids: ours of the midpoint and the trapezoidal rule "
-                       "on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"})};
+                       "on 200 intervals are 0.000910190 and 0.000910336, and converge to the reference as h^2"}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          return {{"x_1", "m", x.q[0]},
+                  {"x_2", "m", x.q[1]},
+                  {"shaking_force", "N", sin(2.0 * std::numbers::pi / horizon() * x.t)},
+                  {"u", "", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x_1", "x_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -74,13 +80,6 @@ class DoubleOscillator : public Problem {
 
   /// The optimum is about 1e-3.
   [[nodiscard]] double cost_scale() const override { return 1e3; }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"x_1", "m", x.q[0]},
-            {"x_2", "m", x.q[1]},
-            {"shaking_force", "N", sin(2.0 * std::numbers::pi / horizon() * x.t)},
-            {"u", "", x.u[0]}};
-  }
 };
 
 }  // namespace dmocbench

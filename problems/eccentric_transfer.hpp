@@ -39,7 +39,13 @@ class EccentricTransfer : public Problem {
             *this, {.objective = 2.5954854061e-3,
                     .digits = 11,
                     .certificate = "the indirect method with Gauss of orders 16 and 20; DMOC with three stages on an "
-                                   "adapted grid has the same cost to 12 digits"})};
+                                   "adapted grid has the same cost to 12 digits"}),
+        .picture = [](const ControlledState& x) -> Picture {
+          return {{"x", "", x.q[0] * cos(x.q[1])},
+                  {"y", "", x.q[0] * sin(x.q[1])},
+                  {"r", "", x.q[0]},
+                  {"thrust", "", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"r", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -86,11 +92,6 @@ class EccentricTransfer : public Problem {
   /// Rotations: ξ = (0, 1), the momentum is the angular momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{0.0, 1.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {
-        {"x", "", x.q[0] * cos(x.q[1])}, {"y", "", x.q[0] * sin(x.q[1])}, {"r", "", x.q[0]}, {"thrust", "", x.u[0]}};
   }
 
  private:

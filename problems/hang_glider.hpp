@@ -35,7 +35,13 @@ class HangGlider : public Problem {
             "Bulirsch, Nerz, Pesch, von Stryk: Combining direct and indirect methods in optimal control (1993)",
         .guess = "q on the straight line to x = 1200 m in T = 100 s, v its slope, c_L = 0.7, half its bound",
         .time_unit = {.name = "s", .factor = time_unit_in_seconds},
-        .reference = reference_optimum()};
+        .reference = reference_optimum(),
+        .picture = [this](const ControlledState& x) -> Picture {
+          return {{"x", "m", length_unit * x.q[0]},
+                  {"y", "m", length_unit * x.q[1]},
+                  {"updraft", "m/s", velocity_unit * updraft(x.q[0])},
+                  {"c_l", "", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"c_l"}; }
@@ -86,13 +92,6 @@ class HangGlider : public Problem {
     MotionPoint point = Problem::guess(t);
     point.u[0] = 0.7;
     return point;
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return {{"x", "m", length_unit * x.q[0]},
-            {"y", "m", length_unit * x.q[1]},
-            {"updraft", "m/s", velocity_unit * updraft(x.q[0])},
-            {"c_l", "", x.u[0]}};
   }
 
  private:

@@ -23,6 +23,16 @@ class KeplerCartesian : public CircleToCircle {
     card.source += ", in another chart";
     card.guess =
         "a spiral: radius and angle on straight lines, d revolutions from circle to circle, v its slope, u = 0";
+    card.picture = [this](const ControlledState& x) -> Picture {
+      const Expression r = radius(x.q);
+      const Expression thrust = acceleration_scale() * x.u[0];
+      return {{"x", "km", initial_radius() * x.q[0]},
+              {"y", "km", initial_radius() * x.q[1]},
+              {"altitude", "km", initial_radius() * r - parameter("earth_radius")},
+              {"thrust", "m/s^2", thrust},
+              {"thrust_x", "m/s^2", -thrust * x.q[1] / r},
+              {"thrust_y", "m/s^2", thrust * x.q[0] / r}};
+    };
     return card;
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
@@ -55,17 +65,6 @@ class KeplerCartesian : public CircleToCircle {
     const Eigen::Vector2d outward(std::cos(rate * t), std::sin(rate * t));
     const Eigen::Vector2d along(-outward[1], outward[0]);
     return {.q = r * outward, .v = growth * outward + r * rate * along, .u = Eigen::VectorXd::Zero(1)};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression r = radius(x.q);
-    const Expression thrust = acceleration_scale() * x.u[0];
-    return {{"x", "km", initial_radius() * x.q[0]},
-            {"y", "km", initial_radius() * x.q[1]},
-            {"altitude", "km", initial_radius() * r - parameter("earth_radius")},
-            {"thrust", "m/s^2", thrust},
-            {"thrust_x", "m/s^2", -thrust * x.q[1] / r},
-            {"thrust_y", "m/s^2", thrust * x.q[0] / r}};
   }
 
  private:

@@ -38,7 +38,24 @@ class LinkChain : public Problem {
             .guess =
                 "q on straight lines plus 2.5 sin(pi t/T) for the last rod, minus it for the rod before and so on with "
                 "changing signs, nothing for the first; v its slope, u = 0",
-            .reference = reference_optimum()};
+            .reference = reference_optimum(),
+            .picture = [this](const ControlledState& x) -> Picture {
+              Picture quantities;
+              Expression tip_x = 0.0;
+              Expression tip_y = 0.0;
+              for (Eigen::Index i = 0; i < links(); ++i) {
+                tip_x += parameter("length") * cos(x.q[i]);
+                tip_y += parameter("length") * sin(x.q[i]);
+                const std::string number = std::to_string(i + 1);
+                quantities.push_back({"tip_" + number + "_x", "m", tip_x});
+                quantities.push_back({"tip_" + number + "_y", "m", tip_y});
+              }
+              const std::vector<std::string> motors = control_names();
+              for (Eigen::Index i = 0; i < links(); ++i) {
+                quantities.push_back({motors[static_cast<std::size_t>(i)], "N m", x.u[i]});
+              }
+              return quantities;
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return numbered("theta_"); }
   [[nodiscard]] std::vector<std::string> control_names() const override { return numbered("tau_"); }
@@ -99,24 +116,6 @@ class LinkChain : public Problem {
       fold = -fold;
     }
     return point;
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    std::vector<PictureQuantity> quantities;
-    Expression tip_x = 0.0;
-    Expression tip_y = 0.0;
-    for (Eigen::Index i = 0; i < links(); ++i) {
-      tip_x += parameter("length") * cos(x.q[i]);
-      tip_y += parameter("length") * sin(x.q[i]);
-      const std::string number = std::to_string(i + 1);
-      quantities.push_back({"tip_" + number + "_x", "m", tip_x});
-      quantities.push_back({"tip_" + number + "_y", "m", tip_y});
-    }
-    const std::vector<std::string> motors = control_names();
-    for (Eigen::Index i = 0; i < links(); ++i) {
-      quantities.push_back({motors[static_cast<std::size_t>(i)], "N m", x.u[i]});
-    }
-    return quantities;
   }
 
  private:

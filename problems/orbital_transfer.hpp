@@ -85,6 +85,16 @@ class OrbitalTransfer : public CircleToCircle {
   [[nodiscard]] ProblemCard card() const override {
     ProblemCard card = CircleToCircle::card();
     card.description = "low thrust transfer of a satellite between two circular orbits, least control effort";
+    card.picture = [this](const ControlledState& x) -> Picture {
+      const Expression radius = initial_radius() * x.q[0];
+      const Expression thrust = acceleration_scale() * x.u[0];
+      return {{"x", "km", radius * cos(x.q[1])},
+              {"y", "km", radius * sin(x.q[1])},
+              {"altitude", "km", radius - parameter("earth_radius")},
+              {"thrust", "m/s^2", thrust},
+              {"thrust_x", "m/s^2", -thrust * sin(x.q[1])},
+              {"thrust_y", "m/s^2", thrust * cos(x.q[1])}};
+    };
     return card;
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"r", "phi"}; }
@@ -113,17 +123,6 @@ class OrbitalTransfer : public CircleToCircle {
   /// Rotations: ξ = (0, 1), the momentum is the angular momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{0.0, 1.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression radius = initial_radius() * x.q[0];
-    const Expression thrust = acceleration_scale() * x.u[0];
-    return {{"x", "km", radius * cos(x.q[1])},
-            {"y", "km", radius * sin(x.q[1])},
-            {"altitude", "km", radius - parameter("earth_radius")},
-            {"thrust", "m/s^2", thrust},
-            {"thrust_x", "m/s^2", -thrust * sin(x.q[1])},
-            {"thrust_y", "m/s^2", thrust * cos(x.q[1])}};
   }
 };
 

@@ -28,7 +28,11 @@ class ParticleSteering : public Problem {
   [[nodiscard]] ProblemCard card() const override {
     return {.description = "a particle steered by the direction of its thrust to a height and a speed, shortest time",
             .source = "Dolan, More, Munson: Benchmarking Optimization Software with COPS 3.0, problem 10",
-            .reference = reference_optimum()};
+            .reference = reference_optimum(),
+            .picture = [](const ControlledState& x) -> Picture {
+              constexpr double degrees = 180.0 / std::numbers::pi;
+              return {{"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"direction", "degree", degrees * x.u[0]}};
+            }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u"}; }
@@ -79,11 +83,6 @@ class ParticleSteering : public Problem {
   /// Translations along x; only the thrust changes their momentum.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    constexpr double degrees = 180.0 / std::numbers::pi;
-    return {{"x", "m", x.q[0]}, {"y", "m", x.q[1]}, {"direction", "degree", degrees * x.u[0]}};
   }
 
  private:

@@ -31,7 +31,20 @@ class PlanarQuadrotor : public Problem {
                                      .certificate = certificate,
                                      .remark = "no published value is known; the bounds, by option, are not active; "
                                                "dearer minima tumble on the way (23.05, 23.38, 25.58)"},
-                                    {"bounded"})};
+                                    {"bounded"}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          const double r = parameter("arm");
+          const Expression arm_x = r * cos(x.q[2]);
+          const Expression arm_y = r * sin(x.q[2]);
+          return {{"x", "m", x.q[0]},
+                  {"y", "m", x.q[1]},
+                  {"right_x", "m", x.q[0] + arm_x},
+                  {"right_y", "m", x.q[1] + arm_y},
+                  {"left_x", "m", x.q[0] - arm_x},
+                  {"left_y", "m", x.q[1] - arm_y},
+                  {"right_thrust", "N", x.u[0]},
+                  {"left_thrust", "N", x.u[1]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x", "y", "theta"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_1", "u_2"}; }
@@ -73,20 +86,6 @@ class PlanarQuadrotor : public Problem {
   /// Horizontal translations.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const double r = parameter("arm");
-    const Expression arm_x = r * cos(x.q[2]);
-    const Expression arm_y = r * sin(x.q[2]);
-    return {{"x", "m", x.q[0]},
-            {"y", "m", x.q[1]},
-            {"right_x", "m", x.q[0] + arm_x},
-            {"right_y", "m", x.q[1] + arm_y},
-            {"left_x", "m", x.q[0] - arm_x},
-            {"left_y", "m", x.q[1] - arm_y},
-            {"right_thrust", "N", x.u[0]},
-            {"left_thrust", "N", x.u[1]}};
   }
 
  protected:

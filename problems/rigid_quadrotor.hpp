@@ -14,8 +14,8 @@ namespace dmocbench {
 ///   ω = (φ̇ - ψ̇ sin θ, θ̇ cos φ + ψ̇ cos θ sin φ, ψ̇ cos θ cos φ - θ̇ sin φ) = B(q) q̇,
 /// all divided by the mass, J in m² (a racing drone of 0.5 kg with moments of 0.0023, 0.0023, 0.004 kg m²):
 ///   L = ½(ẋ² + ẏ² + ż²) + ½ωᵀJω - g z,   f = (u₁ R e₃, BᵀJ(u₂, u₃, u₄)),
-///   C = ½[(x - sin 2πs)² + (y - 2 sin 4πs)² + (z - 2s)² + φ² + θ² + ψ² + r(u₁² + |ω|²) + ρ(u₂² + u₃² + u₄²)],  s =
-///   t/T,
+///   C = ½[(x - sin 2πs)² + (y - 2 sin 4πs)² + (z - 2s)² + φ² + θ² + ψ² + r(u₁² + |ω|²) + ρ(u₂² + u₃² + u₄²)],
+///   s = t/T,
 /// r = 0.1, ρ = 0.001, T = 1 s, from rest at q = 0: u₁ is the thrust by the mass in m/s², (u₂, u₃, u₄) the torque by
 /// the moments of inertia in rad/s².
 ///
@@ -50,7 +50,13 @@ class RigidQuadrotor final : public Problem {
             {.objective = 4.27652988126,
              .digits = 12,
              .certificate = "Gauss with s = 3 and Lobatto with s = 4 on 128 intervals and a replay agree",
-             .remark = "no published value is known, and none is of this problem: the published one has no torques"})};
+             .remark = "no published value is known, and none is of this problem: the published one has no torques"}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          const ExpressionVector curve = curve_at(x.t);
+          return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
+                  {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
+                  {"thrust", "m/s^2", x.u[0]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override {
     return {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -118,13 +124,6 @@ class RigidQuadrotor final : public Problem {
   /// Horizontal translations.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const ExpressionVector curve = curve_at(x.t);
-    return {{"x", "m", x.q[0]},         {"y", "m", x.q[1]},         {"z", "m", x.q[2]},
-            {"curve_x", "m", curve[0]}, {"curve_y", "m", curve[1]}, {"curve_z", "m", curve[2]},
-            {"thrust", "m/s^2", x.u[0]}};
   }
 
  private:

@@ -32,7 +32,16 @@ class RobotArm : public Problem {
         .description = "robot arm that slides and turns from rest to rest in the shortest time",
         .source = "Dolan, More, Munson: Benchmarking optimization software with COPS 3.0, ANL/MCS-TM-273, problem 8",
         .guess = "q on the straight line from q(0) to q(T), v its slope, u = 0, T = 10",
-        .reference = reference_optimum()};
+        .reference = reference_optimum(),
+        .picture = [](const ControlledState& x) -> Picture {
+          const Expression across = x.q[0] * sin(x.q[2]);
+          return {{"tip_x", "", across * cos(x.q[1])},
+                  {"tip_y", "", across * sin(x.q[1])},
+                  {"tip_z", "", x.q[0] * cos(x.q[2])},
+                  {"u_rho", "", x.u[0]},
+                  {"u_theta", "", x.u[1]},
+                  {"u_phi", "", x.u[2]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"rho", "theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_rho", "u_theta", "u_phi"}; }
@@ -85,16 +94,6 @@ class RobotArm : public Problem {
   /// Rotations about the vertical: ξ = (0, 1, 0).
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{0.0, 1.0, 0.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression across = x.q[0] * sin(x.q[2]);
-    return {{"tip_x", "", across * cos(x.q[1])},
-            {"tip_y", "", across * sin(x.q[1])},
-            {"tip_z", "", x.q[0] * cos(x.q[2])},
-            {"u_rho", "", x.u[0]},
-            {"u_theta", "", x.u[1]},
-            {"u_phi", "", x.u[2]}};
   }
 
  private:

@@ -34,7 +34,15 @@ class SphericalPendulum : public Problem {
         .description = "spherical pendulum from one steady cone to a wider one, least control effort",
         .source = "posed for this suite: a mass matrix that depends on the configuration, a symmetry, both ends steady",
         .reference = with_default_parameters(
-            *this, {.objective = 0.91134694658953, .digits = 13, .certificate = by_indirect_method(13)})};
+            *this, {.objective = 0.91134694658953, .digits = 13, .certificate = by_indirect_method(13)}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          const double l = parameter("length");
+          return {{"bob_x", "m", l * sin(x.q[0]) * cos(x.q[1])},
+                  {"bob_y", "m", l * sin(x.q[0]) * sin(x.q[1])},
+                  {"bob_z", "m", -l * cos(x.q[0])},
+                  {"u_theta", "N m", x.u[0]},
+                  {"u_phi", "N m", x.u[1]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta", "phi"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"u_theta", "u_phi"}; }
@@ -60,15 +68,6 @@ class SphericalPendulum : public Problem {
   /// Rotations about the vertical: ξ = (0, 1).
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{0.0, 1.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const double l = parameter("length");
-    return {{"bob_x", "m", l * sin(x.q[0]) * cos(x.q[1])},
-            {"bob_y", "m", l * sin(x.q[0]) * sin(x.q[1])},
-            {"bob_z", "m", -l * cos(x.q[0])},
-            {"u_theta", "N m", x.u[0]},
-            {"u_phi", "N m", x.u[1]}};
   }
 
  private:

@@ -38,7 +38,17 @@ class TwoLinkManipulator : public Problem {
                                                      .digits = 13,
                                                      .certificate = by_indirect_method(13),
                                                      .remark = "the paper gives no data and shows the cost in a figure "
-                                                               "only; other minima near 89.56, 167, 171, 192, 205"})};
+                                                               "only; other minima near 89.56, 167, 171, 192, 205"}),
+        .picture = [this](const ControlledState& x) -> Picture {
+          const Expression elbow_x = parameter("length_1") * cos(x.q[0]);
+          const Expression elbow_y = parameter("length_1") * sin(x.q[0]);
+          return {{"elbow_x", "m", elbow_x},
+                  {"elbow_y", "m", elbow_y},
+                  {"tip_x", "m", elbow_x + parameter("length_2") * cos(x.q[1])},
+                  {"tip_y", "m", elbow_y + parameter("length_2") * sin(x.q[1])},
+                  {"tau_1", "N m", x.u[0]},
+                  {"tau_2", "N m", x.u[1]}};
+        }};
   }
   [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"theta_1", "theta_2"}; }
   [[nodiscard]] std::vector<std::string> control_names() const override { return {"tau_1", "tau_2"}; }
@@ -82,17 +92,6 @@ class TwoLinkManipulator : public Problem {
   /// Rotations of the whole arm: ξ = (1, 1). Gravity breaks the symmetry, so its torque counts among the forces.
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& /*q*/) const override {
     return ExpressionVector{{1.0, 1.0}};
-  }
-
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    const Expression elbow_x = parameter("length_1") * cos(x.q[0]);
-    const Expression elbow_y = parameter("length_1") * sin(x.q[0]);
-    return {{"elbow_x", "m", elbow_x},
-            {"elbow_y", "m", elbow_y},
-            {"tip_x", "m", elbow_x + parameter("length_2") * cos(x.q[1])},
-            {"tip_y", "m", elbow_y + parameter("length_2") * sin(x.q[1])},
-            {"tau_1", "N m", x.u[0]},
-            {"tau_2", "N m", x.u[1]}};
   }
 };
 

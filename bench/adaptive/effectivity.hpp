@@ -22,6 +22,7 @@ struct MeasuredEffectivity {
   std::optional<double> relative = std::nullopt;
   std::string verdict = {};  ///< "measured"; "floor" where the true error is not far above rounding
 
+  /// Estimated error / true error; none where either is missing or the true error is 0.
   [[nodiscard]] std::optional<double> effectivity() const {
     return estimated && true_error && *true_error > 0.0 ? std::optional(*estimated / *true_error) : std::nullopt;
   }
@@ -33,6 +34,7 @@ struct MeasuredEffectivity {
                                                                    const std::string& method, int stages,
                                                                    const SolverOptions& options);
 
+/// The columns of the table.
 [[nodiscard]] Columns<MeasuredEffectivity> effectivity_columns();
 
 }  // namespace dmocbench

@@ -46,6 +46,7 @@ struct StepOfGrid {
 [[nodiscard]] NeededGrid needed_uniform(const CertifiedProblem& certified, const Scheme& scheme, double accuracy,
                                         const SolverOptions& options);
 
+// The columns of their tables.
 [[nodiscard]] Columns<NeededGrid> needed_columns();
 [[nodiscard]] Columns<StepOfGrid> step_columns();
 

@@ -33,6 +33,7 @@ inline constexpr const char* orbit = "orbital_transfer";
 inline constexpr const char* two_link = "two_link_manipulator";
 inline constexpr const char* oscillator = "forced_oscillator";
 
+/// The problems that a claim is about, each judged by itself.
 using Problems = std::vector<std::string>;
 inline const Problems of_paper{orbit, two_link};
 inline const Problems only_orbit{orbit};
@@ -128,6 +129,7 @@ struct JudgedClaim {
 
 // The claims by topic, each topic's predicates and the numbers that decide in one file.
 
+/// Claims of one topic.
 using Claims = std::vector<Claim>;
 [[nodiscard]] Claims solution_claims();           ///< momentum-force consistency, methods with equal solutions
 [[nodiscard]] Claims coincidence_claims();        ///< where tangent-space collocation has the solutions of DMOC
@@ -162,6 +164,7 @@ using Claims = std::vector<Claim>;
 /// A fitted order may miss its order by this much.
 inline constexpr double near_order = 0.3;
 
+/// The verdict on a statement: `reproduced` if it holds, otherwise `differs`.
 [[nodiscard]] inline ClaimVerdict verdict_on(ClaimVerdict verdict) { return verdict; }
 [[nodiscard]] inline ClaimVerdict verdict_on(bool holds) {
   return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
@@ -199,6 +202,7 @@ using Texts = std::vector<std::pair<std::string, std::string>>;
 /// there.
 [[nodiscard]] std::string unsolved_behind(const ResultTables& tables, std::string_view table, const Texts& wanted);
 
+/// Whether a row is of the midpoint rule.
 [[nodiscard]] inline bool is_midpoint(const Row& row) {
   return row.text("tableau") == "gauss" && row.text("stages") == "1";
 }

@@ -53,7 +53,7 @@ void check(const Table& table, const DeclaredTable& declared) {
   }
 }
 
-/// The content of a file that is a file: nobody waits for a pipe.
+/// Reads a regular file; pipes are refused because they could block.
 std::string content_of(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown))

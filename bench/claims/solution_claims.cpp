@@ -87,9 +87,7 @@ Finding momentum_consistency(const ResultTables& tables, const std::string& prob
                           "solved to {}: {}", balance.dmoc.front().text("tolerance"), balance.in_words());
   if (others.empty()) return finding;
   return std::move(finding).because(
-      "the balance is an equation of the program, kept as exactly as it is solved: largest "
-      "defects " +
-      others);
+      "the balance is an equation of the program, kept as exactly as it is solved: largest defects " + others);
 }
 
 bool is_answer_of_dmoc(const Row& row) {

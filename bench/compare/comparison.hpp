@@ -12,6 +12,7 @@
 
 namespace dmocbench {
 
+/// How the second of two samples of times compares with the first.
 enum class SpeedVerdict : std::uint8_t {
   faster,               ///< beyond noise, and the ratio of medians reaches the threshold
   slower,               ///< the same in the other direction

@@ -127,7 +127,7 @@ void CaseBatch::solve(std::span<BatchedCase> cases) {
   const auto take = [&](std::size_t index, const Solution& solution) { taken[index]->solution = solution; };
   try {
     solve_batch(*program_, lanes_of(*program_), sample(*program_, guessed_motion(*program_)), next, take, options);
-  } catch (const Error&) {  // it says what a batch lacks; no case minds
+  } catch (const Error&) {  // the program does not fit a batch; its cases are solved one by one
     is_refused_ = true;
     for (BatchedCase* const one : taken) one->solution.reset();
   }

@@ -32,7 +32,7 @@ struct BatchedCase {
 class CaseBatch {
  public:
   /// Whether a case asks for what batches have: `interior_point` as it is, exact derivatives, the Bolza form, no limit
-  /// of time, no trace of iterations. Whether its program fits, `solve` finds out.
+  /// of time, no trace of iterations. `solve` checks whether the program fits.
   [[nodiscard]] static bool takes(const Case& the_case, const SolverOptions& options);
   /// Whether two cases differ in nothing but starts, parameters and ends.
   [[nodiscard]] static bool share_program(const Case& a, const Case& b);

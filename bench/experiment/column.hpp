@@ -18,7 +18,7 @@
 
 namespace dmocbench {
 
-/// What a column holds whose getter returns a `Value`: nobody knows it of a `Cell`.
+/// The field type for getters that return `Value`; unknown for `Cell`.
 template <class Value>
 [[nodiscard]] constexpr FieldType field_type() {
   if constexpr (std::same_as<Value, bool>) {

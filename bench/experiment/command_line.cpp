@@ -32,14 +32,14 @@ CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const st
 }
 
 int report_error(const std::string& name, std::string sentence) {
-  // One line that no terminal obeys, whatever was typed.
+  // One line without control characters, whatever was typed.
   std::ranges::replace_if(
       sentence, [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
   fmt::print(stderr, "{}: {}\n", name, sentence);
   return 2;
 }
 
-/// What std::thread says where the system gives it no more.
+/// True for the error of std::thread when the system has no more threads.
 bool is_out_of_threads(const std::exception& error) noexcept {
   const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
   return of_system != nullptr && of_system->code() == std::errc::resource_unavailable_try_again;

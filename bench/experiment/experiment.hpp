@@ -18,15 +18,15 @@ struct ExperimentCard {
   std::string description;                 ///< in `--help`
   ExperimentOptions options;               ///< the defaults; then the choice of the user
   bool tells_branches = true;              ///< rows tell whether they are on the branch of their start
-  bool tells_branches_from_guess = false;  ///< also where solves start at the guess: methods are compared there, by
-                                           ///< rows on one branch alone, so that a common start is looked for
+  bool tells_branches_from_guess = false;  ///< also where solves start at the guess: methods are compared by rows of
+                                           ///< one branch, which needs a common start
   bool problems_are_independent = false;   ///< rows of one problem need nothing of another's: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
   bool compares_tolerances = false;  ///< several tolerances make several cases: --tolerances is offered
   bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
   bool takes_costates = false;       ///< a start from a file brings its costates as start multipliers
-  bool cases_stand_alone = false;    ///< what is wrong with the first case is wrong with that one alone
+  bool cases_stand_alone = false;    ///< an error in the first case is no reason to give up the others
   bool takes_batches = false;        ///< cases of one program may be solved side by side, without times: --batch is
                                      ///< offered; `solver_for`, `solved_first` and `solved_once` are those above
   bool takes_parts = true;           ///< --part is offered: `finish` needs nothing of solves but rows and findings

@@ -43,7 +43,7 @@ Eigen::MatrixXd matrix_of(const Json& columns) {
   return matrix;
 }
 
-/// Of a file without its own entry: a digit that is damaged shows, also where no equation asks for it.
+/// Checksum of a file without the entry `checksum`. It finds damaged digits, also those that no equation uses.
 std::uint32_t checksum_of(Json file) {
   file.erase("checksum");
   return crc_32(file.dump());
@@ -235,10 +235,9 @@ std::vector<std::string> IndirectReference::notes() const {
   for (const auto& [problem, account] : accounts.items()) {
     const double digits = account.at("metadata").at("certified_digits");
     if (digits >= wanted_digits) continue;
-    notes.push_back(
-        fmt::format("{}: the indirect reference is certified to {:.1f} digits only; smaller relative "
-                    "errors say nothing",
-                    problem, digits));
+    notes.push_back(fmt::format(
+        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors say nothing", problem,
+        digits));
   }
   return notes;
 }

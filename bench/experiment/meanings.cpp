@@ -68,7 +68,7 @@ DeclaredColumn declaration_of(const std::string& column, const Json& of_file, co
   return declared(column, meaning_of(column, of_file, rows), type_of(column, of_file, rows));
 }
 
-/// Of the fields of a column: nothing but null is said of those that nobody has declared.
+/// Adds the type of a column's fields. Undeclared columns may hold numbers, texts and null.
 void add_type(FieldType type, Json& property) {
   if (type.kind == FieldKind::boolean) {
     property["enum"] = {0, 1};

@@ -55,13 +55,6 @@ class RestatedProblem final : public Problem {
     return bounds;
   }
   [[nodiscard]] std::string settings() const override { return base_->settings(); }
-  [[nodiscard]] std::vector<std::string> path_constraint_names() const override {
-    return base_->path_constraint_names();
-  }
-  /// Those of the problem.
-  [[nodiscard]] std::vector<std::string> boundary_condition_names() const override {
-    return base_->boundary_condition_names();
-  }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return base_->path_constraints(x);
   }
@@ -82,9 +75,6 @@ class RestatedProblem final : public Problem {
   [[nodiscard]] double cost_scale() const override { return changes_.cost_scale.value_or(base_->cost_scale()); }
   [[nodiscard]] std::optional<ExpressionVector> symmetry(const ExpressionVector& q) const override {
     return base_->symmetry(q);
-  }
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return base_->picture(x);
   }
   /// The base's, with a straight line between the displacements of both ends added to q.
   [[nodiscard]] MotionPoint guess(double t) const override {

@@ -9,8 +9,8 @@
 
 namespace dmocbench {
 
-/// A folder for results, parents included; what it had to make and nothing was written to is gone when its time is
-/// over.
+/// A folder for results. It makes missing folders, parents included, and its destructor removes those that are still
+/// empty.
 class OutputFolder {
  public:
   /// Makes the folder and checks that files can be written there. Removes what programs that were killed on this

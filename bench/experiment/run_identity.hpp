@@ -10,12 +10,10 @@
 
 namespace dmocbench {
 
-/// What two parts have to agree in to be parts of the same run: program, compiler, instruction set,
-/// libraries (those of problems by name and checksum), parameters of the problems, options (those apart that say where
-/// and how fast: --out, --name, --jobs,
-/// --library, --verbose, and those of parts), the cases, and the file that solves start from. `metadata` are those of
-/// the run
-/// (`describe_run`), `options` the names and values of the command line.
+/// What two parts must have in common to be parts of the same run: program, compiler, instruction set, libraries
+/// (those of problems by name and checksum), parameters of the problems, options (except those that say where and how
+/// fast: --out, --name, --jobs, --library, --verbose, and those of parts), the cases, and the file that solves start
+/// from. `metadata` describes the run (`describe_run`), `options` are names and values of the command line.
 [[nodiscard]] nlohmann::ordered_json identity_of(const ExperimentCard& card, const std::vector<Case>& cases,
                                                  const nlohmann::ordered_json& metadata,
                                                  const std::vector<std::pair<std::string, std::string>>& options);

@@ -302,7 +302,7 @@ bool is_discrete_optimum(const SolvedCase& solved) {
 bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
 
 void note_stop(SolvedCase& solved, const std::string& what) {
-  if (is_solved(solved.solution.status)) solved.note(what + ", for the time given was up.");
+  if (is_solved(solved.solution.status)) solved.note(what + ": the time limit was reached.");
 }
 
 std::optional<ReplayError> replay(SolvedCase& solved) {

@@ -16,7 +16,7 @@ class PicturePlane {
       : name_(problem.name()),
         function_(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
           if (shows_configurations) return ExpressionVector(x.q.head(2));
-          const std::vector<PictureQuantity> all = problem.picture(x);
+          const Picture all = pictured_quantities(problem, x);
           return ExpressionVector{{all.at(0).value, all.at(1).value}};
         }) {}
 

@@ -9,8 +9,8 @@
 
 namespace dmocbench {
 
-/// A point of the picture of a plan: where in the plane of the first two quantities of `Problem::picture`, or of q_1
-/// and q_2 (`RoadmapSystem::shows_configurations`).
+/// A point of the picture of a plan: where in the plane of the first two quantities of `ProblemCard::picture`, or of
+/// q_1 and q_2 (`RoadmapSystem::shows_configurations`).
 struct PicturePoint {
   std::string problem;
   std::string part;  ///< "node" of the roadmap, "joint" of the path, or the motion "before" or "after" the full solve

@@ -20,7 +20,7 @@ struct RoadmapSystem {
   BuildRoadmap build;
   int intervals = 64;  ///< of the full solve
   int stages = 2;      ///< of its Gauss tableau
-  /// Its picture is the plane of q_1 and q_2, not that of the first two quantities of `Problem::picture`.
+  /// Its picture is the plane of q_1 and q_2, not that of the first two quantities of `ProblemCard::picture`.
   bool shows_configurations = false;
 };
 

@@ -163,7 +163,8 @@ StoredRoadmap hovercraft_roadmap(const Problem& problem, const PrimitiveOptions&
   // Without thrust the linearised hovercraft moves sideways only as far as it turns: starts need some.
   PrimitiveOptions with_thrust = options;
   with_thrust.start_control = Eigen::Vector2d(0.3, 0.0);
-  // The stern pushes sideways where it turns: how far that leads, the mean velocity does not tell.
+  // A force at the stern that turns the hovercraft also pushes it sideways. The mean velocity does not determine this
+  // sideways displacement.
   const std::vector<ManeuverRange> ranges{{.quarters = 0, .durations = {3, 4, 5}, .offsets = {-1, 0, 1}},
                                           {.quarters = 1, .durations = {5, 6, 7}, .offsets = {-6, -4, -2, 0, 2, 4, 6}}};
   solve_primitives(problem, plane_requests(lattice, ranges), library, with_thrust);

@@ -60,8 +60,8 @@ std::string claims_section_of(const ComparedRun& first, const ComparedRun& secon
     if (!before.contains(name)) alone.push_back(name + " (B)");
   }
   std::string html = fmt::format(
-      "<section id=\"claims\"><h2>Claims</h2>\n<p>{} another verdict, {} the same one, {} in one "
-      "of the runs only.</p>\n",
+      "<section id=\"claims\"><h2>Claims</h2>\n<p>{} another verdict, {} the same one, "
+      "{} in one of the runs only.</p>\n",
       counted(changed.size(), "claim has", "claims have"), counted(same, "has", "have"),
       counted(alone.size(), "is", "are"));
   if (!changed.empty()) {

@@ -18,7 +18,7 @@ using TablesBySuffix = std::vector<std::pair<std::string, Table>>;
 
 /// A program of Google Benchmark that can write its results as tables.
 struct BenchmarkProgram {
-  std::string name;
+  std::string name;            ///< of the binary
   std::string description;     ///< a sentence
   std::string csv;             ///< what `--csv` writes, for `--help`
   std::string default_filter;  ///< of the benchmarks that run without flags; a "-" in front excludes

@@ -54,18 +54,20 @@ using ArithmeticLoop = double (*)(std::size_t turns);
 /// a_i = b_i + factor c_i. The arrays must not overlap.
 using TriadLoop = void (*)(std::size_t size, double* a, const double* b, const double* c, double factor);
 
+/// The loops that are compiled once per instruction set.
 struct Kernels {
-  HandFunctions orbital_transfer;
-  HandFunctions two_link_manipulator;
-  ArithmeticLoop arithmetic;
-  std::size_t operations_of_a_turn;  ///< of `arithmetic`; a fused multiplication and addition are two
-  TriadLoop triad;
+  HandFunctions orbital_transfer;      ///< formulas of the problem, written by hand
+  HandFunctions two_link_manipulator;  ///< the same
+  ArithmeticLoop arithmetic;           ///< the largest rate of operations
+  std::size_t operations_of_a_turn;    ///< of `arithmetic`; a fused multiplication and addition are two
+  TriadLoop triad;                     ///< the largest rate of bytes
 };
 
 /// Those that were compiled for this set, or for the widest one below it.
 [[nodiscard]] Kernels kernels_of(InstructionSet set);
 
 #ifdef DMOCBENCH_KERNELS
+// The definitions for one instruction set, which gives the namespace its name.
 namespace DMOCBENCH_KERNELS {
 [[nodiscard]] HandFunctions orbital_transfer();
 [[nodiscard]] HandFunctions two_link_manipulator();

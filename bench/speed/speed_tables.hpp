@@ -9,11 +9,11 @@
 namespace dmocbench::speed {
 
 // Counters of the program `speed`.
-inline constexpr const char* ns_per_interval = "ns_per_interval";
-inline constexpr const char* operations_per_interval = "operations";
-inline constexpr const char* bytes_per_interval = "bytes";
-inline constexpr const char* operations_per_second = "operations_per_second";
-inline constexpr const char* bytes_per_second = "bytes_per_second";
+inline constexpr const char* ns_per_interval = "ns_per_interval";              ///< time
+inline constexpr const char* operations_per_interval = "operations";           ///< of floating point, per interval
+inline constexpr const char* bytes_per_interval = "bytes";                     ///< read and written per interval
+inline constexpr const char* operations_per_second = "operations_per_second";  ///< of the machine
+inline constexpr const char* bytes_per_second = "bytes_per_second";            ///< of the machine
 
 /// The row of a benchmark: what its label tells, each word in its column, and the medians of these counters.
 [[nodiscard]] Row row_of(const Benchmark& benchmark, const std::vector<std::string>& counters = {});

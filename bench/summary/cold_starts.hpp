@@ -24,6 +24,7 @@ namespace dmocbench {
 /// the mean of the problems' shares, where there are several.
 [[nodiscard]] Table cold_start_profiles(const Selection& rows);
 
+/// In the column `problem`: the mean over all problems.
 inline constexpr const char* every_problem = "every_problem";
 
 }  // namespace dmocbench

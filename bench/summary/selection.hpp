@@ -24,6 +24,7 @@ using ColumnNames = std::vector<std::string>;
 /// A selection points into its table, which must outlive it. Fields are compared as the texts that stand in a file.
 class Selection {
  public:
+  /// No rows.
   Selection() = default;
   /// All rows; implicit, so that whatever reads rows takes a table as well.
   Selection(const Table& table) : rows_(table.rows().begin(), table.rows().end()) {}

@@ -28,6 +28,7 @@ struct SweptQuantity {
 /// name occurs twice, or there are more than `most_instances`.
 [[nodiscard]] std::vector<std::vector<double>> instances_of(const std::vector<SweptQuantity>& quantities,
                                                             std::optional<long long> samples, std::uint64_t seed);
+/// The largest number of instances of a sweep.
 inline constexpr long long most_instances = 100000;
 
 /// Throws `Error` unless a problem has all these quantities: no such parameter, no such entry of an end state, or one

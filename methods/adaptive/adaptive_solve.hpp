@@ -37,7 +37,7 @@ struct AdaptiveOptions {
   std::string solver = "interior_point";  ///< as `make_solver` takes it
   SolverOptions solver_options;           ///< of every solve, but for the tolerance
 
-  /// What solves are given instead of a tolerance: a hundredth of `accuracy` if that is less, but not below 1e-12.
+  /// The tolerance of the solves: `tolerance`, or a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;
 
   /// The accuracies that may be asked for: doubles have 16 digits.
@@ -94,10 +94,9 @@ struct AdaptiveTask {
 ///
 /// The next grid is `graded_grid` of `equidistributed_widths`, for nine tenths of the accuracy asked for; it has at
 /// most four times as many intervals. Solves begin at the motion on the grid before, with the multipliers that belong
-/// to its costates
-/// (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are fewer than three
-/// stages and the next grid would have more than twice as many intervals, the number of stages grows by one instead, on
-/// as many intervals as before.
+/// to its costates (`sample_multipliers`), and without these where that fails. With `Refinement::hp`, while there are
+/// fewer than three stages and the next grid would have more than twice as many intervals, the number of stages grows
+/// by one instead, on as many intervals as before.
 ///
 /// It ends as `rounding` where the floor of an estimate is above the accuracy, or the next grid's would be. It stops
 /// where a program is not solved (`solution` says why). `on_grid` is told of every grid. Throws `Stopped` where a

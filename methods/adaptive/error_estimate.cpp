@@ -15,11 +15,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// What is so much smaller than the sizes around it is rounding.
+/// A share of a quantity's size below which a difference is rounding.
 constexpr double rounding_share = 1e-8;
 
-/// By what differences of a quantity over the nodes count: its range, its size where it is constant, 1 where it
-/// vanishes.
+/// The scale of a quantity's differences: its range, its size if constant, 1 if zero.
 double scale_of(const Eigen::MatrixXd& nodes) {
   const double size = nodes.lpNorm<Eigen::Infinity>();
   const double range = (nodes.colwise().maxCoeff() - nodes.colwise().minCoeff()).norm();

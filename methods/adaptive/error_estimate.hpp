@@ -19,8 +19,8 @@ struct ErrorEstimate {
   /// norm of the differences between the largest and the smallest value of each component; a q or p that is constant
   /// but for rounding counts by its size, or 1.
   double relative = 0.0;
-  /// What rounding of positions leaves of the momenta, ε max|q| max|L_vv| / h with the narrowest interval, over the
-  /// range of p: no estimate below it says anything.
+  /// Relative rounding error of the momenta; a smaller estimate means nothing. It is ε max|q| max|L_vv| / h, with h of
+  /// the narrowest interval, over the range of p.
   double floor = 0.0;
   /// Per interval how far the optimal flow, started at its first node, misses the next one: the largest of state and
   /// costate, each relative to its range. Of order h^(r + 1) for a method of order r.
@@ -40,8 +40,8 @@ struct ErrorEstimate {
 ///    and tableau.
 /// 2. Global: the optimum satisfies the program's conditions of optimality if interval k sees its last node moved back
 ///    by these misses. To first order the error is therefore one more linear solve with the matrix of a Newton step at
-///    the answer; the right-hand side is that matrix, interval by interval, times the misses. What the solver has left
-///    of the conditions shows in the misses.
+///    the answer; the right-hand side is that matrix, interval by interval, times the misses. Residuals that the
+///    solver left are part of the misses.
 /// 3. The cost: to first order J* - J = Σ_k (∫ C dt along the replayed interval - its discrete cost + ψ_{k+1}·δx_k).
 ///    Where the cost is flat, the second order is larger: with the errors e of state and costate at the nodes,
 ///    ½ Σ_k [e^ψ_{k+1}·δx_k - δψ_k·(e^x_{k+1} - δx_k)], half the derivative of the Lagrangian along the error.

@@ -38,7 +38,7 @@ class ExtremalFlow {
   };
   /// Carries rows 0 to N - 1 of `nodes` (N + 1 rows) through the intervals of a motion, by an adaptive method of order
   /// 7(8) that takes the same relative steps in all of them; the controls of the motion begin Newton's method for H_u =
-  /// 0. Nothing that is not finite is hidden: where an interval cannot be carried, all of its row is NaN.
+  /// 0. If an interval cannot be carried, all of its row is NaN.
   [[nodiscard]] Carried carry(const ExtremalStates& nodes, const Trajectory& motion, double tolerance);
 
  private:
@@ -70,7 +70,7 @@ class ExtremalCoordinates {
   /// Scaled by the sizes of a problem whose cost solvers see times `cost_scale`.
   ExtremalCoordinates(const TracedProblem& problem, double cost_scale);
 
-  /// The nodes of a motion with costates, which those of `ExtremalStates` are times the cost scale.
+  /// The nodes of a motion with costates; `ExtremalStates` holds these times the cost scale.
   [[nodiscard]] ExtremalStates of_nodes(const Trajectory& motion);
 
   /// (q, p, ψ^q, ψ^p), a row per point; costates times the cost scale.

@@ -17,7 +17,7 @@ struct PiecewiseLinear {
   Eigen::VectorXd value;
 };
 
-/// The wishes at the middle of every interval, and their geometric mean at the nodes.
+/// `wished` at the middle of every interval, and the geometric mean of neighbours at the nodes.
 PiecewiseLinear continuous(const Grid& grid, const Eigen::VectorXd& wished) {
   const Eigen::Index intervals = wished.size();
   const Eigen::VectorXd& nodes = grid.relative_times();

@@ -6,14 +6,13 @@
 
 namespace dmocbench {
 
-/// The grid whose steps follow wished ones: `wished` holds a relative width per interval of `grid`, and the new grid
-/// has about as many intervals there as that asks for.
+/// A grid whose relative widths follow `wished`, one per interval of `grid`.
 ///
 /// No step is more than `largest_ratio` (> 1) times as wide as its neighbour: with the number ξ of a node as a
 /// continuous variable, dτ/dξ = s(τ), and |ds/dτ| <= ln(largest_ratio) keeps s(τ(ξ + 1)) <= largest_ratio s(τ(ξ)). The
-/// s used is the largest one below the wishes that has this slope, made smaller by a common factor so that the number
-/// of intervals is whole. Widths below twice `Grid::narrowest` are raised to that. Throws `Error` if more than
-/// Grid::most_intervals are asked for, or a wish is not positive.
+/// s used is the largest one below the wished widths that keeps this bound, made smaller by a common factor so that the
+/// number of intervals is whole. Widths below twice `Grid::narrowest` are raised to that. Throws `Error` if more than
+/// Grid::most_intervals are asked for, or an entry of `wished` is not positive.
 [[nodiscard]] Grid graded_grid(const Grid& grid, const Eigen::VectorXd& wished, double largest_ratio);
 
 /// Widths that spread defects evenly.

@@ -35,8 +35,8 @@ struct Accuracy {
 /// See `accuracy`.
 inline constexpr double smallest_range = 1e-8;
 
-/// The largest `Accuracy::relative_jump` of an answer that is a motion. Beyond it the discrete program is solved, but
-/// its answer lives on errors of the grid: it is `Status::too_coarse`.
+/// The largest `Accuracy::relative_jump` of an answer that is a motion. Above it the discrete program is solved, but
+/// discretisation errors dominate its answer: it is `Status::too_coarse`.
 inline constexpr double largest_jump_of_a_motion = 0.05;
 
 }  // namespace dmocbench

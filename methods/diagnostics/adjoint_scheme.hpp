@@ -28,8 +28,7 @@ struct AdjointResidual {
   double stage_q = 0.0;  ///< Ψ^q_i - ψ^q_k - h Σ ā^q_ij φ^q_j (eq:stateco7)
   double stage_p = 0.0;  ///< Ψ^p_i - ψ^p_k - h Σ ā^p_ij φ^p_j (eq:stateco8)
   /// H_u = C_u + f_uᵀΨ^p_i (eq:DMOC_adjoint5) relative to the largest |C_u|, or to the largest |ψ^p| where C does not
-  /// depend on u; none where intervals share controls, which
-  /// are then stationary for the sum of two stages only.
+  /// depend on u; none where intervals share controls, which are then stationary for the sum of two stages only.
   std::optional<double> control;
 
   /// The largest of all entries.

@@ -26,8 +26,8 @@ enum class StepRule : std::uint8_t {
 ///
 /// In the variational rule the steps and times of the discrete path are varied together with its configurations
 /// (`ExtendedAction`). Per interval, with ∂_x = ∂(A + λ c)/∂x + W[x],
-///   0 = p_k + ∂_{q_k},   0 = ∂_{Q̇_j},   0 = c,   -E_k = ∂_h - ∂_{t_k},   p_{k+1} = ∂_{q_{k+1}},   -E_{k+1} = -E_k +
-///   ∂_{t_k} = ∂_h.
+///   0 = p_k + ∂_{q_k},   0 = ∂_{Q̇_j},   0 = c,   -E_k = ∂_h - ∂_{t_k},   p_{k+1} = ∂_{q_{k+1}},
+///   -E_{k+1} = -E_k + ∂_{t_k} = ∂_h.
 /// -E is the momentum of time: E begins as the energy and changes by the work. λ is the discrete energy less E, which
 /// is 0 along exact motions. Without forces this is a variational integrator of the extended Hamiltonian σ (H - E), the
 /// Poincaré transform, in the time τ with dt = σ dτ: (q, t, p, -E) ↦ (q, t, p, -E) is symplectic. Where σ is invariant

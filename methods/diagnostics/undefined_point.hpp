@@ -20,7 +20,8 @@ struct UndefinedPoint {
 
 /// The first of eight points in every interval, evenly spaced between its nodes, where L, f, C, h or a first derivative
 /// of theirs is not a number on the element's polynomial of q and the stage polynomial of u. A program evaluates
-/// derivatives at stages alone, and may step over a singularity: such an answer is none.
+/// derivatives at stages alone, and may step over a singularity: an answer with such a point is no solution of the
+/// problem.
 [[nodiscard]] std::optional<UndefinedPoint> undefined_point(const Problem& problem, const Trajectory& trajectory);
 
 }  // namespace dmocbench

@@ -28,11 +28,11 @@ class Expression {  // NOLINT(cppcoreguidelines-special-member-functions): one a
   Expression();
   /// The constant `value`.
   Expression(double value);  // NOLINT(google-explicit-constructor,hicpp-explicit-conversions): 2.0 * x must read so
-  /// The same number, not a copy of what is behind it.
+  /// Refers to the same node; no node is copied.
   Expression(const Expression& other) noexcept : node_(other.node_) {
     if (node_ != nullptr) node_->gain_reader();
   }
-  /// Takes the other's number; that one may only be assigned to or destroyed.
+  /// Takes the other's node; the other may then only be assigned to or destroyed.
   Expression(Expression&& other) noexcept : node_(std::exchange(other.node_, nullptr)) {}
   /// Stands for the other's number from now on.
   Expression& operator=(Expression other) noexcept {

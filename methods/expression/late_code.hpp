@@ -11,30 +11,29 @@
 
 namespace dmocbench {
 
-/// The machine code of a tape, from the moment on when it is worth its making.
+/// Machine code of a tape, made once enough evaluations repay it.
 ///
 /// All threads that evaluate the tape share this: the one whose evaluation reaches the number of intervals makes the
 /// code, while the others go on without.
 class LateCode {
  public:
-  /// Operations that a tape has at most for which code is made. Code that is longer than the first-level cache is worth
-  /// less and less, and what it was made of would fill the memory.
+  /// Longer tapes stay interpreted: their code would not fit the first-level cache, and to make it takes much memory.
   static constexpr std::size_t most_operations = 16384;
 
-  /// After how many intervals code for so many operations is made: as many as it needs from then on to save the time of
-  /// its making, and half as many more, so that short solves are over before. Both times are
-  /// about proportional to the number of operations, the making beside a fixed time for memory from the system;
-  /// `build/bench/speed/speed --benchmark_filter="making|separate"` tells them.
+  /// Intervals evaluated before code is made: half as many again as repay it, so that short solves never make any. The
+  /// time saved per interval is about proportional to the number of operations; so is the time to make the code, beside
+  /// a fixed time for memory from the system. `build/bench/speed/speed --benchmark_filter="making|separate"` measures
+  /// both.
   [[nodiscard]] static constexpr std::uint64_t worthwhile_intervals(std::size_t operations) noexcept {
     return 10'000 + 600'000 / static_cast<std::uint64_t>(operations);
   }
 
-  /// Code for a schedule and the series of its tape, after so many intervals; at once if they are none.
+  /// Code for a schedule and the series of its tape, made after `intervals` intervals; at once if that is 0.
   LateCode(Schedule schedule, TapeSeries series, InstructionSet set, std::uint64_t intervals);
 
   /// The code, if there is any yet.
   [[nodiscard]] const NativeCode* get() const noexcept { return ready_.load(std::memory_order_acquire); }
-  /// The same, where so many further intervals are about to be evaluated: now is the time to make it if that is enough.
+  /// The same before `intervals` further intervals: counts them, and makes the code if the threshold is reached.
   [[nodiscard]] const NativeCode* get_for(std::size_t intervals);
 
  private:

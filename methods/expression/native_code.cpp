@@ -164,7 +164,7 @@ class StageWriter : public Xbyak::CodeGenerator {
     }
   }
 
-  /// A register; of a place in memory it says nothing.
+  /// The register of an operand; any register if the operand is in memory.
   [[nodiscard]] Xbyak::Xmm vector(const OperandPlace& place) const {
     const bool is_register = place.kind == OperandPlace::Kind::in_register;
     return {registers_.kind, is_register ? static_cast<int>(place.number) : 0};

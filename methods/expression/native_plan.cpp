@@ -57,7 +57,7 @@ class Planner {
   static constexpr std::uint32_t unplanned = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t extra_values = 2;
 
-  // Constants that no formula has, but machine code.
+  // Constants that machine code needs in addition to those of the formulas.
   [[nodiscard]] std::uint32_t minus_zero() const { return static_cast<std::uint32_t>(steps_.size()); }
   [[nodiscard]] std::uint32_t one() const { return minus_zero() + 1; }
 

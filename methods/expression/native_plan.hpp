@@ -13,7 +13,7 @@ namespace dmocbench {
 /// What machine code does with vectors: arithmetic, and copying a value to a series.
 enum class VectorOperation : std::uint8_t { add, subtract, multiply, divide, square_root, exclusive_or, copy };
 
-/// One of them. Operands are values of a `NativePlan`; the second one of a square root or a copy says nothing.
+/// One of them. Operands are values of a `NativePlan`; a square root or a copy does not use the second one.
 struct VectorStep {
   VectorOperation operation = VectorOperation::add;  ///< what is computed
   std::uint32_t result = 0;                          ///< the new value; of a copy the series that gets it
@@ -32,7 +32,7 @@ struct NativeStage {
   std::vector<TapeInstruction> functions;  ///< sin, exp, ...: left to the kernel of the tape, series by series
 };
 
-/// Which series of a tape's table hold what.
+/// The parts of a tape's table of series.
 struct TapeSeries {
   std::vector<std::uint32_t> of_steps;  ///< those of constants and inputs, by their steps; nothing for other steps
   std::uint32_t first_output = 0;       ///< that of the first output, before those of the others
@@ -42,7 +42,7 @@ struct TapeSeries {
 /// A schedule as stages: a function is carried out as soon as what it reads can be known, everything else as late as
 /// possible, so that few values pass from stage to stage. Those that do have a series of their own.
 struct NativePlan {
-  /// Where a value is found that is in no register.
+  /// Where a value is stored outside registers.
   struct Home {
     std::optional<double> constant;       ///< its value, if it is a constant
     std::optional<std::uint32_t> series;  ///< of inputs, of results of functions and of what has been stored

@@ -45,7 +45,7 @@ class Node {
   [[nodiscard]] std::size_t index() const noexcept { return key_.index; }
   /// Null where the operation has fewer.
   [[nodiscard]] Node* operand(std::size_t which) const noexcept { return key_.operands[which]; }
-  /// What tells it from all others.
+  /// Its identity: no other node has this key.
   [[nodiscard]] const NodeKey& key() const noexcept { return key_; }
   /// Order of creation: operands come before the nodes that read them.
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }

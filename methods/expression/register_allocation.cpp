@@ -66,7 +66,7 @@ class RegisterAllocator {
 
   void compute(VectorStep step, NextReaders next) {
     const bool is_binary = operand_count(step.operation) > 1;
-    // The operand that is in memory and read no more is the right one, if it may be.
+    // An operand in memory that is not read again becomes the right one, if the operation commutes.
     if (is_binary && commutes(step.operation) && !is_loaded(step.left) &&
         (is_loaded(step.right) || next.of_left == never)) {
       std::swap(step.left, step.right);
@@ -83,7 +83,7 @@ class RegisterAllocator {
     const OperandPlace result = free_register({never, never});
     give(step.result, result.number);
     emit({step.operation, result, left, right});
-    // Not before: a value that leaves its register for the result must not go where an operand still is.
+    // Only now: a value that is stored to free a register for the result must not overwrite an operand.
     free_stack_place_of_dead(step.left);
     if (is_binary) free_stack_place_of_dead(step.right);
   }

@@ -8,12 +8,12 @@ namespace dmocbench {
 /// The answer of a solver that read a .nl file, in place of a solve of our own: it is judged as every answer is
 /// (`Solver::solve`).
 ///
-/// The other solver's word is kept unless our residual denies it. Multipliers that it did not write are estimated. Some
-/// solvers write multipliers with the other sign than AMPL asks for; that sign is taken which leaves the smaller
-/// residual.
+/// The other solver's status is kept unless our residual contradicts it. Multipliers that it did not write are
+/// estimated. Some solvers write multipliers with the opposite of the sign that AMPL prescribes; the sign with the
+/// smaller residual is taken.
 class AmplAnswer final : public Solver {
  public:
-  /// Gives this answer to whatever it is asked to solve.
+  /// Returns this answer for every program.
   explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});
 
   [[nodiscard]] std::string name() const override { return "ampl"; }

@@ -21,7 +21,7 @@ struct AmplSolution {
   /// Of the program that was solved, as the file says.
   Eigen::Index constraint_count = 0;
   int code = 0;  ///< AMPL's solve_result_num
-  /// The solver's own word by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,
+  /// The solver's status by that code: 0 solved, 100 acceptable, 200 infeasible, 300 diverged, 400 iteration limit,
   /// 500 solver error, each with the 99 above it.
   [[nodiscard]] Status status() const noexcept;
 };

@@ -120,10 +120,6 @@ ExpressionVector Problem::path_constraints(const ControlledState& /*x*/) const {
 
 ExpressionVector Problem::boundary_conditions(const State& /*first*/, const State& /*last*/) const { return {}; }
 
-std::vector<std::string> Problem::path_constraint_names() const { return {}; }
-
-std::vector<std::string> Problem::boundary_condition_names() const { return {}; }
-
 Expression Problem::final_cost(const State& /*last*/) const { return {}; }
 
 std::optional<ExpressionVector> Problem::symmetry(const ExpressionVector& /*q*/) const { return std::nullopt; }
@@ -135,18 +131,6 @@ MotionPoint Problem::guess(double t) const {
   return {.q = first.q + relative * (last.q - first.q),
           .v = (last.q - first.q) / horizon(),
           .u = Eigen::VectorXd::Zero(control_size())};
-}
-
-std::vector<PictureQuantity> Problem::picture(const ControlledState& x) const {
-  std::vector<PictureQuantity> quantities;
-  const auto add = [&](const std::vector<std::string>& names, const ExpressionVector& values) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      quantities.push_back({names[i], "", values[static_cast<Eigen::Index>(i)]});
-    }
-  };
-  add(configuration_names(), x.q);
-  add(control_names(), x.u);
-  return quantities;
 }
 
 double Problem::parameter(std::string_view name) const {
@@ -186,6 +170,19 @@ bool Problem::has_default_parameters(std::initializer_list<std::string_view> exc
     if (!excepted && parameters_[i].value != defaults_[i]) return false;
   }
   return true;
+}
+
+Picture pictured_quantities(const Problem& problem, const ControlledState& x) {
+  if (const auto picture = problem.card().picture) return picture(x);
+  Picture quantities;
+  const auto add = [&](const std::vector<std::string>& names, const ExpressionVector& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      quantities.push_back({names[i], "", values[static_cast<Eigen::Index>(i)]});
+    }
+  };
+  add(problem.configuration_names(), x.q);
+  add(problem.control_names(), x.u);
+  return quantities;
 }
 
 }  // namespace dmocbench

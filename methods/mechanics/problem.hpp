@@ -58,7 +58,7 @@ class Problem {
   /// what differs.) Default: throws `Error` that says how a class offers it, which takes one line:
   /// `std::unique_ptr<Problem> clone() const override { return copy_of(*this); }`.
   [[nodiscard]] virtual std::unique_ptr<Problem> clone() const;
-  /// Description, source, units and reference optimum, for people.
+  /// Description, source, units, reference optimum, names of constraints and a picture, for people.
   [[nodiscard]] virtual ProblemCard card() const { return {}; }
 
   /// Names of q_1 to q_n; they name the columns of result files.
@@ -90,10 +90,6 @@ class Problem {
   /// r(q(0), q̇(0), q(T), q̇(T)) = 0 (eq:LOCP5), (eq:gDLOCP6), periodicity among them: as many entries as there are
   /// conditions. `last.t` is T.
   [[nodiscard]] virtual ExpressionVector boundary_conditions(const State& first, const State& last) const;
-  /// What failed solves call the entries of `path_constraints` and `boundary_conditions`. Default: by their numbers.
-  [[nodiscard]] virtual std::vector<std::string> path_constraint_names() const;
-  /// Names of the entries of `boundary_conditions`, for messages.
-  [[nodiscard]] virtual std::vector<std::string> boundary_condition_names() const;
   /// The Mayer term Φ(q(T), q̇(T), T); `last.t` is T, so that `return last.t` asks for the shortest time.
   [[nodiscard]] virtual Expression final_cost(const State& last) const;
 
@@ -113,9 +109,6 @@ class Problem {
   /// words.
   [[nodiscard]] virtual MotionPoint guess(double t) const;
 
-  /// What a picture of the motion shows. Default: q and u by their names.
-  [[nodiscard]] virtual std::vector<PictureQuantity> picture(const ControlledState& x) const;
-
   [[nodiscard]] Eigen::Index configuration_size() const;  ///< n.
   [[nodiscard]] Eigen::Index control_size() const;        ///< m.
 
@@ -123,8 +116,8 @@ class Problem {
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
   /// The value of a parameter, as this thread sees it (`ParameterScope`). Throws `Error` if there is none of that name.
   [[nodiscard]] double parameter(std::string_view name) const;
-  /// A parameter as formulas read it that other values may be put into later: in a transcription that keeps it open an
-  /// input of the trace, elsewhere its value. Throws as `parameter`.
+  /// A parameter for use in formulas, so that its value may change later: an input of the trace in a transcription that
+  /// keeps it open, elsewhere its value. Throws as `parameter`.
   [[nodiscard]] Expression varying(std::string_view name) const;
   /// Sets a parameter. Throws `Error` if there is none of that name or the value is not allowed.
   void set_parameter(std::string_view name, double value);
@@ -155,5 +148,8 @@ class Problem {
   std::vector<Parameter> parameters_;
   std::vector<double> defaults_;
 };
+
+/// What a picture of the motion shows at a point: that of the problem's card; q and u by their names if it has none.
+[[nodiscard]] Picture pictured_quantities(const Problem& problem, const ControlledState& x);
 
 }  // namespace dmocbench

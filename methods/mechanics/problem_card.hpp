@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,17 @@ struct ReferenceOptimum {
   std::string remark = {};
 };
 
-/// Words, units and a reference for people who read about a problem. No solver uses them.
+/// A quantity that a picture of the motion shows, e.g. the position of a tip.
+struct PictureQuantity {
+  std::string name;  ///< a column's name, "tip_x"
+  std::string unit;  ///< "km", "" for a pure number
+  Expression value;  ///< as a formula of the state and the control
+};
+
+/// All that a picture of the motion shows.
+using Picture = std::vector<PictureQuantity>;
+
+/// Words, units, a reference and a picture for people who read about a problem. No solver uses them.
 struct ProblemCard {
   std::string description = {};  ///< one line
   std::string source = {};       ///< where the problem comes from
@@ -42,13 +53,13 @@ struct ProblemCard {
   Unit time_unit = {"s", 1.0};
   /// The least cost as far as it is known, for the parameters as they are set.
   std::optional<ReferenceOptimum> reference = {};
-};
-
-/// A quantity that a picture of the motion shows, e.g. the position of a tip.
-struct PictureQuantity {
-  std::string name;  ///< a column's name, "tip_x"
-  std::string unit;  ///< "km", "" for a pure number
-  Expression value;  ///< as a formula of the state and the control
+  /// What failed solves call the entries of `Problem::path_constraints`; by their numbers where there are no names.
+  std::vector<std::string> path_constraint_names = {};
+  /// The same for `Problem::boundary_conditions`.
+  std::vector<std::string> boundary_condition_names = {};
+  /// What a picture of the motion shows; q and u by their names where it is empty (`pictured_quantities`). It may read
+  /// the problem's parameters: the problem must outlive its use.
+  std::function<Picture(const ControlledState& x)> picture = {};
 };
 
 }  // namespace dmocbench

@@ -91,12 +91,15 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
   if (n_ == 0) throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
   require_names(problem);
   const Eigen::VectorXd values = parameter_values(problem);
+  const ProblemCard card = problem.card();  // before the trace: parameters that it reads are no constants of formulas
   const ParameterTrace parameters(problem, open_parameters);
   open_ = parameters.open();
   open_values_.resize(static_cast<Eigen::Index>(open_.size()));
   set_parameters(values);
   trace_formulas(problem);
   trace_ends(problem);
+  require_as_many_names(card.path_constraint_names, path_constraints_, problem, "path_constraint_names");
+  require_as_many_names(card.boundary_condition_names, boundary_conditions_, problem, "boundary_condition_names");
   are_constants_ = parameters.are_constants();
   const std::vector<bool> varying = parameters.are_varying();
   for (std::size_t i = 0; i < varying.size(); ++i) {
@@ -130,7 +133,6 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   formulas.push_back(problem.running_cost(point));
   const ExpressionVector path_constraints = problem.path_constraints(point);
   path_constraints_ = path_constraints.size();
-  require_as_many_names(problem.path_constraint_names(), path_constraints_, problem, "path_constraint_names");
   append(formulas, path_constraints);
   append(formulas, mass);
   append(formulas, jacobian(momentum, point.q));
@@ -154,7 +156,6 @@ void TracedProblem::trace_ends(const Problem& problem) {
   const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
   const ExpressionVector conditions = problem.boundary_conditions(first, last);
   boundary_conditions_ = conditions.size();
-  require_as_many_names(problem.boundary_condition_names(), boundary_conditions_, problem, "boundary_condition_names");
   std::vector<Expression> formulas;
   append(formulas, conditions);
   formulas.push_back(problem.final_cost(last));

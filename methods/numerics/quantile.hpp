@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// The number below which a share of sorted numbers lies, between two of them linearly; none of none.
+/// The quantile of sorted numbers at a share, interpolated linearly; none if there are no numbers.
 [[nodiscard]] inline std::optional<double> quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return std::nullopt;
   const double place = share * static_cast<double>(sorted.size() - 1);

@@ -12,8 +12,8 @@ namespace dmocbench {
 ///
 /// In tables of states row i is (q, v) of state i, 2n columns. The equation of the interval is solved by a fixed number
 /// of simplified Newton steps in formulas, to some eight digits where a step of the horizon is short: enough to find
-/// motions that DMOC then solves to rounding (`solve_primitives`). What leaves the domain of the formulas becomes not a
-/// number.
+/// motions that DMOC then solves to rounding (`solve_primitives`). States that leave the domain of the formulas become
+/// NaN.
 class DiscreteFlow {
  public:
   /// `h`: the step; backwards in time where it is negative, which undoes a step forwards.

@@ -43,9 +43,6 @@ class WithoutBounds final : public Problem {
     return base_.symmetry(q);
   }
   [[nodiscard]] MotionPoint guess(double t) const override { return base_.guess(t); }
-  [[nodiscard]] std::vector<PictureQuantity> picture(const ControlledState& x) const override {
-    return base_.picture(x);
-  }
 
  private:
   const Problem& base_;

@@ -4,7 +4,7 @@
 
 namespace dmocbench {
 
-/// Another program, which must outlive it, but for what a derived class overrides.
+/// Forwards every call to another program, which must outlive it. Derived classes override some of them.
 class ForwardingProgram : public NonlinearProgram {
  public:
   [[nodiscard]] std::size_t variable_count() const override { return original_.variable_count(); }

@@ -43,10 +43,10 @@ Eigen::VectorXd jacobian_at(NonlinearProgram& program, const Eigen::VectorXd& pr
                    [&](Eigen::VectorXd& values) { program.jacobian(primal, values); });
 }
 
-/// The larger of both; NaN wins, so that it cannot hide.
+/// The larger of both; NaN if one is NaN.
 double largest(double a, double b) { return std::isnan(b) ? b : std::max(a, b); }
 
-/// How far a value is outside its bounds; NaN if it is.
+/// How far a value is outside its bounds; NaN if the value is NaN.
 double outside(double x, double lower, double upper) {
   return std::isnan(x) ? x : std::max({0.0, lower - x, x - upper});
 }

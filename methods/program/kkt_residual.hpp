@@ -56,7 +56,7 @@ void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const
 /// The constraint violation alone.
 [[nodiscard]] double constraint_violation(NonlinearProgram& program, const Eigen::VectorXd& primal);
 
-/// Multipliers for a point that came without: the λ that minimises |∇φ + (∂a/∂ξ)ᵀλ|₂ over the variables that are
+/// Multipliers for a point that has none: the λ that minimises |∇φ + (∂a/∂ξ)ᵀλ|₂ over the variables that are
 /// neither fixed nor at a bound. An inequality that is not at a bound gets 0.
 ///
 /// "At a bound" means closer than `activity_tolerance` · max(1, |bound|). Signs are not imposed: the residual of the
@@ -67,8 +67,8 @@ void kkt_entries(NonlinearProgram& program, const Eigen::VectorXd& primal, const
 /// infinity.
 [[nodiscard]] Eigen::VectorXd least_squares_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal);
 
-/// The same where some multipliers are known: those that are NaN in `known` (constraint_count() entries) minimise what
-/// the others leave of the gradient. An inequality that comes no nearer to a bound than `activity` · max(1, |bound|)
+/// The same where some multipliers are known. Entries of `known` (constraint_count() of them) that are NaN are chosen
+/// to minimise the remaining gradient. An inequality that comes no nearer to a bound than `activity` · max(1, |bound|)
 /// gets 0, as does one whose multiplier would have the wrong sign; variables that near to a bound do not count.
 [[nodiscard]] Eigen::VectorXd complete_multipliers(NonlinearProgram& program, const Eigen::VectorXd& primal,
                                                    const Eigen::VectorXd& known, double activity = 1e-3);

@@ -41,7 +41,6 @@ class NonlinearProgram {
   /// Number of constraints, the entries of a.
   [[nodiscard]] virtual std::size_t constraint_count() const = 0;
 
-  // variable_count() and constraint_count() entries.
   [[nodiscard]] virtual const Eigen::VectorXd& variable_lower() const = 0;    ///< ξ⁻, variable_count() entries.
   [[nodiscard]] virtual const Eigen::VectorXd& variable_upper() const = 0;    ///< ξ⁺, variable_count() entries.
   [[nodiscard]] virtual const Eigen::VectorXd& constraint_lower() const = 0;  ///< a⁻, constraint_count() entries.
@@ -52,7 +51,7 @@ class NonlinearProgram {
   /// Lower triangle (row >= column) of the Hessian of the Lagrangian. A run lies on the diagonal, or does not touch it.
   [[nodiscard]] virtual const BlockPattern& hessian_structure() const = 0;
 
-  /// Φ(x); `x`: variable_count() entries, here and below..
+  /// φ(x). `x` has variable_count() entries, here and below.
   [[nodiscard]] virtual double objective(const VectorIn& x) = 0;
   /// `result`: variable_count() entries.
   virtual void gradient(const VectorIn& x, VectorOut result) = 0;

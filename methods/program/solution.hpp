@@ -41,8 +41,7 @@ struct Solution {
   // Computed by us, from our derivatives, for every solver alike; see kkt_residual.hpp.
   std::optional<double> kkt_residual;  ///< none if the solver never started, or stopped late without multipliers
   std::optional<double> constraint_violation;  ///< none if the solver never started
-  /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none where it was not asked,
-  /// or cannot be told.
+  /// How far a Newton step from here would move the answer (`NewtonCorrection::length`); none if not computed.
   std::optional<double> correction;
   /// μ that an interior-point method ended with, the start of a neighbour's; none where the program has neither bounds
   /// nor inequalities, or the solver does not tell.

@@ -17,7 +17,7 @@ struct LaneLoops {
   void (*sum)(const double* x, std::ptrdiff_t size, double* result);
   /// Sum and largest of |x_i| of every lane; the sum is not finite where an entry is not.
   void (*magnitudes)(const double* x, std::ptrdiff_t size, double* sum, double* largest);
-  /// Largest |x_i| of every lane, 0 of none; any number if one of them is not finite.
+  /// Largest |x_i| of every lane, 0 if there are none; any number if one of them is not finite.
   void (*largest)(const double* x, std::ptrdiff_t size, double* result);
   /// Σ x_i y_i of every lane.
   void (*dot)(const double* x, const double* y, std::ptrdiff_t size, double* result);

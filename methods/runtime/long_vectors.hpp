@@ -44,7 +44,7 @@ double sum_of_stretches(Eigen::Index size, const Part& part) {
 [[nodiscard]] double sum_of_magnitudes(const Eigen::VectorXd& vector);
 /// True if every entry is finite.
 [[nodiscard]] bool is_finite(const Eigen::VectorXd& vector);
-/// Aᵀb; both have the same size..
+/// aᵀb, for vectors of the same size.
 [[nodiscard]] double dot_product(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Resizes to `size` entries of any value. A vector of several MiB asks the system for large pages, which it gets as

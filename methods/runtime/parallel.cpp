@@ -39,7 +39,7 @@ class Job {
     }
   }
 
-  /// What the first part that threw has thrown; to be asked for when all have ended.
+  /// The first exception of any part; read it after all have ended.
   [[nodiscard]] const std::exception_ptr& error() const noexcept { return error_; }
 
  private:

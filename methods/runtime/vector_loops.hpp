@@ -9,7 +9,7 @@ namespace dmocbench {
 /// Loops over stretches of vectors, compiled for one instruction set. Sums are those of eight interleaved parts, in the
 /// same order in every set.
 struct VectorLoops {
-  /// Largest |x_i|, 0 of none; any number if one of them is not finite.
+  /// Largest |x_i|, 0 if there are none; any number if one of them is not finite.
   double (*largest)(const double* x, std::ptrdiff_t size);
   /// Σ |x_i|
   double (*sum_of_magnitudes)(const double* x, std::ptrdiff_t size);

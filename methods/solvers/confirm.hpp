@@ -18,10 +18,10 @@ void judge_residuals(NonlinearProgram& program, Solution& solution);
 /// most 1 where a solver may stop. Infinity if the residuals have not been computed, NaN if one of them is NaN. The
 /// mean multiplier of the rule is that of the constraints, since those of bounds are not known. Where the rule allows
 /// constraints and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the
-/// residuals of `solution` tell.
+/// residuals of `solution` decide.
 [[nodiscard]] double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
 
-/// What becomes of the claim "solved" or "acceptable" at this scaled residual.
+/// The status of an answer that the solver calls "solved" or "acceptable", at this scaled residual.
 ///
 /// "Solved" if it is at most `confirmation_factor`; an "acceptable" one stays so up to `acceptable_factor` times that;
 /// all else is "not confirmed".

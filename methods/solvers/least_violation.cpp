@@ -59,7 +59,7 @@ ViolationDescent::ViolationDescent(NonlinearProgram& program, const Eigen::Vecto
   mark_ = excess_.squaredNorm();
 }
 
-/// μ falls with the mean of d z, and no lower than what the least violation is judged by can notice.
+/// μ falls with the mean of d z, but not below what the judgement of least violation can notice.
 void ViolationDescent::lower_barrier() {
   constexpr double centring = 0.1;
   constexpr double least_share = 1e-8;

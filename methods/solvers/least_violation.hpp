@@ -68,11 +68,11 @@ class ViolationDescent {
   bool uses_curvature_ = false;
 };
 
-/// The one judgement that a program is infeasible from where a solver started, whatever the solver says: "infeasible"
-/// where its last point is one of least violation (`is_point_of_least_violation`), or where descent from it ends at
-/// one, to which `solution.primal` then moves; "step failed" where the solver says
-/// infeasible and this is not so. For `solution`s that claim to be infeasible, whose step failed or whose iterations
-/// ran out; these last ones are judged where they are. It ends with the time of the solve, and counts no evaluation.
+/// Decides for all solvers whether a program is infeasible from where the solver started. "infeasible" if the last
+/// point is one of least violation (`is_point_of_least_violation`), or if descent from it ends at one, to which
+/// `solution.primal` then moves; "step failed" if the solver reports infeasible and neither holds. For a `solution`
+/// that is reported infeasible, whose step failed or whose iterations ran out; the latter is judged at its last point,
+/// without descent. It ends with the time of the solve, and counts no evaluation.
 void judge_infeasibility(const CountedProgram& program, const SolverOptions& options, Solution& solution);
 
 }  // namespace dmocbench

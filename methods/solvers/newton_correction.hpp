@@ -22,8 +22,8 @@ struct NewtonCorrection {
 };
 
 /// How far answers of a program are from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
-/// order: what residuals permit in the answer, which residuals alone do not tell. Where the cost is flat, or a step h
-/// is small, residuals at the tolerance may leave an unknown wrong in its second digit.
+/// order: the error of an answer that small residuals still permit. Where the cost is flat, or a step h is small,
+/// residuals at the tolerance may leave an unknown wrong in its second digit.
 ///
 /// The step solves the linearised conditions. A bound that the gradient points to takes up the gradient with its
 /// multiplier, and the linearised complementarity decides whether the unknown moves to the bound; an inequality is

@@ -29,7 +29,7 @@ class NloptSolver final : public Solver {
   /// An iteration factorises dense matrices of this size; more free variables are refused with status "too large".
   static constexpr std::size_t most_free_variables = 400;
 
-  /// Throws `Error` that names the option if one is out of range or passed on in vain.
+  /// Throws `Error` that names the option if one is out of range, or one passed on is not accepted.
   explicit NloptSolver(SolverOptions options);
   [[nodiscard]] std::string name() const override { return "nlopt"; }
   [[nodiscard]] std::string description() const override;

@@ -33,7 +33,7 @@ bool is_unsettled(const Solution& solution) {
   return solution.status == Status::not_confirmed && solution.correction.value_or(0.0) > settled;
 }
 
-/// Whether an answer that must not be settled any more would have been, is not known.
+/// Status and message where a limit ended the solve before it was known whether the answer would settle.
 void tell_of_stop(Solution& solution) {
   solution.status = seconds_left() > 0.0 ? Status::interrupted : Status::time_limit;
   solution.message = fmt::format(

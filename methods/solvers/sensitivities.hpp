@@ -8,7 +8,7 @@
 
 namespace dmocbench {
 
-/// What a program says at a point: its Lagrangian φ + λᵀa there, and its bounds.
+/// Values of a program at a point: of its Lagrangian φ + λᵀa, and its bounds.
 struct ProgramValues {
   double objective = 0.0;            ///< φ
   Eigen::VectorXd gradient;          ///< of the Lagrangian, one entry per variable

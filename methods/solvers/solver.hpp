@@ -96,7 +96,7 @@ class Solver {
   /// Throws `Error` if an option is out of range.
   explicit Solver(SolverOptions options);
 
-  /// The method itself. Returns its own word for the status, the last point (none if it refuses the program), the
+  /// The method itself. Returns the status by its own judgement, the last point (none if it refuses the program), the
   /// multipliers if it has them, and its counts of iterations; a message only where it can say more than the status.
   [[nodiscard]] virtual Solution run(CountedProgram& program, const Eigen::VectorXd& start) const = 0;
 

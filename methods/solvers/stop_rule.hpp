@@ -10,15 +10,15 @@
 namespace dmocbench {
 
 /// The residuals at which a program counts as solved: the tolerance, or rounding where that is larger. The solvers that
-/// are compared stop by this rule, and all are judged by it (`confirm`). Rounding is that of the constraint,
-/// or of the variable (`RoundingFloors`). The program must outlive it.
+/// are compared stop by this rule, and all are judged by it (`confirm`). Rounding is that of the constraint, or of the
+/// variable (`RoundingFloors`). The program must outlive it.
 class StopRule {
  public:
   /// `tolerance` > 0, of the program as the solver sees it.
   StopRule(const NonlinearProgram& program, double tolerance)
       : tolerance_(tolerance), floors_(program.rounding_floors()) {}
 
-  /// True if all constraints, and all variables, are allowed the same: then the largest residual tells.
+  /// True if all constraints, and all variables, are allowed the same: then the largest residual decides.
   [[nodiscard]] bool is_one_for_all() const { return floors_.are_equal(); }
 
   /// For the violation of any constraint or bound: the least that is allowed.

@@ -138,7 +138,7 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   std::vector<std::string> names;
   PointFunction quantities(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
-    const std::vector<PictureQuantity> picture = problem.picture(x);
+    const Picture picture = pictured_quantities(problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(picture.size()));
     for (std::size_t i = 0; i < picture.size(); ++i) {
       names.push_back(name_with_unit(picture[i].name, picture[i].unit));

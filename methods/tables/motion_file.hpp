@@ -18,8 +18,8 @@ namespace dmocbench {
 /// The stages: `t` and the controls by their names.
 [[nodiscard]] Table stage_table(const Problem& problem, const Trajectory& trajectory);
 
-/// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of `Problem::picture`,
-/// each named by `name_with_unit`. The control at a node is that of `control_at`.
+/// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of
+/// `ProblemCard::picture`, each named by `name_with_unit`. The control at a node is that of `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
 
 /// A column's name that tells its unit and that MATLAB and R keep: "t_in_s", "thrust_in_m_per_s2", "tau_in_N_m"; the

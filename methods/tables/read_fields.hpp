@@ -27,7 +27,7 @@ class ReadFields {
   ReadFields(ReadFields&&) = delete;
   ReadFields& operator=(ReadFields&&) = delete;
 
-  /// What was read since it exists.
+  /// The fields read since it was made.
   [[nodiscard]] const ByPlace& rows() const noexcept { return rows_; }
 
  private:
@@ -36,7 +36,7 @@ class ReadFields {
   ReadFields* outer_;
 };
 
-/// Tells this thread's `ReadFields`, if there is one; rows without a place are nobody's.
+/// Records the read in this thread's innermost `ReadFields`, if there is one; rows without a place are ignored.
 void note_read_field(const std::string& place, std::string_view column, bool is_number);
 
 }  // namespace dmocbench

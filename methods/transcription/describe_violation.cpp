@@ -42,7 +42,7 @@ class ConstraintWords {
     const Eigen::Index own = column - shape.node_rows;
     if (own < shape.interval_rows()) return interval_row(own, place.index);
     if (place.kind == Place::Kind::border) {
-      return entry_of("boundary_conditions", row - rows.runs().back().first, problem_->boundary_condition_names());
+      return entry_of("boundary_conditions", row - rows.runs().back().first, problem_->card().boundary_condition_names);
     }
     return "lagrangian: the momentum p = L_v of " + coordinate((own - shape.interval_rows()) % n_) + where(place);
   }
@@ -110,7 +110,7 @@ class ConstraintWords {
     const Eigen::Index i = path % per_stage;
     if (i >= bounded) {
       const auto number = static_cast<std::size_t>(i - bounded);
-      return entry_of("path_constraints", number, problem_->path_constraint_names()) + in_interval(k);
+      return entry_of("path_constraints", number, problem_->card().path_constraint_names) + in_interval(k);
     }
     return "bounds().v: the velocity of " + coordinate(velocities[static_cast<std::size_t>(i)]) + in_interval(k);
   }

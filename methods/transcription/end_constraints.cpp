@@ -72,7 +72,7 @@ void require_constraints_at(const KnownPoint& point, const Problem& problem, con
   const ExpressionVector x = input_vector(0, 2 * n + m + 1);
   const ExpressionVector constraints =
       traced.at(ControlledState{x.head(n), x.segment(n, n), x.segment(2 * n, m), x[2 * n + m]}).path_constraints;
-  const std::vector<std::string> names = problem.path_constraint_names();
+  const std::vector<std::string> names = problem.card().path_constraint_names;
   const std::span<const double> values(point.values);
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraints.size()); ++i) {
     const Expression& h = constraints[static_cast<Eigen::Index>(i)];

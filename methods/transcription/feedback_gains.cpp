@@ -22,7 +22,7 @@ struct Deviations {
   Eigen::MatrixXd costate;
 };
 
-/// States that deviate less independently than that deviate by rounding.
+/// Deviations of the state whose pivots are below this share of the largest depend on each other but for rounding.
 constexpr double smallest_pivot_ratio = 1e-11;
 
 void require_feedback(const Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {

@@ -30,7 +30,7 @@ RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::Ve
   constexpr double safety = 20.0;
   const double of_entries = safety * std::numeric_limits<double>::epsilon() * survey.largest_mass;
   const double terms = of_entries * survey.largest_configuration;
-  // λ is multiplied by L_vv/h, of which a small q takes nothing away; a large one is in the masses that depend on it.
+  // λ is multiplied by L_vv/h, which does not vanish with q; where L_vv depends on q, it grows with it.
   const double products = std::max(of_entries, terms);
   RoundingFloors floors{
       .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .rows = {}, .variables = {}};

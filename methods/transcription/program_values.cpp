@@ -121,7 +121,7 @@ void Transcription::use(Values values) {
   require_readable_ends(values);
   ProgramBounds bounds = program_bounds(*problem_, traced_, values.bounds, values.horizon, end_rules_, layout_);
   require_same_structure(*problem_, bounds_, bounds);
-  // Nothing below throws but for want of memory.
+  // Nothing below throws, except std::bad_alloc.
   problem_bounds_ = std::move(values.bounds);
   bounds_ = std::move(bounds);
   if (values.horizon == guessed_horizon_) return;

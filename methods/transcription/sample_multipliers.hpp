@@ -21,8 +21,8 @@ namespace dmocbench {
 /// the cubic Hermite interpolant of the nodes, with the rates that the adjoint equations give them. A motion with
 /// another horizon is stretched to the program's.
 ///
-/// Of what no costate tells, path constraints, bounds on velocities and boundary conditions, the multipliers are those
-/// that leave least of the gradient (`complete_multipliers`).
+/// Costates do not determine the multipliers of path constraints, bounds on velocities and boundary conditions; these
+/// minimise the remaining gradient (`complete_multipliers`).
 ///
 /// Throws `Error` if the trajectory has no costates.
 [[nodiscard]] Eigen::VectorXd sample_multipliers(Transcription& program, const Trajectory& trajectory);

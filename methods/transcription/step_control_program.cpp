@@ -195,7 +195,7 @@ void StepControlProgram::fix_ends() {
   inputs.push_back(0.0);
   const double energy = momentum.dot(first.v) - replay<double>(lagrangian, std::span<const double>(inputs)).front();
   fix(rows_, head(columns_.energy_rows, 0, 0), energy);
-  // The final energy is what the work makes it; interior-point methods ask for bounds of a row that is no equality.
+  // The final energy is free, but interior-point methods need a bound for a constraint that is no equality: a far one.
   constexpr double far = 1e3;
   const Eigen::Index last = head(columns_.energy_rows, 0, 0) + intervals_;
   rows_.lower[last] = -far * (1.0 + std::abs(energy));

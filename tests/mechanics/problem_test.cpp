@@ -146,7 +146,7 @@ TEST(Problem, GuessesTheStraightLineBetweenItsEnds) {
 TEST(Problem, ShowsItsConfigurationAndControlUnlessItSaysOtherwise) {
   const Tunable problem;
   const ControlledState x{input_vector(0, 2), input_vector(2, 2), input_vector(4, 1), Expression::input(5)};
-  const std::vector<PictureQuantity> quantities = problem.picture(x);
+  const Picture quantities = pictured_quantities(problem, x);
   ASSERT_EQ(quantities.size(), 3U);
   EXPECT_EQ(quantities[0].name, "a");
   EXPECT_EQ(quantities[2].name, "c");

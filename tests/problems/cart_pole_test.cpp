@@ -70,7 +70,7 @@ TEST(CartPole, PicturesABobAtTheLengthOfThePole) {
   const CartPole problem;
   std::vector<std::string> names;
   PointFunction picture(2, 1, [&](const ControlledState& x) {
-    const auto quantities = problem.picture(x);
+    const auto quantities = pictured_quantities(problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
     for (const PictureQuantity& quantity : quantities) {
       values[static_cast<Eigen::Index>(names.size())] = quantity.value;

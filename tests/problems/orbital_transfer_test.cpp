@@ -89,9 +89,9 @@ TEST(OrbitalTransfer, PushesAlongTheOrbitAlone) {
 
 TEST(OrbitalTransfer, PicturesPositionsInKilometresAndThrustAcrossTheRadius) {
   const OrbitalTransfer problem;
-  std::vector<PictureQuantity> quantities;
+  Picture quantities;
   PointFunction picture(2, 1, [&](const ControlledState& x) {
-    quantities = problem.picture(x);
+    quantities = pictured_quantities(problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       values[static_cast<Eigen::Index>(i)] = quantities[i].value;

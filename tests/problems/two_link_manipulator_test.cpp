@@ -135,9 +135,9 @@ TEST(TwoLinkManipulator, DoesTheWorkOfItsTwoMotors) {
 
 TEST(TwoLinkManipulator, PicturesAnElbowAndATipAtTheLengthsOfTheLinks) {
   const auto problem = uneven();
-  std::vector<PictureQuantity> quantities;
+  Picture quantities;
   PointFunction picture(2, 2, [&](const ControlledState& x) {
-    quantities = problem->picture(x);
+    quantities = pictured_quantities(*problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(quantities.size()));
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       values[static_cast<Eigen::Index>(i)] = quantities[i].value;

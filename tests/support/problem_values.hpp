@@ -46,7 +46,7 @@ inline std::map<std::string, double> picture_at(const Problem& problem, const Mo
   std::vector<std::string> names;
   const Eigen::VectorXd values = formulas_at(problem, point, t, [&](const ControlledState& x) {
     names.clear();
-    const std::vector<PictureQuantity> quantities = problem.picture(x);
+    const Picture quantities = pictured_quantities(problem, x);
     ExpressionVector formulas(static_cast<Eigen::Index>(quantities.size()));
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       formulas[static_cast<Eigen::Index>(i)] = quantities[i].value;

@@ -189,17 +189,18 @@ TEST_P(ViolationInWords, NamesALagrangianThatIsNotANumberWhereverASolveEnds) {
 class Idle final : public tests::SmallProblem {
  public:
   Idle() : SmallProblem("idle", at(0.0, 0.0), at(1.0, 0.0), 1.0, 1) {}
+  [[nodiscard]] ProblemCard card() const override {
+    return {.path_constraint_names = {"floor", "ceiling"}, .boundary_condition_names = {"gate"}};
+  }
   [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * x.v[0] * x.v[0]; }
   [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return one(-x.v[0]); }
   [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return x.u[0] * x.u[0]; }
   [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
     return ExpressionVector{{x.q[0] + 1.0, 4000.0 * pow(x.t - 0.5, 2.0) - 500.0 - x.q[0]}};  // the ends keep to it
   }
-  [[nodiscard]] std::vector<std::string> path_constraint_names() const override { return {"floor", "ceiling"}; }
   [[nodiscard]] ExpressionVector boundary_conditions(const State& first, const State& /*last*/) const override {
     return one(first.q[0]);
   }
-  [[nodiscard]] std::vector<std::string> boundary_condition_names() const override { return {"gate"}; }
 };
 
 TEST_P(ViolationInWords, TellsTheNamesOfConstraintsAndThatNoForceReadsAControl) {

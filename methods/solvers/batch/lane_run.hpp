@@ -19,6 +19,7 @@
 
 namespace dmocbench::batch {
 
+/// The number of a lane as Eigen counts.
 [[nodiscard]] constexpr Eigen::Index index_of(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
 namespace constants = interior_point::constants;

@@ -11,6 +11,7 @@
 
 namespace dmocbench::batch {
 
+/// Number of lanes as Eigen counts.
 inline constexpr auto width = static_cast<Eigen::Index>(instance_lanes);
 
 /// One number of every lane.

@@ -9,11 +9,11 @@
 
 namespace dmocbench {
 
-/// Where an instance lies among the others: `coordinates`, equally many of all, in units in which distances in all
-/// directions count alike. False if there is no such instance.
+/// Sets the `coordinates` of an instance, by which the nearest neighbour is found: the same number for every instance,
+/// in units that make distances in all directions comparable. False if there is no such instance.
 using PlaceInstance = std::function<bool(std::size_t index, Eigen::VectorXd& coordinates)>;
-/// Fills an instance, warm from the answer of its nearest neighbour; null for those that have none and start as they
-/// would without.
+/// Fills an instance whose start is the answer of its nearest neighbour. `neighbour` is null if there is none; the
+/// instance then starts as in `solve_batch`.
 using NextFromNeighbour = std::function<void(std::size_t index, const Solution* neighbour, BatchInstance& instance)>;
 
 /// How many answers are kept as neighbours at most.

@@ -9,7 +9,7 @@
 
 namespace dmocbench::batch {
 
-/// Tells where the time of one thread goes: at any time it is in one phase.
+/// Measures the time of one thread by phases: at any time it is in one of them.
 class PhaseClock {
  public:
   /// As long as it exists, time is that of a phase; then again that of the phase before.
@@ -27,7 +27,7 @@ class PhaseClock {
     BatchPhase before_;
   };
 
-  /// The time so far counts for nothing.
+  /// Discards the time so far.
   void begin() noexcept {
     since_ = Clock::now();
     seconds_.fill(0.0);

@@ -78,11 +78,11 @@ using TakeSolution = std::function<void(std::size_t index, const Solution& solut
 /// and several such groups on threads; see README.md. An instance that has converged leaves its lane to the next one.
 ///
 /// `next` and `take` are called from several threads, one at a time, while `program` is in use: neither may touch it.
-/// Answers come in any order, each with the index
-/// that its instance was fetched with: 0, 1, ... Memory does not grow with their number. An answer depends on its
-/// instance alone, to the last digit: neither on its neighbours nor on the number of threads. It is solved only if the
-/// residuals of its optimality conditions are below the tolerance, and a Newton step would not move it (`confirm`).
-/// An instance of wrong sizes is an "invalid program", one with a number that is not finite an "evaluation failed".
+/// Answers come in any order, each with the index of its instance: 0, 1, ... Memory does not grow with their number.
+/// An answer depends on its instance alone, to the last digit: neither on its neighbours nor on the number of threads.
+/// It is solved only if the residuals of its optimality conditions are below the tolerance, and a Newton step would not
+/// move it (`confirm`). An instance of wrong sizes is an "invalid program", one with a number that is not finite an
+/// "evaluation failed".
 ///
 /// `usual` is the start of any ordinary instance: the order of elimination is chosen there. Throws `Error` that says
 /// why, where the structure of the program does not fit: both ends of the horizon must be given, and the horizon. What

@@ -83,8 +83,8 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
   return true;
 }
 
-/// Empties the filter where search after search from points like this was shortened by it to the end. Without its pairs
-/// nothing keeps the violation from growing as the cost falls, step by step, but θ_max: that of the start, or of here.
+/// Empties the filter after several searches in a row whose last refusal was the filter's. Without its pairs only θ_max
+/// keeps the violation from growing step by step as the cost falls: it becomes that of the start, or of this point.
 void FilterLineSearch::end_search(double theta) {
   blocked_searches_ = is_blocked_ ? blocked_searches_ + 1 : 0;
   is_blocked_ = false;

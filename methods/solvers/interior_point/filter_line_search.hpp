@@ -14,8 +14,8 @@ struct PointValues {
 };
 
 /// Which steps a solve takes: the filter line search of Wächter and Biegler, A-5.2 to. Three rules are
-/// not theirs (README.md): differences within rounding count as none, the violation makes no leaps, and a filter that
-/// blocks the way is emptied.
+/// not theirs (README.md): differences within rounding count as none, the violation may not grow by large factors, and
+/// a filter that blocks the way is emptied.
 class FilterLineSearch {
  public:
   /// Before a solve of a program with so many unknowns from a point with the violation θ, where violations below

@@ -213,7 +213,8 @@ class InteriorPointRun final : public PreparedRun {
     return values_.theta <= enough ? std::nullopt : descend_on_violation(enough);
   }
 
-  /// Each time farther. Whether a failure is one at a point of least violation, `judge_infeasibility` says.
+  /// Every descent must reduce the violation ten times as far as the one before. `judge_infeasibility` decides whether
+  /// it ended at a point of least violation.
   [[nodiscard]] std::optional<Status> descend_on_violation(double enough) {
     enough *= std::pow(0.1, descents_++);
     ViolationDescent descent(counted_, at_.x);

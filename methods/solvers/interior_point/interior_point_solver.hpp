@@ -31,7 +31,7 @@ struct InteriorPointOptions {
 /// `InteriorPointOptions` by name: factorisation=intervals|sparse.
 class InteriorPointSolver final : public Solver {
  public:
-  /// Throws `Error` on an option passed on that there is not, or a value that it does not take.
+  /// Throws `Error` on an unknown option passed on, or a value that it does not take.
   explicit InteriorPointSolver(SolverOptions options = {}, InteriorPointOptions choices = {});
 
   [[nodiscard]] std::string name() const override { return "interior_point"; }

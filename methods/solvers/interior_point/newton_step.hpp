@@ -79,7 +79,7 @@ class NewtonStep {
   const BarrierProgram& program_;
   kkt::KktSystem& kkt_;
   InertiaShift shift_;
-  // Parts that bounds or slacks have no use for stay empty: a pass over a long vector costs a fetch from memory.
+  // Without bounds or slacks their parts stay empty: a pass over a long vector costs a fetch from memory.
   Primal sigma_;                 // Σ
   Primal gradient_;              // of the Lagrangian with the barrier
   Eigen::VectorXd diagonal_;     // Σ_x + δ_w

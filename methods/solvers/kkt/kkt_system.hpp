@@ -20,7 +20,7 @@ struct KktMatrix {
   /// e >= 0, one per constraint, zero for exactly the equalities; empty if all are equalities.
   const Eigen::VectorXd& compliance;
 
-  /// E of a row: the inverse weight of an inequality; 0 for an equality..
+  /// The compliance of a constraint: the inverse weight of an inequality, 0 for an equality.
   [[nodiscard]] double compliance_of(Eigen::Index row) const { return compliance.size() > 0 ? compliance[row] : 0.0; }
 };
 
@@ -41,7 +41,7 @@ enum class FactorisationStatus : std::uint8_t {
   solved,         ///< H + diag(d) is positive definite on the null space of the equalities; the step is there
   wrong_inertia,  ///< it is not
   singular,       ///< the constraints depend on each other, or a number is not finite
-  untrusted,      ///< the elimination met so small a pivot that its result says nothing
+  untrusted,      ///< the elimination met so small a pivot that its result is meaningless
 };
 
 /// A way to solve
@@ -57,8 +57,8 @@ class KktSystem {
   KktSystem(KktSystem&&) = delete;
   KktSystem& operator=(KktSystem&&) = delete;
 
-  /// Before the matrices of another solve: forgets what those of the last one have taught, so that solves do not depend
-  /// on each other.
+  /// Before the matrices of another solve: forgets what was observed in the last one, so that solves do not depend on
+  /// each other.
   virtual void begin_solve() {}
 
   /// The step is written if the status is `solved`; otherwise it may hold anything.

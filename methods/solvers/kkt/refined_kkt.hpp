@@ -23,6 +23,7 @@ namespace dmocbench::kkt {
 /// checked, nor the seven after a very accurate one: their matrices differ little, and Newton's method corrects itself.
 class RefinedKkt : public KktSystem {
  public:
+  /// The default of `accuracy`.
   static constexpr double usual_accuracy = 1e-6;
 
   /// A step is accurate enough if its residual is at most `accuracy` times the right-hand side, or rounding
@@ -33,7 +34,9 @@ class RefinedKkt : public KktSystem {
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
 
+  /// Corrections by refinement so far.
   [[nodiscard]] int refinements() const noexcept { return refinements_; }
+  /// Systems given to the sparse factorisation so far.
   [[nodiscard]] int fallbacks() const noexcept { return fallbacks_; }
 
  private:

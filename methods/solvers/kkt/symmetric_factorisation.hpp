@@ -15,13 +15,13 @@ class SymmetricFactorisation {
   /// from 0 on; empty to let MUMPS choose. A row whose pivot is too small is postponed.
   explicit SymmetricFactorisation(const std::vector<int>& positions = {});
 
-  /// Of the matrix: the products of larger ones are no numbers any more.
+  /// The largest entry of a matrix: products of larger ones would overflow.
   static constexpr double largest_entry = 1e100;
 
   /// Factorises the matrix whose lower triangle is given. False if it is singular, or an entry is not finite or above
-  /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if
-  /// none was given, is chosen at the first call and kept while the pattern stays the same. Throws `std::bad_alloc` if
-  /// there is not enough memory, `Error` if MUMPS fails otherwise.
+  /// `largest_entry`: MUMPS aborts where a number is infinite. The order of elimination, if none was given, is chosen
+  /// at the first call and kept while the pattern stays the same. Throws `std::bad_alloc` if there is not enough
+  /// memory, `Error` if MUMPS fails otherwise.
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
   /// Number of negative eigenvalues of the matrix factorised last.
   [[nodiscard]] Eigen::Index negative_eigenvalues() const;

@@ -24,7 +24,7 @@ struct SequentialOptions {
 /// hessian=exact|limited_memory.
 class SqpSolver final : public Solver {
  public:
-  /// Throws `Error` on an option passed on that there is not, or a value that it does not take.
+  /// Throws `Error` on an unknown option passed on, or a value that it does not take.
   explicit SqpSolver(SolverOptions options = {}, SequentialOptions choices = {});
   [[nodiscard]] std::string name() const override { return "sqp"; }
   [[nodiscard]] std::string description() const override;

@@ -4,7 +4,7 @@ namespace dmocbench {
 
 namespace {
 
-/// What a state lacks to the values that bounds fix; 0 of free entries.
+/// The values that bounds fix minus those of a state; 0 for free entries.
 Eigen::VectorXd missing(const Bounds& bounds, const Eigen::VectorXd& values) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -13,7 +13,7 @@ Eigen::VectorXd missing(const Bounds& bounds, const Eigen::VectorXd& values) {
   return result;
 }
 
-/// What a point of a motion lacks to an end.
+/// The fixed state of an end minus a point of a motion.
 BoundaryState missing(const EndBounds& end, const MotionPoint& point) {
   return {.q = missing(end.q, point.q), .v = missing(end.v, point.v)};
 }

@@ -161,7 +161,7 @@ struct PathNamesTooMany : TwoMasses {
   ExpressionVector path_constraints(const ControlledState& x) const override {
     return ExpressionVector::Constant(1, x.q[1] - x.q[0]);
   }
-  std::vector<std::string> path_constraint_names() const override { return {"one", "two"}; }
+  ProblemCard card() const override { return {.path_constraint_names = {"one", "two"}}; }
 };
 struct ConditionIsConstant : TwoMasses {
   ExpressionVector boundary_conditions(const State&, const State&) const override {

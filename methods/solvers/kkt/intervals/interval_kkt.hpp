@@ -26,6 +26,7 @@ class IntervalKkt : public KktSystem {
   using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
   [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
+  /// `entries` are those of the program; `choose` selects the kernel for its shape. `make` does both.
   IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
               SegmentKernelChoice choose = segment_kernel_for);
 

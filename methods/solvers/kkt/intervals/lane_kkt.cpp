@@ -187,9 +187,8 @@ LaneKkt::Outcome LaneKkt::outcome_of(std::size_t lane) {
       return Outcome::solved;
     }
   }
-  // The largest multiple tells the inertia of DMOC, and of the midpoint rule; collocation with several stages needs
-  // more. Where refusal follows on refusal, its digits may be lost on the way from one end to the other: no shift helps
-  // then.
+  // The largest multiple decides the inertia of DMOC, and of the midpoint rule; collocation with several stages needs
+  // more. Repeated refusals may mean that digits were lost between the ends of the horizon, which no shift repairs.
   calm_[lane] = 0;
   const bool needs_more = entries_.shape.node_sums == 0 && !plan_.shape.is_plain;
   const bool is_doubtful = needs_more || tries_others_[lane] || (refusals_[lane] + 1) % most_believed == 0;

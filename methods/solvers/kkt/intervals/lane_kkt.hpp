@@ -31,13 +31,13 @@ class LaneKkt {
   enum class Outcome : std::uint8_t {
     solved,
     wrong_inertia,  ///< the Hessian is not positive definite on the null space of the equalities
-    again,          ///< not told yet: with other terminal weights, the same system is to be solved once more
+    again,          ///< undecided: the same system is to be solved once more with other terminal weights
     failed,         ///< singular, or pivots that cannot be trusted: a case for `RefinedKkt`
   };
   using Outcomes = std::array<Outcome, lane_count>;
 
   /// `usual` is the matrix of any one instance near those that will come: the order of elimination is chosen by it, and
-  /// pivots are measured by it. Says in a sentence why not, where the program has another structure.
+  /// pivots are measured by it. A sentence with the reason instead if the program has another structure.
   using Made = tl::expected<std::unique_ptr<LaneKkt>, std::string>;
   [[nodiscard]] static Made make(const NonlinearProgram& program, const KktMatrix& usual,
                                  SegmentKernelChoice choose = segment_kernel_for);

@@ -28,7 +28,7 @@ Matrix semidefinite_factor(const Matrix& gamma) {
   return factor;
 }
 
-/// Of a symmetric matrix, of which the lower triangle is read and overwritten; true where a number is not one.
+/// For a symmetric matrix whose lower triangle is read and overwritten. A pivot that is NaN counts as positive.
 template <class Matrix>
 bool is_positive_definite(Matrix& lower) {
   const Eigen::Index n = lower.rows();

@@ -15,6 +15,7 @@ inline constexpr int lane_count = 8;
 
 /// The arrays of a Newton system that intervals read; `padded` holds copies of columns that some intervals lack.
 enum class Source : unsigned char { jacobian, hessian, diagonal, gradient, rows, compliance, padded };
+/// Number of arrays.
 inline constexpr std::size_t source_count = 7;
 
 /// One number of every interval: interval k reads entry `first` + k of an array and puts it into (or adds it to) the

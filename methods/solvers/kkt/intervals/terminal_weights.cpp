@@ -16,8 +16,8 @@ namespace {
 constexpr std::array multiples{1.0, 30.0, 1e3, 1e6};
 /// The multiple to begin with after a failure: smaller ones may be too small, the largest may drown the stiffness.
 constexpr std::size_t middle = 2;
-/// How often, after all multiples were tried in vain, the failure of the largest one is believed without the smaller
-/// ones: fewer times than make `RefinedKkt` ask the sparse factorisation, which costs more than all multiples do.
+/// Failures of the largest multiple that are then accepted without trying smaller ones, after all multiples have
+/// failed once. Fewer than make `RefinedKkt` ask the sparse factorisation, which costs more than all multiples do.
 constexpr int patience = 2;
 /// A weight that drowned the stiffness tells that it was at most this share of the weight.
 constexpr double drowned_share = 1e-3;
