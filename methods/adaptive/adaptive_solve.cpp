@@ -168,17 +168,11 @@ class AdaptiveRun {
   AdaptiveAnswer answer_;
 };
 
-struct NamedRefinement {
-  const char* name;
-  Refinement refinement;
-};
-constexpr std::array refinements{NamedRefinement{"h", Refinement::h}, NamedRefinement{"hp", Refinement::hp}};
+constexpr std::array refinements{Named<Refinement>{"h", Refinement::h}, Named<Refinement>{"hp", Refinement::hp}};
 
 }  // namespace
 
-Refinement refinement_named(std::string_view name) {
-  return one_of(refinements, &NamedRefinement::name, name, "there is no refinement").refinement;
-}
+Refinement refinement_named(std::string_view name) { return value_named(refinements, name, "there is no refinement"); }
 
 double AdaptiveOptions::solver_tolerance(double tolerance) const {
   constexpr double of_accuracy = 1e-2;

@@ -77,7 +77,7 @@ std::optional<OrderedResiduals> ordered(const NonlinearProgram& program, Ipopt::
   adapter->ResortG(*quantities.curr_c(), *quantities.curr_d_minus_s(), residuals.violations.data());
   adapter->ResortX(*quantities.curr_grad_lag_x(), residuals.gradient.data());
   for (Eigen::Index j = 0; j < residuals.gradient.size(); ++j) {
-    if (program.variable_lower()[j] == program.variable_upper()[j]) residuals.gradient[j] = 0.0;
+    if (is_fixed(program, j)) residuals.gradient[j] = 0.0;
   }
   return residuals;
 }

@@ -99,7 +99,7 @@ class SlsqpRun {
         inequalities_(program, OneSidedConstraints::Kind::inequalities),
         nearest_point_(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper())) {
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      if (program.variable_lower()[i] != program.variable_upper()[i]) free_.push_back(i);
+      if (!is_fixed(program, i)) free_.push_back(i);
     }
   }
 

@@ -148,7 +148,7 @@ void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
   const auto drop = [&](Eigen::Index at) { moves[static_cast<std::size_t>(at)] = false; };
   for (const auto* list : {&unknowns_, &last_unknowns_}) {
     for (const auto& [number, at] : *list) {
-      if (program.variable_lower()[number] == program.variable_upper()[number]) drop(at);
+      if (is_fixed(program, number)) drop(at);
     }
   }
   // Where nothing but the first interval is in the rows of the first node, s_0 is zero.

@@ -23,10 +23,9 @@ const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntri
   if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
   if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
   if (!entries.end_rows.empty()) return "there are boundary conditions";
-  const auto is_fixed = [&](Eigen::Index i) { return program.variable_lower()[i] == program.variable_upper()[i]; };
   for (const Eigen::Index first : entries.node_unknowns) {
-    if (!is_fixed(first)) return "the state at the start is not given";
-    if (!is_fixed(first + entries.intervals)) return "the state at the end is not given";
+    if (!is_fixed(program, first)) return "the state at the start is not given";
+    if (!is_fixed(program, first + entries.intervals)) return "the state at the end is not given";
   }
   return nullptr;
 }
