@@ -92,12 +92,10 @@ class AdaptiveRun {
   }
 
   [[nodiscard]] Solution solve(Transcription& program) const {
-    const auto solver = make_solver(options_.solver, solver_options_);
+    const auto solver = make_solver(options_.solver, solver_options_, options_.named_options);
     if (answer_.grids.empty()) return solver->solve(program, sample(program, task_.start));
     const Eigen::VectorXd start = sample(program, smooth_motion(answer_.trajectory));
-    SolverOptions warm = solver_options_;
-    warm.start_multipliers = sample_multipliers(program, answer_.trajectory);
-    Solution solution = make_solver(options_.solver, warm)->solve(program, start);
+    Solution solution = solver->solve(program, start, sample_multipliers(program, answer_.trajectory));
     if (is_solved(solution.status) || must_stop()) return solution;
     return solver->solve(program, start);
   }

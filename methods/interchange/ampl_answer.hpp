@@ -11,7 +11,7 @@ namespace dmocbench {
 /// The other solver's word is kept unless our residual denies it. Multipliers that it did not write are estimated. Some
 /// solvers write multipliers with the other sign than AMPL asks for; that sign is taken which leaves the smaller
 /// residual.
-class AmplAnswer final : public Solver {
+class AmplAnswer final : public SolverWithoutMemory {
  public:
   /// Gives this answer to whatever it is asked to solve.
   explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});
