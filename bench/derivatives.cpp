@@ -83,12 +83,13 @@ class Derivatives final : public Experiment {
   }
 
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
-    if (the_case.variant == limited_memory) options.passed_on.emplace("hessian_approximation", "limited-memory");
+    NamedOptions named = named_options(this->options());
+    if (the_case.variant == limited_memory) named.emplace("hessian_approximation", "limited-memory");
     const bool is_exact = the_case.derivatives == "tape" || the_case.derivatives == "adolc";
     if (!is_exact || !the_case.variant.empty()) {
       options.most_iterations = std::min(options.most_iterations, most_iterations);
     }
-    return Experiment::solver_for(the_case, options);
+    return make_solver(the_case.solver, options, named);
   }
 
   void solved_once(const SolvedCase& solved) override {

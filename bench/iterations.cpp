@@ -1,5 +1,7 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include "bench/summary/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
 #include "methods/error.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
 
 namespace dmocbench::iterations_program {
 
@@ -52,8 +55,10 @@ class Iterations final : public Experiment {
     return cases;
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
-    if (the_case.solver == "sqp") options.passed_on["crash"] = the_case.variant;
-    return Experiment::solver_for(the_case, options);
+    if (the_case.solver != "sqp") return Experiment::solver_for(the_case, options);
+    SequentialOptions choices = sequential_options(named_options(this->options()));
+    choices.crash = crash_named(the_case.variant);
+    return std::make_unique<SqpSolver>(options, std::move(choices));
   }
   void check(const std::vector<Case>& cases) override {
     if (!cases.empty()) return;

@@ -15,6 +15,7 @@
 #include "methods/interchange/ampl_model.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/start.hpp"
 
@@ -113,13 +114,13 @@ class Solve final : public Experiment {
   }
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (answer_) return std::make_unique<AmplAnswer>(*answer_, options);
-    if (!trace_file_.empty()) {
-      options.on_minor_iteration = [this](const MinorIteration& minor) {
-        if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
-        trace_.push_back(minor);
-      };
-    }
-    return Experiment::solver_for(the_case, options);
+    if (trace_file_.empty()) return Experiment::solver_for(the_case, options);
+    SequentialOptions choices = sequential_options(named_options(this->options()));
+    choices.on_minor_iteration = [this](const MinorIteration& minor) {
+      if (!trace_.empty() && minor.major < trace_.back().major) trace_.clear();  // a repeated solve
+      trace_.push_back(minor);
+    };
+    return std::make_unique<SqpSolver>(options, std::move(choices));
   }
 
   void complete(SolvedCase& solved) override {
@@ -256,6 +257,7 @@ class Solve final : public Experiment {
   [[nodiscard]] AdaptiveAnswer adapted(const Case& the_case, const Start& start, const SolverOptions& options) {
     adaptive_.solver = the_case.solver;
     adaptive_.solver_options = options;
+    adaptive_.named_options = named_options(this->options());
     if (the_case.form != CostForm::bolza || the_case.derivatives != "tape") {
       throw Error("--accuracy refines with --form bolza and --derivatives tape");
     }

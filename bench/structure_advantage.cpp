@@ -73,13 +73,14 @@ class StructureAdvantage final : public Experiment {
   }
 
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
+    if (the_case.variant.empty()) return Experiment::solver_for(the_case, options);
+    InteriorPointOptions choices = interior_point_options(named_options(this->options()));
     if (the_case.variant == "banded") {
-      InteriorPointOptions choices;
       choices.make_kkt_system = [](NonlinearProgram& program) { return std::make_unique<kkt::BandedKkt>(program); };
-      return std::make_unique<InteriorPointSolver>(options, std::move(choices));
+    } else {
+      choices.factorisation = factorisation_named(the_case.variant);
     }
-    if (!the_case.variant.empty()) options.passed_on["factorisation"] = the_case.variant;
-    return Experiment::solver_for(the_case, options);
+    return std::make_unique<InteriorPointSolver>(options, std::move(choices));
   }
 
   void check(const std::vector<Case>& cases) override {

@@ -42,4 +42,19 @@ template <class Table, class NameOf>
   return table[position_of(table, name_of, name, refusal)];
 }
 
+/// One entry of a table of names and what they stand for.
+template <class Value>
+struct Named {
+  std::string_view name;  ///< as a user gives it
+  Value value;            ///< what it stands for
+};
+
+/// What the name stands for in a table of `Named`; throws as `position_of`.
+template <class Table>
+[[nodiscard]] auto value_named(const Table& table, std::string_view name, const std::string& refusal) {
+  return one_of(
+             table, [](const auto& entry) { return entry.name; }, name, refusal)
+      .value;
+}
+
 }  // namespace dmocbench

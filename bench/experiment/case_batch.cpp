@@ -55,8 +55,7 @@ std::shared_ptr<Transcription> transcribed(const Case& the_case, const Problem& 
 
 bool CaseBatch::takes(const Case& the_case, const SolverOptions& options) {
   return the_case.solver == "interior_point" && the_case.derivatives == "tape" && the_case.form == CostForm::bolza &&
-         !is_single_shooting(the_case.method) && options.most_seconds <= 0.0 && options.passed_on.empty() &&
-         !options.verbose;
+         !is_single_shooting(the_case.method) && options.most_seconds <= 0.0 && !options.verbose;
 }
 
 bool CaseBatch::share_program(const Case& a, const Case& b) {

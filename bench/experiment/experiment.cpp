@@ -65,7 +65,8 @@ class Run {
       nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
       if (scale.is_null()) scale = the_case.problem->cost_scale();
     }
-    for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_));
+    const NamedOptions named = named_options(options_);
+    for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_, named));
   }
 
   int run() {
@@ -185,7 +186,7 @@ class Run {
   }
 
   void solve_span(std::size_t first, std::size_t end) {
-    if (options_.batch && options_.repeats == 1) solve_batches(first, end);
+    if (options_.batch && options_.repeats == 1 && options_.passed_on.empty()) solve_batches(first, end);
     for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
       solve_curve(curve, first);
       first += curve.size();
@@ -372,7 +373,7 @@ nlohmann::ordered_json Experiment::findings() const { return nullptr; }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides change the options
 std::unique_ptr<Solver> Experiment::solver_for(const Case& the_case, SolverOptions options) {
-  return make_solver(the_case.solver, options);
+  return make_solver(the_case.solver, options, named_options(this->options()));
 }
 
 int run_experiment(Experiment&& experiment, int argc, char** argv) {

@@ -226,11 +226,16 @@ SolverOptions solver_options(const ExperimentOptions& options) {
   result.most_seconds = options.most_seconds;
   result.verbose = options.verbose;
   result.stop_requested = interrupt_requested;
+  result.validate();
+  return result;
+}
+
+NamedOptions named_options(const ExperimentOptions& options) {
+  NamedOptions result;
   for (const std::string& text : options.passed_on) {
     const auto [name, value] = parse_assignment("--option", text);
-    result.passed_on.emplace(name, value);
+    result.emplace(name, value);
   }
-  result.validate();
   return result;
 }
 

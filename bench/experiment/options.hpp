@@ -57,6 +57,8 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options);
 
 /// The solver options among them; an interrupt stops the solver. Throws `Error` if one is out of range.
 [[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
+/// Those of the solver by name. Throws `Error` if one has no "=" or no name.
+[[nodiscard]] NamedOptions named_options(const ExperimentOptions& options);
 
 /// All cases in the order of rows: problem, method, tableau, stages, solver, derivatives, intervals ascending. Problems
 /// of equal name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by

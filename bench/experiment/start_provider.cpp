@@ -250,7 +250,6 @@ class StartProvider::Search {
 StartProvider::StartProvider(Rules rules, SolverOptions options)
     : rules_(std::move(rules)), options_(std::move(options)) {
   options_.verbose = false;
-  options_.passed_on.clear();  // the start must not depend on how a row is solved
   options_.tolerance = std::min(options_.tolerance, SolverOptions{}.tolerance);
   options_.most_iterations = std::min(options_.most_iterations, SolverOptions{}.most_iterations);
 }

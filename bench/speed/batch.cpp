@@ -162,10 +162,8 @@ void solve_in_a_loop(Instances& instances, const BatchCase& way, Tally& tally) {
   for (std::size_t i = 0; i < way.instances; ++i) {
     instances.fill(i, instance);
     if (way.name == "fill") continue;
-    SolverOptions options;
-    options.start_multipliers = instance.multipliers;
     batch::InstanceProgram alone(instances.program(), instance.start, instance.rows);
-    tally.add(make_solver(way.name, options)->solve(alone, instance.start));
+    tally.add(make_solver(way.name)->solve(alone, instance.start, instance.multipliers));
   }
 }
 

@@ -95,7 +95,6 @@ void count(const CountedSolve& solve, int extra) {
   Slowed slowed(*made.program, extra);
   CountedProgram counted(extra > 0 ? static_cast<NonlinearProgram&>(slowed) : *made.program);
   const auto run = solver->prepare(counted);
-  if (!run) throw Error(fmt::format("{} is not eliminated interval by interval", solve.name()));
   Solution solution;
   run->run(start, optimum.multipliers, std::nullopt, solution);
   CALLGRIND_ZERO_STATS;

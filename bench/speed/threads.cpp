@@ -164,7 +164,6 @@ class SharedSolves {
     CountedProgram counted(*made_.program);
     solution_ = {};
     auto method = solver.prepare(counted);
-    if (!method) throw Error("interior_point cannot eliminate this program by intervals");
     method->run(made_.start, {}, std::nullopt, solution_);
     method.reset();
     return counted.elapsed_seconds();

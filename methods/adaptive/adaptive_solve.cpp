@@ -92,12 +92,10 @@ class AdaptiveRun {
   }
 
   [[nodiscard]] Solution solve(Transcription& program) const {
-    const auto solver = make_solver(options_.solver, solver_options_);
+    const auto solver = make_solver(options_.solver, solver_options_, options_.named_options);
     if (answer_.grids.empty()) return solver->solve(program, sample(program, task_.start));
     const Eigen::VectorXd start = sample(program, smooth_motion(answer_.trajectory));
-    SolverOptions warm = solver_options_;
-    warm.start_multipliers = sample_multipliers(program, answer_.trajectory);
-    Solution solution = make_solver(options_.solver, warm)->solve(program, start);
+    Solution solution = solver->solve(program, start, sample_multipliers(program, answer_.trajectory));
     if (is_solved(solution.status) || must_stop()) return solution;
     return solver->solve(program, start);
   }
@@ -168,17 +166,11 @@ class AdaptiveRun {
   AdaptiveAnswer answer_;
 };
 
-struct NamedRefinement {
-  const char* name;
-  Refinement refinement;
-};
-constexpr std::array refinements{NamedRefinement{"h", Refinement::h}, NamedRefinement{"hp", Refinement::hp}};
+constexpr std::array refinements{Named<Refinement>{"h", Refinement::h}, Named<Refinement>{"hp", Refinement::hp}};
 
 }  // namespace
 
-Refinement refinement_named(std::string_view name) {
-  return one_of(refinements, &NamedRefinement::name, name, "there is no refinement").refinement;
-}
+Refinement refinement_named(std::string_view name) { return value_named(refinements, name, "there is no refinement"); }
 
 double AdaptiveOptions::solver_tolerance(double tolerance) const {
   constexpr double of_accuracy = 1e-2;

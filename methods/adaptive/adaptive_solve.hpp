@@ -36,6 +36,7 @@ struct AdaptiveOptions {
   Eigen::Index most_intervals = 1 << 20;  ///< of a grid
   std::string solver = "interior_point";  ///< as `make_solver` takes it
   SolverOptions solver_options;           ///< of every solve, but for the tolerance
+  NamedOptions named_options;             ///< those of the solver by name
 
   /// The tolerance of the solves: `tolerance`, or a hundredth of `accuracy` if that is less, but not below 1e-12.
   [[nodiscard]] double solver_tolerance(double tolerance) const;

@@ -16,9 +16,7 @@ std::vector<int> positions_of(const Transcription& transcription) {
   std::vector<int> positions;
   int next = 0;
   for (std::size_t j = 0; j < transcription.variable_count(); ++j) {
-    const auto index = static_cast<Eigen::Index>(j);
-    const bool fixed = transcription.variable_lower()[index] == transcription.variable_upper()[index];
-    positions.push_back(fixed ? -1 : next++);
+    positions.push_back(is_fixed(transcription, static_cast<Eigen::Index>(j)) ? -1 : next++);
   }
   return positions;
 }

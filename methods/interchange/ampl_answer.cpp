@@ -11,7 +11,7 @@
 namespace dmocbench {
 
 AmplAnswer::AmplAnswer(AmplSolution answer, SolverOptions options)
-    : Solver(std::move(options)), answer_(std::move(answer)) {}
+    : SolverWithoutMemory(std::move(options)), answer_(std::move(answer)) {}
 
 void AmplAnswer::require_fit(const NonlinearProgram& program) const {
   if (std::cmp_equal(answer_.variable_count, program.variable_count()) &&

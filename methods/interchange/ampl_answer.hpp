@@ -11,7 +11,7 @@ namespace dmocbench {
 /// The other solver's status is kept unless our residual contradicts it. Multipliers that it did not write are
 /// estimated. Some solvers write multipliers with the opposite of the sign that AMPL prescribes; the sign with the
 /// smaller residual is taken.
-class AmplAnswer final : public Solver {
+class AmplAnswer final : public SolverWithoutMemory {
  public:
   /// Returns this answer for every program.
   explicit AmplAnswer(AmplSolution answer, SolverOptions options = {});

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "methods/expression/derivatives.hpp"
 
 namespace dmocbench {
@@ -21,7 +23,7 @@ ExpressionVector FormulaCheck::trace(const Problem& problem, const ControlledSta
   };
   const auto add_formula = [&](const char* name, const ExpressionVector& formula) {
     for (Eigen::Index i = 0; i < formula.size(); ++i) {
-      const std::string entry = formula.size() > 1 ? name + ("[" + std::to_string(i) + "]") : name;
+      const std::string entry = formula.size() > 1 ? fmt::format("{}[{}]", name, i) : name;
       add(formula.segment(i, 1), entry);
       add(gradient(formula[i], inputs), "a derivative of " + entry);
     }

@@ -75,6 +75,11 @@ class NonlinearProgram {
   NonlinearProgram() = default;
 };
 
+/// Whether the two bounds of a variable are equal.
+[[nodiscard]] inline bool is_fixed(const NonlinearProgram& program, Eigen::Index variable) {
+  return program.variable_lower()[variable] == program.variable_upper()[variable];
+}
+
 /// Number of variables whose two bounds differ.
 [[nodiscard]] inline std::size_t free_variable_count(const NonlinearProgram& program) {
   return static_cast<std::size_t>((program.variable_lower().array() != program.variable_upper().array()).count());

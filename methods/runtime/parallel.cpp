@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "methods/error.hpp"
@@ -175,7 +176,7 @@ std::size_t thread_count() {
 
 void set_thread_count(std::size_t count) {
   if (count < 1 || count > most_threads) {
-    throw Error("the number of threads must be from 1 to 1024, not " + std::to_string(count));
+    throw Error(fmt::format("the number of threads must be from 1 to {}, not {}", most_threads, count));
   }
   count_that_was_set = count;
 }

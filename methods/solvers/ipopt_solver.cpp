@@ -77,7 +77,7 @@ std::optional<OrderedResiduals> ordered(const NonlinearProgram& program, Ipopt::
   adapter->ResortG(*quantities.curr_c(), *quantities.curr_d_minus_s(), residuals.violations.data());
   adapter->ResortX(*quantities.curr_grad_lag_x(), residuals.gradient.data());
   for (Eigen::Index j = 0; j < residuals.gradient.size(); ++j) {
-    if (program.variable_lower()[j] == program.variable_upper()[j]) residuals.gradient[j] = 0.0;
+    if (is_fixed(program, j)) residuals.gradient[j] = 0.0;
   }
   return residuals;
 }
@@ -105,13 +105,13 @@ bool meets(const StopRule& allowed, const NonlinearProgram& program, const Ipopt
 class ProgramForIpopt final : public Ipopt::TNLP {
  public:
   ProgramForIpopt(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
-                  Solution& solution)
+                  bool has_rule_of_its_own, Solution& solution)
       : program_(program),
         start_(start),
         options_(options),
         solution_(solution),
         tolerances_(program, options.tolerance),
-        has_rule_of_its_own_(options.passed_on.contains("tol")) {}
+        has_rule_of_its_own_(has_rule_of_its_own) {}
 
   /// Whether Ipopt was told to stop because its point meets our rule.
   [[nodiscard]] bool has_converged() const { return has_converged_; }
@@ -280,7 +280,7 @@ void pass_on(Ipopt::OptionsList& list, const std::string& name, const std::strin
   throw Error(fmt::format("Ipopt does not take the option {}={}", name, value));
 }
 
-void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options) {
+void set_options(Ipopt::IpoptApplication& application, const SolverOptions& options, const NamedOptions& named) {
   Ipopt::OptionsList& list = *application.Options();
   list.SetStringValue("sb", "yes");
   list.SetIntegerValue("print_level", options.verbose ? 5 : 0);
@@ -291,14 +291,14 @@ void set_options(Ipopt::IpoptApplication& application, const SolverOptions& opti
   list.SetStringValue("nlp_scaling_method", "none");
   list.SetNumericValue("bound_relax_factor", 0.0);
   list.SetStringValue("check_derivatives_for_naninf", "yes");  // else a NaN ends as a failed step
-  for (const auto& [name, value] : options.passed_on) pass_on(list, name, value);
+  for (const auto& [name, value] : named) pass_on(list, name, value);
 }
 
 /// Ipopt with all options set. Throws `Error` if it does not take one.
-Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& options) {
+Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& options, const NamedOptions& named) {
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(options.verbose);
   application->RethrowNonIpoptException(true);
-  set_options(*application, options);
+  set_options(*application, options, named);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw Error("Ipopt refuses one of the options passed on to it");
   }
@@ -307,8 +307,9 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
 
 }  // namespace
 
-IpoptSolver::IpoptSolver(SolverOptions options) : Solver(std::move(options)) {
-  if (!this->options().passed_on.empty()) static_cast<void>(application_with(this->options()));
+IpoptSolver::IpoptSolver(SolverOptions options, NamedOptions named)
+    : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
+  if (!named_.empty()) static_cast<void>(application_with(this->options(), named_));
 }
 
 std::string IpoptSolver::description() const {
@@ -318,11 +319,12 @@ std::string IpoptSolver::description() const {
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
   Solution solution;
   const Clock::time_point begin = Clock::now();
-  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = application_with(options());
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = application_with(options(), named_);
   const Ipopt::SmartPtr<MemoryReports> memory = new MemoryReports;
   application->Jnlst()->AddJournal(Ipopt::GetRawPtr(memory));
   program.leave_out(seconds_since(begin));
-  const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt = new ProgramForIpopt(program, start, options(), solution);
+  const Ipopt::SmartPtr<ProgramForIpopt> for_ipopt =
+      new ProgramForIpopt(program, start, options(), named_.contains("tol"), solution);
   const Ipopt::ApplicationReturnStatus status = application->OptimizeTNLP(Ipopt::GetRawPtr(for_ipopt));
   solution.status = for_ipopt->has_converged() ? Status::solved
                     : for_ipopt->is_late()     ? Status::time_limit

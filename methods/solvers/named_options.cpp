@@ -29,18 +29,25 @@ NamedOption named_option(std::string_view name, std::uint32_t& result) {
           }};
 }
 
-void read_named_options(std::string_view solver, const std::map<std::string, std::string>& given,
-                        const std::vector<NamedOption>& options) {
+NamedOptions read_known_options(std::string_view solver, const NamedOptions& given,
+                                const std::vector<NamedOption>& options) {
+  NamedOptions others;
   for (const auto& [name, text] : given) {
     const auto option = std::ranges::find(options, name, &NamedOption::name);
     if (option == options.end()) {
-      throw Error(fmt::format("the solver {} has no option {}; it has {}", solver, name,
-                              listed(names_of(options, &NamedOption::name), "and")));
-    }
-    if (!option->read(text)) {
+      others.emplace(name, text);
+    } else if (!option->read(text)) {
       throw Error(fmt::format("the solver {}: {} must be {}, not {}", solver, name, listed(option->takes, "or"), text));
     }
   }
+  return others;
+}
+
+void read_named_options(std::string_view solver, const NamedOptions& given, const std::vector<NamedOption>& options) {
+  const NamedOptions others = read_known_options(solver, given, options);
+  if (others.empty()) return;
+  throw Error(fmt::format("the solver {} has no option {}; it has {}", solver, others.begin()->first,
+                          listed(names_of(options, &NamedOption::name), "and")));
 }
 
 }  // namespace dmocbench

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "methods/choose.hpp"
+#include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
 
@@ -20,16 +19,14 @@ struct NamedOption {
   std::function<bool(const std::string&)> read;  ///< sets the typed option; false if the text is none of these
 };
 
-/// An option that is one of several choices.
-template <class Choice>
-NamedOption named_option(std::string_view name, Choice& result,
-                         const std::vector<std::pair<std::string_view, Choice>>& choices) {
-  using WordAndChoice = std::pair<std::string_view, Choice>;
+/// An option that is one of several choices, a table of `Named`.
+template <class Choice, class Table>
+NamedOption named_option(std::string_view name, Choice& result, const Table& choices) {
   return {.name = name,
-          .takes = names_of(choices, &WordAndChoice::first),
+          .takes = names_of(choices, &Named<Choice>::name),
           .read = [&result, choices](const std::string& text) {
-            const auto found = std::ranges::find(choices, text, &WordAndChoice::first);
-            if (found != choices.end()) result = found->second;
+            const auto found = std::ranges::find(choices, text, &Named<Choice>::name);
+            if (found != choices.end()) result = found->value;
             return found != choices.end();
           }};
 }
@@ -38,7 +35,10 @@ NamedOption named_option(std::string_view name, Choice& result,
 [[nodiscard]] NamedOption named_option(std::string_view name, std::uint32_t& result);
 
 /// Sets typed options from text, name=value. Throws `Error` that names the solver, the option and what it takes.
-void read_named_options(std::string_view solver, const std::map<std::string, std::string>& given,
-                        const std::vector<NamedOption>& options);
+void read_named_options(std::string_view solver, const NamedOptions& given, const std::vector<NamedOption>& options);
+
+/// The same, but for names that are none of these: it returns them with their text.
+[[nodiscard]] NamedOptions read_known_options(std::string_view solver, const NamedOptions& given,
+                                              const std::vector<NamedOption>& options);
 
 }  // namespace dmocbench

@@ -91,15 +91,17 @@ Solution refused(Status status, std::string message) {
 /// One solve by SLSQP. Judges the points that NLopt visits and keeps the one nearest to a solution.
 class SlsqpRun {
  public:
-  SlsqpRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options)
+  SlsqpRun(CountedProgram& program, const Eigen::VectorXd& start, const SolverOptions& options,
+           const NamedOptions& named)
       : program_(program),
         options_(options),
+        named_(named),
         constraint_tolerance_(std::max(options.tolerance, program.rounding_floors().smallest)),
         equalities_(program, OneSidedConstraints::Kind::equalities),
         inequalities_(program, OneSidedConstraints::Kind::inequalities),
         nearest_point_(start.cwiseMax(program.variable_lower()).cwiseMin(program.variable_upper())) {
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      if (program.variable_lower()[i] != program.variable_upper()[i]) free_.push_back(i);
+      if (!is_fixed(program, i)) free_.push_back(i);
     }
   }
 
@@ -152,7 +154,7 @@ class SlsqpRun {
   void set_options() {
     nlopt_set_xtol_rel(handle_.get(), std::numeric_limits<double>::epsilon());
     nlopt_set_maxeval(handle_.get(), options_.most_iterations);
-    for (const auto& [name, text] : options_.passed_on) {
+    for (const auto& [name, text] : named_) {
       const auto [setting, value] = read_option(name, text);
       setting.set(handle_.get(), value);
     }
@@ -161,8 +163,8 @@ class SlsqpRun {
   /// Where SLSQP makes no further progress, it starts again from the nearest point, without its quasi-Newton matrix, as
   /// long as that helps by a tenth and the limits allow it; not if a tolerance was passed on.
   nlopt_result optimise() {
-    const bool has_own_tolerance = std::ranges::any_of(
-        options_.passed_on, [](const auto& option) { return option.first.find("tol") != std::string::npos; });
+    const bool has_own_tolerance =
+        std::ranges::any_of(named_, [](const auto& option) { return option.first.find("tol") != std::string::npos; });
     const int most_evaluations = nlopt_get_maxeval(handle_.get());
     const double most_seconds = nlopt_get_maxtime(handle_.get());
     const auto start_from_nearest_point = [&] {
@@ -248,6 +250,7 @@ class SlsqpRun {
 
   CountedProgram& program_;
   const SolverOptions& options_;
+  const NamedOptions& named_;
   double constraint_tolerance_;
   std::vector<Eigen::Index> free_;  // the variables that NLopt sees
   OneSidedConstraints equalities_;
@@ -263,8 +266,9 @@ class SlsqpRun {
 
 }  // namespace
 
-NloptSolver::NloptSolver(SolverOptions options) : Solver(std::move(options)) {
-  for (const auto& [name, text] : this->options().passed_on) static_cast<void>(read_option(name, text));
+NloptSolver::NloptSolver(SolverOptions options, NamedOptions named)
+    : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
+  for (const auto& [name, text] : named_) static_cast<void>(read_option(name, text));
 }
 
 std::string NloptSolver::description() const {
@@ -284,7 +288,7 @@ Solution NloptSolver::run(CountedProgram& program, const Eigen::VectorXd& start)
                                                   "program has {}; take fewer intervals or another solver.",
                                                   most_free_variables, free_count));
   }
-  return SlsqpRun(program, start, options()).run();
+  return SlsqpRun(program, start, options(), named_).run();
 }
 
 }  // namespace dmocbench

@@ -21,21 +21,23 @@ namespace dmocbench {
 ///
 /// `most_iterations` limits the points that are visited: an iteration takes one, and more where its line search
 /// shortens the step. SLSQP does not tell its iterations. The seconds include our estimates. `stop_requested` is asked
-/// once per point; `verbose` shows nothing. Options passed on: ftol_rel, ftol_abs, xtol_rel, xtol_abs, maxeval,
-/// maxtime. By default xtol_rel is the rounding of a double and the other tolerances are off; where one is passed on,
+/// once per point; `verbose` shows nothing. Its options by name: ftol_rel, ftol_abs, xtol_rel, xtol_abs, maxeval,
+/// maxtime. By default xtol_rel is the rounding of a double and the other tolerances are off; where one is given,
 /// SLSQP does not start again.
-class NloptSolver final : public Solver {
+class NloptSolver final : public SolverWithoutMemory {
  public:
   /// An iteration factorises dense matrices of this size; more free variables are refused with status "too large".
   static constexpr std::size_t most_free_variables = 400;
 
-  /// Throws `Error` that names the option if one is out of range, or one passed on is not accepted.
-  explicit NloptSolver(SolverOptions options);
+  /// Throws `Error` that names the option if one is out of range or not SLSQP's.
+  explicit NloptSolver(SolverOptions options, NamedOptions named = {});
   [[nodiscard]] std::string name() const override { return "nlopt"; }
   [[nodiscard]] std::string description() const override;
 
  private:
   [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
+
+  NamedOptions named_;
 };
 
 }  // namespace dmocbench

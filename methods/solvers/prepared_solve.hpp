@@ -21,7 +21,7 @@ namespace dmocbench {
 /// What depends on the structure alone, and all memory, is made once. With `interior_point` nothing is allocated after
 /// the first solve, unless a solve needs more than all before it did (a filter with more entries, the sparse
 /// factorisation, the descent on the violation, a longer message). A solve does not depend on the ones before it, but
-/// for the order of elimination, which is kept as long as its pivots hold. Other solvers are called as they are.
+/// for the order of elimination, which is kept as long as its pivots hold. Other solvers keep nothing.
 ///
 /// Every object has memory of its own: several of them, each with a program of its own, may solve in several threads at
 /// the same time. (Programs may share a problem, which they only read.) One object must not solve in two threads at
@@ -42,9 +42,8 @@ class PreparedSolve {
   PreparedSolve(NonlinearProgram& program, std::unique_ptr<Solver> solver, Judgement judgement = Judgement::confirmed);
 
   /// As `Solver::solve`, from a start (variable_count() entries) and, unless they are empty, multipliers
-  /// (constraint_count() entries) and a barrier parameter (`Solution::barrier_parameter` of a neighbour); else those of
-  /// the options. The solution is valid until the next call. Throws `Error` if a size is wrong or the parameter is not
-  /// positive.
+  /// (constraint_count() entries) and a barrier parameter (`Solution::barrier_parameter` of a neighbour). The solution
+  /// is valid until the next call. Throws `Error` if a size is wrong or the parameter is not positive.
   const Solution& solve(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
                         std::optional<double> barrier_parameter = std::nullopt);
 
@@ -56,14 +55,11 @@ class PreparedSolve {
   [[nodiscard]] NonlinearProgram& program() const noexcept { return program_; }
 
  private:
-  void solve_anew(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
-                  std::optional<double> barrier_parameter);
-
   NonlinearProgram& program_;
   std::unique_ptr<Solver> solver_;
   Judgement judgement_;
   CountedProgram counted_;
-  std::unique_ptr<PreparedRun> run_;  // null where the solver is called as it is
+  std::unique_ptr<PreparedRun> run_;
   Confirmation confirmation_;
   Solution solution_;
 };

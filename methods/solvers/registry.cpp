@@ -1,4 +1,5 @@
 #include <array>
+#include <functional>
 
 #include "methods/choose.hpp"
 #include "methods/solvers/auto/auto_solver.hpp"
@@ -14,27 +15,32 @@ namespace {
 
 struct Entry {
   std::string_view name;
-  std::unique_ptr<Solver> (*make)(const SolverOptions&);
+  std::unique_ptr<Solver> (*make)(const SolverOptions&, const NamedOptions&);
 };
 
-template <class Type>
-std::unique_ptr<Solver> make(const SolverOptions& options) {
-  return std::make_unique<Type>(options);
+/// `typed` makes the solver's own options of the named ones.
+template <class Type, auto typed>
+std::unique_ptr<Solver> make(const SolverOptions& options, const NamedOptions& named) {
+  return std::make_unique<Type>(options, typed(named));
 }
+
+constexpr std::identity as_they_stand;
 
 // One line per solver, the default first.
 constexpr std::array registry{
-    Entry{"ipopt", make<IpoptSolver>}, Entry{"interior_point", make<InteriorPointSolver>},
-    Entry{"sqp", make<SqpSolver>},     Entry{"nlopt", make<NloptSolver>},
-    Entry{"auto", make<AutoSolver>},
+    Entry{"ipopt", make<IpoptSolver, as_they_stand>},
+    Entry{"interior_point", make<InteriorPointSolver, interior_point_options>},
+    Entry{"sqp", make<SqpSolver, sequential_options>},
+    Entry{"nlopt", make<NloptSolver, as_they_stand>},
+    Entry{"auto", make<AutoSolver, auto_options>},
 };
 
 }  // namespace
 
 std::vector<std::string> solver_names() { return names_of(registry, &Entry::name); }
 
-std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options) {
-  return one_of(registry, &Entry::name, name, "there is no solver").make(options);
+std::unique_ptr<Solver> make_solver(std::string_view name, const SolverOptions& options, const NamedOptions& named) {
+  return one_of(registry, &Entry::name, name, "there is no solver").make(options, named);
 }
 
 }  // namespace dmocbench

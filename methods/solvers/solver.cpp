@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,18 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
   return {};
 }
 
+class RunWithoutMemory final : public PreparedRun {
+ public:
+  explicit RunWithoutMemory(std::function<Solution(const Eigen::VectorXd&)> method) : method_(std::move(method)) {}
+  void run(const Eigen::VectorXd& start, const Eigen::VectorXd& /*multipliers*/,
+           std::optional<double> /*barrier_parameter*/, Solution& solution) override {
+    solution = method_(start);
+  }
+
+ private:
+  std::function<Solution(const Eigen::VectorXd&)> method_;
+};
+
 }  // namespace
 
 void SolverOptions::validate() const {
@@ -37,18 +50,14 @@ void SolverOptions::validate() const {
   if (!(most_seconds >= 0.0) || std::isinf(most_seconds)) {
     throw Error(fmt::format("the time limit must be a number of seconds, or 0 for none, got {}", most_seconds));
   }
-  if (start_barrier_parameter && (!(*start_barrier_parameter > 0.0) || std::isinf(*start_barrier_parameter))) {
-    throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *start_barrier_parameter));
-  }
 }
 
 Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
 
-Solution Solver::run_of(const Solver& other, CountedProgram& program, const Eigen::VectorXd& start) {
-  return other.run(program, start);
+std::unique_ptr<PreparedRun> SolverWithoutMemory::prepare(CountedProgram& program) const {
+  return std::make_unique<RunWithoutMemory>(
+      [this, &program](const Eigen::VectorXd& start) { return run(program, start); });
 }
-
-std::unique_ptr<PreparedRun> Solver::prepare(CountedProgram& /*program*/) const { return nullptr; }
 
 double Solver::seconds_allowed() const {
   constexpr double shortest = 1e-9;  // 0 is no limit
@@ -56,25 +65,41 @@ double Solver::seconds_allowed() const {
   return options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
 }
 
-void Solver::complete(CountedProgram& counted, Solution& solution) const {
+void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                   std::optional<double> barrier_parameter) {
+  const auto require = [](Eigen::Index given, std::size_t wanted, const char* what, const char* of_program) {
+    if (static_cast<std::size_t>(given) == wanted) return;
+    throw Error(fmt::format("{} {} entries, the program {} {}", what, given, wanted, of_program));
+  };
+  require(start.size(), program.variable_count(), "the start has", "variables");
+  if (multipliers.size() > 0) {
+    require(multipliers.size(), program.constraint_count(), "the multipliers have", "constraints");
+  }
+  if (barrier_parameter && (!(*barrier_parameter > 0.0) || std::isinf(*barrier_parameter))) {
+    throw Error(fmt::format("the barrier parameter must be a positive number, got {}", *barrier_parameter));
+  }
+}
+
+void Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation,
+                      bool asks_newton, Solution& solution) const {
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
   judge_infeasibility(counted, options_, solution);
-}
-
-Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start) const {
-  if (static_cast<std::size_t>(start.size()) != program.variable_count()) {
-    throw Error(
-        fmt::format("the start has {} entries, the program {} variables", start.size(), program.variable_count()));
-  }
-  CountedProgram counted(program, seconds_allowed());
-  Solution solution = run(counted, start);
+  confirmation.judge(options_.tolerance, solution, asks_newton);
   if (solution.solver.empty()) solution.solver = name();
-  complete(counted, solution);
-  confirm(program, options_.tolerance, solution);
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   if (solution.status == Status::evaluation_failed) solution.message += fault_of_start(start);
+}
+
+Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
+                       std::optional<double> barrier_parameter) const {
+  check(program, start, multipliers, barrier_parameter);
+  CountedProgram counted(program, seconds_allowed());
+  Confirmation confirmation(program);
+  Solution solution;
+  prepare(counted)->run(start, multipliers, barrier_parameter, solution);
+  complete(counted, start, confirmation, true, solution);
   return solution;
 }
 

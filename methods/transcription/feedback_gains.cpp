@@ -105,12 +105,9 @@ class BackwardRecursion {
   [[nodiscard]] Eigen::MatrixXd step_back(Eigen::Index k, Deviations& deviations) const;
 
  private:
-  [[nodiscard]] bool is_fixed(Eigen::Index variable) const {
-    return program_.variable_lower()[variable] == program_.variable_upper()[variable];
-  }
   /// What the bounds of a variable add to the diagonal.
   [[nodiscard]] double stiffness(Eigen::Index variable) const {
-    return is_fixed(variable) ? 0.0 : conditions_.diagonal[variable];
+    return is_fixed(program_, variable) ? 0.0 : conditions_.diagonal[variable];
   }
   [[nodiscard]] static Eigen::Index place(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index k) {
     return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(k)));
@@ -177,7 +174,7 @@ Eigen::MatrixXd BackwardRecursion::step_back(Eigen::Index k, Deviations& deviati
     equations.add(unknowns + n_, weights, -deviations.state.bottomRows(n_));
   }
   for (Eigen::Index j = 0; j < inner; ++j) {
-    if (is_fixed(place(layout_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
+    if (is_fixed(program_, place(layout_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
   }
   const Eigen::MatrixXd solutions = equations.solutions();
   deviations = {solutions.topRows(states), solutions.middleRows(states, states)};
@@ -243,7 +240,7 @@ Deviations BackwardRecursion::at_end() {
     const auto variable = static_cast<Eigen::Index>(j < node ? layout_.configuration_column(j) + layout_.intervals()
                                                              : layout_.last_velocity(j - node));
     const Eigen::Index column = j < node ? j : 2 * states + j - node;
-    if (is_fixed(variable)) {
+    if (is_fixed(program_, variable)) {
       equations.fix(j, column);
     } else {
       equations.add(j, column, Eigen::MatrixXd::Constant(1, 1, stiffness(variable)));

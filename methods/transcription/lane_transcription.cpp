@@ -1,12 +1,13 @@
 #include "methods/transcription/lane_transcription.hpp"
 
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "methods/error.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
-#include "methods/transcription/derivatives/local_functions.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
+#include "methods/transcription/derivatives/program_part.hpp"
 
 namespace dmocbench {
 
@@ -19,112 +20,53 @@ Eigen::VectorXd each_for_all_lanes(const Eigen::VectorXd& values) {
 Eigen::Map<Eigen::VectorXd> map(double* first, Eigen::Index size) {
   return {first, size * static_cast<Eigen::Index>(instance_lanes)};
 }
+Eigen::Map<const Eigen::VectorXd> map(const double* first, Eigen::Index size) {
+  return {first, size * static_cast<Eigen::Index>(instance_lanes)};
+}
+
+std::vector<ColumnPlace> interleaved(std::vector<ColumnPlace> places) {
+  for (ColumnPlace& place : places) place.first *= instance_lanes;
+  return places;
+}
+
+/// Where the local entries of interval 0 stand in the program's matrix.
+std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalEntries& entries) {
+  std::vector<ColumnPlace> places;
+  for (std::size_t e = 0; e < entries.rows.size(); ++e) {
+    const auto found = pattern.find(entries.rows[e].first, entries.columns[e].first);
+    if (!found) throw Error("an entry of an interval is not in the program's matrix");
+    places.emplace_back(*found);
+  }
+  return places;
+}
+
+/// The places of a part in interleaved vectors: eight times as many intervals, all else eight times as far apart.
+PartPlaces interleaved_places(const Transcription& program, const LocalFunctions& functions,
+                              const std::vector<ColumnPlace>& unknowns, const std::vector<ColumnPlace>& rows,
+                              bool has_ends_only) {
+  const std::size_t intervals = has_ends_only ? 1 : program.layout().intervals();
+  const BlockPattern& jacobian = program.jacobian_structure();
+  const BlockPattern& hessian = program.hessian_structure();
+  return part_places(functions, interleaved(unknowns), interleaved(rows),
+                     interleaved(places_in(jacobian, jacobian_entries(functions, rows, unknowns, intervals))),
+                     interleaved(places_in(hessian, hessian_entries(functions, unknowns, intervals))),
+                     {.variables = program.variable_count() * instance_lanes,
+                      .constraints = program.constraint_count() * instance_lanes,
+                      .jacobian = jacobian.size() * instance_lanes,
+                      .hessian = hessian.size() * instance_lanes},
+                     intervals * instance_lanes, has_ends_only ? AssemblyMode::part : AssemblyMode::whole);
+}
 
 }  // namespace
 
-/// `ProgramPart` on interleaved vectors: eight times as many intervals, everything else eight times as far apart.
-class LaneTranscription::Part {
- public:
-  Part(const Transcription& program, const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-       const std::vector<ColumnPlace>& rows, bool has_ends_only)
-      : intervals_(has_ends_only ? 1 : program.layout().intervals()),
-        mode_(has_ends_only ? AssemblyMode::part : AssemblyMode::whole),
-        numbers_(functions.inputs),
-        unknowns_(heads(unknowns)),
-        rows_(heads(rows)),
-        inputs_(functions.inputs.count()),
-        cost_(functions.cost, plan({{0}}, intervals_, AssemblyMode::whole)),
-        constraints_(functions.rows.schedule,
-                     plan(picked(rows, functions.rows.places), program.constraint_count(), mode_)),
-        gradient_(functions.gradient.schedule,
-                  plan(picked(unknowns, functions.gradient.places), program.variable_count(), mode_)),
-        jacobian_(functions.jacobian.schedule,
-                  plan(places_in(program.jacobian_structure(), functions.jacobian, rows, unknowns, false),
-                       program.jacobian_structure().size(), mode_)),
-        hessian_(functions.hessian.schedule,
-                 plan(places_in(program.hessian_structure(), functions.hessian, unknowns, unknowns, true),
-                      program.hessian_structure().size(), mode_)),
-        costs_(static_cast<Eigen::Index>(intervals_ * instance_lanes)) {
-    for (std::size_t i = 0; i < numbers_.parameters; ++i) {
-      inputs_[i] = {parameters_.emplace_back(costs_.size()).data(), false};
-    }
-  }
+/// The functions of all intervals, or those of the ends, on interleaved vectors.
+struct LaneTranscription::Part {
+  Part(const LaneTranscription& lanes, const LocalFunctions& functions, PartPlaces places)
+      : parameters(static_cast<Eigen::Index>(places.constraints.intervals * functions.inputs.parameters)),
+        values(functions, std::move(places), lanes.steps_, lanes.times_, parameters, "tape") {}
 
-  /// The value of an open parameter in a lane.
-  void set_parameter(std::size_t lane, std::size_t number, double value) {
-    for (std::size_t k = 0; k < intervals_; ++k) {
-      parameters_[number][static_cast<Eigen::Index>(k * instance_lanes + lane)] = value;
-    }
-  }
-
-  void give_times(const Eigen::VectorXd& steps, const Eigen::VectorXd& times) {
-    inputs_[numbers_.step()] = {steps.data(), false};
-    inputs_[numbers_.time()] = {times.data(), false};
-    inputs_[numbers_.objective_factor()] = {&one_, true};
-  }
-
-  void add_objective(const double* x, double* result) {
-    cost_.evaluate(bind(x), costs_);
-    std::array<double, instance_lanes> sums{};
-    lane_loops().sum(costs_.data(), static_cast<std::ptrdiff_t>(intervals_), sums.data());
-    for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] += sums[lane];
-  }
-  void constraints(const double* x, const VectorOut& result) { constraints_.evaluate(bind(x), result); }
-  void gradient(const double* x, const VectorOut& result) { gradient_.evaluate(bind(x), result); }
-  void jacobian(const double* x, const VectorOut& values) { jacobian_.evaluate(bind(x), values); }
-  void hessian(const double* x, const double* multipliers, const VectorOut& values) {
-    for (std::size_t r = 0; r < numbers_.rows; ++r) inputs_[numbers_.multiplier(r)] = {multipliers + rows_[r], false};
-    hessian_.evaluate(bind(x), values);
-  }
-
- private:
-  static std::vector<std::size_t> heads(const std::vector<ColumnPlace>& places) {
-    std::vector<std::size_t> heads;
-    heads.reserve(places.size());
-    for (const ColumnPlace& place : places) heads.push_back(place.first * instance_lanes);
-    return heads;
-  }
-  [[nodiscard]] AssemblyPlan plan(std::vector<ColumnPlace> places, std::size_t size, AssemblyMode mode) const {
-    for (ColumnPlace& place : places) place.first *= instance_lanes;
-    return {.places = std::move(places),
-            .size = size * instance_lanes,
-            .intervals = intervals_ * instance_lanes,
-            .mode = mode};
-  }
-  /// Where the local entries of interval 0 stand in the program's matrix.
-  static std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalMatrix& matrix,
-                                            const std::vector<ColumnPlace>& rows,
-                                            const std::vector<ColumnPlace>& columns, bool lower_triangle) {
-    std::vector<ColumnPlace> places;
-    for (std::size_t e = 0; e < matrix.rows.size(); ++e) {
-      std::size_t row = rows[matrix.rows[e]].first;
-      std::size_t column = columns[matrix.columns[e]].first;
-      if (lower_triangle && row < column) std::swap(row, column);
-      const auto found = pattern.find(row, column);
-      if (!found) throw Error("an entry of an interval is not in the program's matrix");
-      places.emplace_back(*found);
-    }
-    return places;
-  }
-  std::span<const Tape::Input> bind(const double* x) {
-    for (std::size_t a = 0; a < numbers_.unknowns; ++a) inputs_[numbers_.unknown(a)] = {x + unknowns_[a], false};
-    return inputs_;
-  }
-
-  std::size_t intervals_;
-  AssemblyMode mode_;
-  LocalInputs numbers_;
-  std::vector<std::size_t> unknowns_;
-  std::vector<std::size_t> rows_;
-  std::vector<Tape::Input> inputs_;
-  AssembledTape cost_;
-  AssembledTape constraints_;
-  AssembledTape gradient_;
-  AssembledTape jacobian_;
-  AssembledTape hessian_;
-  Eigen::VectorXd costs_;                    // per interval
-  std::vector<Eigen::VectorXd> parameters_;  // per open parameter: one value per interval and lane
-  double one_ = 1.0;
+  Eigen::VectorXd parameters;  // per open parameter: one value per interval and lane
+  ProgramPart values;
 };
 
 LaneTranscription::LaneTranscription(const Transcription& program)
@@ -138,13 +80,15 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       times_(each_for_all_lanes(program.time_inputs())) {
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
   const Layout& layout = program.layout();
-  parts_.push_back(
-      std::make_unique<Part>(program, program.functions(), layout.unknown_places(), layout.row_places(), false));
+  const auto add = [&](const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+                       const std::vector<ColumnPlace>& rows, bool has_ends_only) {
+    parts_.push_back(std::make_unique<Part>(*this, functions,
+                                            interleaved_places(program, functions, unknowns, rows, has_ends_only)));
+  };
+  add(program.functions(), layout.unknown_places(), layout.row_places(), false);
   if (const auto& ends = program.end_functions()) {
-    parts_.push_back(
-        std::make_unique<Part>(program, *ends, layout.end_unknown_places(), layout.end_row_places(), true));
+    add(*ends, layout.end_unknown_places(), layout.end_row_places(), true);
   }
-  for (const auto& part : parts_) part->give_times(steps_, times_);
   if (parameter_count() == 0) return;
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) set_parameters(lane, {});
 }
@@ -160,11 +104,15 @@ void LaneTranscription::set_parameters(std::size_t lane, std::span<const double>
       values.empty() ? usual_parameters_
                      : Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   const double horizon = checked_horizon(all);
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    for (const auto& part : parts_) part->set_parameter(lane, i, all[static_cast<Eigen::Index>(open[i])]);
-  }
   const auto lanes = static_cast<Eigen::Index>(instance_lanes);
   const auto at = static_cast<Eigen::Index>(lane);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (const auto& part : parts_) {
+      const Eigen::Index count = part->parameters.size() / static_cast<Eigen::Index>(open.size());
+      part->parameters(Eigen::seqN(static_cast<Eigen::Index>(i) * count + at, count / lanes, lanes))
+          .setConstant(all[static_cast<Eigen::Index>(open[i])]);
+    }
+  }
   const auto of_lane = Eigen::seqN(at, program_.grid().relative_widths().size(), lanes);
   steps_(of_lane) = horizon * program_.grid().relative_widths();
   times_(Eigen::seqN(at, program_.grid().relative_times().size(), lanes)) = horizon * program_.grid().relative_times();
@@ -201,23 +149,30 @@ LaneTranscription::~LaneTranscription() = default;
 
 void LaneTranscription::objective(const double* x, double* result) {
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] = 0.0;
-  for (const auto& part : parts_) part->add_objective(x, result);
+  for (const auto& part : parts_) {
+    const Eigen::VectorXd& costs = part->values.costs(map(x, variables_));
+    std::array<double, instance_lanes> sums{};
+    lane_loops().sum(costs.data(), costs.size() / static_cast<Eigen::Index>(instance_lanes), sums.data());
+    for (std::size_t lane = 0; lane < instance_lanes; ++lane) result[lane] += sums[lane];
+  }
 }
 
 void LaneTranscription::gradient(const double* x, double* result) {
-  for (const auto& part : parts_) part->gradient(x, map(result, variables_));
+  for (const auto& part : parts_) part->values.gradient(map(x, variables_), map(result, variables_));
 }
 
 void LaneTranscription::constraints(const double* x, double* result) {
-  for (const auto& part : parts_) part->constraints(x, map(result, rows_));
+  for (const auto& part : parts_) part->values.rows(map(x, variables_), map(result, rows_));
 }
 
 void LaneTranscription::jacobian(const double* x, double* values) {
-  for (const auto& part : parts_) part->jacobian(x, map(values, jacobian_entries_));
+  for (const auto& part : parts_) part->values.jacobian(map(x, variables_), map(values, jacobian_entries_));
 }
 
 void LaneTranscription::hessian(const double* x, const double* multipliers, double* values) {
-  for (const auto& part : parts_) part->hessian(x, multipliers, map(values, hessian_entries_));
+  for (const auto& part : parts_) {
+    part->values.hessian(map(x, variables_), 1.0, map(multipliers, rows_), map(values, hessian_entries_));
+  }
 }
 
 MakeLanes lanes_of(const Transcription& program) {

@@ -38,7 +38,7 @@ class LaneTranscription final : public LaneProgram {
   void hessian(const double* x, const double* multipliers, double* values) override;
 
  private:
-  class Part;
+  struct Part;
   [[nodiscard]] double checked_horizon(const Eigen::VectorXd& parameters) const;
 
   const Transcription& program_;

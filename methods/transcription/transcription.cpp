@@ -43,16 +43,12 @@ LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, con
           .conditions = traced.boundary_condition_count()};
 }
 
-struct NamedCostForm {
-  const char* name;
-  CostForm form;
-};
-constexpr std::array cost_forms{NamedCostForm{"bolza", CostForm::bolza}, NamedCostForm{"mayer", CostForm::mayer}};
+constexpr std::array cost_forms{Named<CostForm>{"bolza", CostForm::bolza}, Named<CostForm>{"mayer", CostForm::mayer}};
 
 }  // namespace
 
 CostForm cost_form_named(std::string_view name) {
-  return one_of(cost_forms, &NamedCostForm::name, name, "there is no form of the cost").form;
+  return value_named(cost_forms, name, "there is no form of the cost");
 }
 
 Transcription::Transcription(const Problem& problem, const Element& element, Tableau tableau, const Grid& grid,
@@ -133,20 +129,19 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
   if (surplus(intervals) >= 0) return;
   const long long gain = surplus(intervals + 1) - surplus(intervals);
   if (gain <= 0) {
-    throw Error(problem.name() + " has no control that is free: no number of intervals lets it meet both ends");
+    throw Error(
+        fmt::format("{} has no control that is free: no number of intervals lets it meet both ends", problem.name()));
   }
   std::size_t smallest = intervals;
   while (surplus(smallest) < 0) ++smallest;
-  throw Error(problem.name() + " with " + element.name() + " has fewer free variables than equations on " +
-              std::to_string(intervals) + " intervals; it needs at least " + std::to_string(smallest));
+  throw Error(fmt::format("{} with {} has fewer free variables than equations on {} intervals; it needs at least {}",
+                          problem.name(), element.name(), intervals, smallest));
 }
 
 long long Transcription::fixed_variables_of_an_interval() const {
-  const auto is_fixed = [&](const PlaceRun& run) {
-    const auto first = static_cast<Eigen::Index>(run.first);
-    return run.kind == Place::Kind::interval && variable_lower()[first] == variable_upper()[first];
-  };
-  return std::ranges::count_if(layout_.structure().unknowns.runs(), is_fixed);
+  return std::ranges::count_if(layout_.structure().unknowns.runs(), [&](const PlaceRun& run) {
+    return run.kind == Place::Kind::interval && is_fixed(*this, static_cast<Eigen::Index>(run.first));
+  });
 }
 
 double Transcription::horizon(const VectorIn& x) const {

@@ -35,7 +35,7 @@ using tests::vector;
 struct Contract {
   std::string label;
   std::string solver;
-  std::map<std::string, std::string> passed_on = {};
+  NamedOptions named = {};
   double tolerance = 1e-10;
   double objective_error = 1e-8;
   double point_error = 2e-5;
@@ -62,7 +62,7 @@ const std::vector<Contract> contracts{
      .stopping_question = 3},
     {.label = "InteriorPointSparse",
      .solver = "interior_point",
-     .passed_on = {{"factorisation", "sparse"}},
+     .named = {{"factorisation", "sparse"}},
      .checks_derivatives = false,
      .infeasible = {Status::infeasible, Status::step_failed},
      .violation_error = 1e-2},
@@ -73,7 +73,7 @@ const std::vector<Contract> contracts{
      .violation_error = 1e-3},
     {.label = "SqpLimitedMemory",
      .solver = "sqp",
-     .passed_on = {{"hessian", "limited_memory"}},
+     .named = {{"hessian", "limited_memory"}},
      .tells_minor_iterations = true,
      .checks_derivatives = false,
      .violation_error = 1e-3},
@@ -120,12 +120,11 @@ class EverySolver : public testing::TestWithParam<Contract> {
   static SolverOptions options() {
     SolverOptions options;
     options.tolerance = contract().tolerance;
-    options.passed_on = contract().passed_on;
     return options;
   }
   static Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                         const SolverOptions& options = EverySolver::options()) {
-    return make_solver(contract().solver, options)->solve(program, start);
+    return make_solver(contract().solver, options, contract().named)->solve(program, start);
   }
   /// NLopt counts the points that it visits.
   static int iterations(const Solution& solution) {

@@ -22,14 +22,15 @@ Solution solve_by_ipopt(NonlinearProgram& program, const Eigen::VectorXd& start,
   return IpoptSolver(options).solve(program, start);
 }
 
+Solution solve_with(const NamedOptions& named, NonlinearProgram& program, const Eigen::VectorXd& start) {
+  return IpoptSolver({}, named).solve(program, start);
+}
+
 TEST(Ipopt, IsNotBelievedWhereOurResidualIsLarger) {
   // Ipopt is told to stop early and says "solved"; we were asked for 1e-10.
   SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  options.passed_on["tol"] = "1e-2";
-  options.passed_on["dual_inf_tol"] = "1e-2";
-  options.passed_on["acceptable_iter"] = "0";
-  const Solution solution = solve_by_ipopt(program, vector({-1.2, 1.0}), options);
+  const Solution solution =
+      solve_with({{"tol", "1e-2"}, {"dual_inf_tol", "1e-2"}, {"acceptable_iter", "0"}}, program, vector({-1.2, 1.0}));
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_GT(tests::value_of(solution.kkt_residual), 1e-9);
   EXPECT_EQ(solution.message, sentence_of(Status::not_confirmed));
@@ -83,17 +84,13 @@ TEST(Ipopt, RefusesMoreRowsThanVariables) {
 
 TEST(Ipopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
   SmallProgram program = tests::rosenbrock();
-  SolverOptions options;
-  options.passed_on["max_iter"] = "2";  // wins over most_iterations
-  options.passed_on["mu_strategy"] = "adaptive";
-  options.passed_on["bound_push"] = "0.02";
-  EXPECT_EQ(solve_by_ipopt(program, vector({-1.2, 1.0}), options).status, Status::iteration_limit);
+  const NamedOptions named{{"max_iter", "2"},  // wins over most_iterations
+                           {"mu_strategy", "adaptive"},
+                           {"bound_push", "0.02"}};
+  EXPECT_EQ(solve_with(named, program, vector({-1.2, 1.0})).status, Status::iteration_limit);
   for (const auto& [name, value] :
        std::map<std::string, std::string>{{"no_such_option", "1"}, {"mu_strategy", "sometimes"}, {"max_iter", "-3"}}) {
-    SolverOptions wrong;
-    wrong.passed_on[name] = value;
-    tests::expect_error_naming(
-        {name, value}, [&, start = vector({0.0, 0.0})] { static_cast<void>(solve_by_ipopt(program, start, wrong)); });
+    tests::expect_error_naming({name, value}, [wrong = NamedOptions{{name, value}}] { IpoptSolver({}, wrong); });
   }
 }
 

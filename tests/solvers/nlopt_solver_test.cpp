@@ -29,12 +29,6 @@ Solution solve_by_nlopt(NonlinearProgram& program, const Eigen::VectorXd& start,
   return NloptSolver(options).solve(program, start);
 }
 
-SolverOptions passing_on(const std::string& name, const std::string& value) {
-  SolverOptions options;
-  options.passed_on[name] = value;
-  return options;
-}
-
 TEST(Nlopt, StartsWithinTheBounds) {
   const tests::KnownProgram known = tests::hock_schittkowski().back();
   SmallProgram program(known.statement);
@@ -102,7 +96,7 @@ TEST(Nlopt, LetsExceptionsOfAProgramThrough) {
 
 TEST(Nlopt, IsNotBelievedWhereOurResidualIsLarger) {
   SmallProgram program = tests::rosenbrock();
-  const Solution solution = solve_by_nlopt(program, vector({-1.2, 1.0}), passing_on("ftol_rel", "0.1"));
+  const Solution solution = NloptSolver({}, {{"ftol_rel", "0.1"}}).solve(program, vector({-1.2, 1.0}));
   EXPECT_EQ(solution.status, Status::not_confirmed);
   EXPECT_GT(solution.kkt_residual.value_or(0.0), 1e-7);
   EXPECT_EQ(solution.message, sentence_of(Status::not_confirmed));
@@ -144,7 +138,7 @@ TEST(Nlopt, RefusesMoreFreeVariablesThanItCanBearAndNamesBothNumbers) {
 
 TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
   SmallProgram program = tests::rosenbrock();
-  const Solution limited = solve_by_nlopt(program, vector({-1.2, 1.0}), passing_on("maxeval", "2"));
+  const Solution limited = NloptSolver({}, {{"maxeval", "2"}}).solve(program, vector({-1.2, 1.0}));
   EXPECT_EQ(limited.status, Status::iteration_limit);
   EXPECT_EQ(limited.evaluations->objective, 2);
   for (const auto& [name, value] : std::map<std::string, std::string>{{"no_such_option", "1"},
@@ -152,9 +146,7 @@ TEST(Nlopt, TakesItsOwnOptionsByNameAndRefusesUnknownOnes) {
                                                                       {"xtol_rel", "-1"},
                                                                       {"maxeval", "2.5"},
                                                                       {"maxtime", "nan"}}) {
-    tests::expect_error_naming({name}, [&, options = passing_on(name, value)] {
-      static_cast<void>(solve_by_nlopt(program, vector({0.0, 0.0}), options));
-    });
+    tests::expect_error_naming({name}, [wrong = NamedOptions{{name, value}}] { NloptSolver({}, wrong); });
   }
 }
 

@@ -27,9 +27,7 @@ std::unique_ptr<Transcription> transcribe(const Problem& problem, const std::str
 
 Solution solved_anew(Transcription& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers = {},
                      const std::string& solver = "interior_point") {
-  SolverOptions options;
-  options.start_multipliers = multipliers;
-  return make_solver(solver, options)->solve(program, start);
+  return make_solver(solver)->solve(program, start, multipliers);
 }
 
 void expect_same(const Solution& ours, const Solution& theirs, const std::string& label) {
@@ -116,10 +114,7 @@ TEST(PreparedSolve, BeginsWithTheBarrierParameterThatItIsGiven) {
   const Solution cold = prepared.solve(start);
   ASSERT_TRUE(cold.barrier_parameter.has_value());
   EXPECT_LE(*cold.barrier_parameter, 1e-9);
-  SolverOptions options;
-  options.start_multipliers = cold.multipliers;
-  options.start_barrier_parameter = 1e-3;
-  const Solution far = make_solver("interior_point", options)->solve(*program, cold.primal);
+  const Solution far = make_solver("interior_point")->solve(*program, cold.primal, cold.multipliers, 1e-3);
   expect_same(prepared.solve(cold.primal, cold.multipliers, 1e-3), far, "1e-3");
   const Solution& warm = prepared.solve(cold.primal, cold.multipliers, cold.barrier_parameter);
   EXPECT_TRUE(is_solved(warm.status)) << warm.message;

@@ -40,19 +40,19 @@ class CoarseProgram final : public tests::SmallProgram {
 };
 
 TEST(Solvers, StopWhereRoundingBegins) {
-  SolverOptions sparse;  // these programs have no intervals
-  sparse.passed_on["factorisation"] = "sparse";
-  const std::map<std::string, SolverOptions> solvers{{"ipopt", {}}, {"interior_point", sparse}, {"sqp", {}}};
-  for (const auto& [name, options] : solvers) {
+  const NamedOptions sparse{{"factorisation", "sparse"}};  // these programs have no intervals
+  const std::map<std::string, NamedOptions> solvers{{"ipopt", {}}, {"interior_point", sparse}, {"sqp", {}}};
+  for (const auto& [name, named] : solvers) {
+    const auto solver = make_solver(name, {}, named);
     int iterations_saved = 0;
     for (const tests::KnownProgram& known : tests::hock_schittkowski()) {
       SCOPED_TRACE(name + ", HS " + std::to_string(known.number));
       tests::SmallProgram exact(known.statement);
       CoarseProgram coarse(known.statement);
-      const Solution fine = make_solver(name, options)->solve(exact, known.start);
-      const Solution rough = make_solver(name, options)->solve(coarse, known.start);
+      const Solution fine = solver->solve(exact, known.start);
+      const Solution rough = solver->solve(coarse, known.start);
       ASSERT_EQ(rough.status, Status::solved) << rough.message;
-      EXPECT_LE(scaled_residual(coarse, options.tolerance, rough), 1.0);
+      EXPECT_LE(scaled_residual(coarse, solver->options().tolerance, rough), 1.0);
       EXPECT_LE(tests::value_of(rough.major_iterations), tests::value_of(fine.major_iterations));
       iterations_saved += tests::value_of(fine.major_iterations) - tests::value_of(rough.major_iterations);
     }

@@ -79,10 +79,8 @@ TEST(MovedToEnds, LetsMethodsWithoutVelocitiesStartWarmAsWellAsThoseThatHaveThem
     BoundaryState displaced = problem->initial_state();
     displaced.q[1] += 0.1;  // h is 0.2, the velocity 1
     program->set_initial_state(displaced);
-    SolverOptions options;
-    options.start_multipliers = solved.multipliers;
     const auto iterations_from = [&](const Eigen::VectorXd& from) {
-      const Solution warm = make_solver("interior_point", options)->solve(*program, from);
+      const Solution warm = make_solver("interior_point")->solve(*program, from, solved.multipliers);
       EXPECT_EQ(warm.status, Status::solved);
       return warm.major_iterations.value();
     };

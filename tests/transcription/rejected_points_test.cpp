@@ -84,8 +84,9 @@ class RejectedPoints : public testing::TestWithParam<Shot> {
     SolverOptions options;
     options.tolerance = 1e-8;
     const bool is_single = std::string(GetParam().method).starts_with("single");
-    if (is_single && GetParam().solver == std::string("interior_point")) options.passed_on["factorisation"] = "sparse";
-    const auto solver = make_solver(GetParam().solver, options);
+    NamedOptions named;
+    if (is_single && GetParam().solver == std::string("interior_point")) named["factorisation"] = "sparse";
+    const auto solver = make_solver(GetParam().solver, options, named);
     const Eigen::VectorXd start = sample(program, guessed_motion(problem));
     if (!is_single) {
       WatchedProgram watched(program);

@@ -28,10 +28,9 @@ double distance(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
 
 /// Iterations of `interior_point` from a trajectory, with the multipliers that belong to it or without.
 int iterations_from(const Trajectory& trajectory, Transcription& program, bool is_warm) {
-  SolverOptions options;
-  if (is_warm) options.start_multipliers = sample_multipliers(program, trajectory);
-  const Solution solution =
-      make_solver("interior_point", options)->solve(program, sample(program, smooth_motion(trajectory)));
+  const Eigen::VectorXd start = sample(program, smooth_motion(trajectory));
+  const Eigen::VectorXd multipliers = is_warm ? sample_multipliers(program, trajectory) : Eigen::VectorXd();
+  const Solution solution = make_solver("interior_point")->solve(program, start, multipliers);
   EXPECT_EQ(solution.status, Status::solved) << solution.message;
   return solution.major_iterations.value();
 }

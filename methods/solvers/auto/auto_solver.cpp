@@ -1,17 +1,14 @@
 #include "methods/solvers/auto/auto_solver.hpp"
 
+#include <array>
+#include <optional>
+#include <utility>
+
 #include "methods/solvers/counted_program.hpp"
 
 namespace dmocbench {
 
 namespace {
-
-/// The options with those of the passed on that belong to `interior_point`, or those that do not.
-SolverOptions options_of(SolverOptions options, bool of_interior_point) {
-  std::erase_if(options.passed_on,
-                [&](const auto& option) { return (option.first == "factorisation") != of_interior_point; });
-  return options;
-}
 
 /// Where another method may do better.
 bool leaves_hope(Status status) {
@@ -26,22 +23,45 @@ bool leaves_hope(Status status) {
   }
 }
 
+/// Both methods; the program of each is the same.
+class AutoRun final : public PreparedRun {
+ public:
+  AutoRun(const Solver& first, const Solver& second, CountedProgram& program)
+      : names_{first.name(), second.name()}, first_(first.prepare(program)), second_(second.prepare(program)) {}
+
+  void run(const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers, std::optional<double> barrier_parameter,
+           Solution& solution) override {
+    solution = {};
+    first_->run(start, multipliers, barrier_parameter, solution);
+    solution.solver = names_[0];
+    if (!leaves_hope(solution.status)) return;
+    const bool has_point = solution.primal.size() == start.size() && solution.primal.allFinite();
+    const Solution first = std::exchange(solution, {});
+    second_->run(has_point ? first.primal : start, {}, std::nullopt, solution);
+    solution.solver = names_[1];
+    solution.major_iterations = first.major_iterations.value_or(0) + solution.major_iterations.value_or(0);
+  }
+
+ private:
+  std::array<std::string, 2> names_;
+  std::unique_ptr<PreparedRun> first_;
+  std::unique_ptr<PreparedRun> second_;
+};
+
 }  // namespace
 
-AutoSolver::AutoSolver(const SolverOptions& options)
-    : Solver(options), first_(options_of(options, true)), second_(options_of(options, false)) {}
+AutoOptions auto_options(const NamedOptions& named) {
+  auto [of_interior_point, others] = interior_point_options_among(named);
+  return {.interior_point = std::move(of_interior_point), .ipopt = std::move(others)};
+}
+
+AutoSolver::AutoSolver(const SolverOptions& options, AutoOptions choices)
+    : Solver(options), first_(options, std::move(choices.interior_point)), second_(options, std::move(choices.ipopt)) {}
 
 std::string AutoSolver::description() const { return "interior_point and, where that fails, ipopt from its point"; }
 
-Solution AutoSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
-  Solution first = run_of(first_, program, start);
-  first.solver = first_.name();
-  if (!leaves_hope(first.status)) return first;
-  const bool has_point = first.primal.size() == start.size() && first.primal.allFinite();
-  Solution second = run_of(second_, program, has_point ? first.primal : start);
-  second.solver = second_.name();
-  second.major_iterations = first.major_iterations.value_or(0) + second.major_iterations.value_or(0);
-  return second;
+std::unique_ptr<PreparedRun> AutoSolver::prepare(CountedProgram& program) const {
+  return std::make_unique<AutoRun>(first_, second_, program);
 }
 
 }  // namespace dmocbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
@@ -8,23 +9,31 @@
 
 namespace dmocbench {
 
+/// The choices of a user of `AutoSolver`.
+struct AutoOptions {
+  InteriorPointOptions interior_point;  ///< of the first method
+  NamedOptions ipopt;                   ///< of the second
+};
+
+/// The options from their names: those of `interior_point` (`interior_point_options`) go there, all others to Ipopt.
+/// Throws `Error` as that does.
+[[nodiscard]] AutoOptions auto_options(const NamedOptions& named);
+
 /// `interior_point` first and, where that fails, Ipopt from the point where it ended (from the start where it has
 /// none, as where it refuses the program). `Solution::solver` names the one whose answer it is.
 ///
 /// Counts and times are those of both together: evaluations, seconds, major iterations. The limit of time holds for
 /// both together, that of iterations for each. Linear systems are told where `interior_point` gives the answer.
 ///
-/// Options passed on: "factorisation" goes to `interior_point`, all others to Ipopt.
 class AutoSolver final : public Solver {
  public:
-  /// Throws `Error` on an option passed on that neither takes.
-  explicit AutoSolver(const SolverOptions& options);
+  /// Throws `Error` if Ipopt does not take one of the named options.
+  explicit AutoSolver(const SolverOptions& options, AutoOptions choices = {});
   [[nodiscard]] std::string name() const override { return "auto"; }
   [[nodiscard]] std::string description() const override;
+  [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:
-  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
-
   InteriorPointSolver first_;
   IpoptSolver second_;
 };

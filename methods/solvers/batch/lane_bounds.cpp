@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/solvers/interior_point/constants.hpp"
+
 namespace dmocbench::batch {
 
 namespace {
-
-constexpr double kappa_sigma = 1e10;
 
 /// From a bound; positive inside.
 template <class Bound>
@@ -147,6 +147,7 @@ OfLanes LaneBounds::multiplier_fraction_to_boundary(const LaneVector& z, const L
 void LaneBounds::update_multipliers(const LaneVector& primal, const LaneVector& z_step, const OfLanes& length,
                                     const OfLanes& mu, LaneVector& z) const {
   for_each([&](const Bound& bound, Eigen::Index i) {
+    using interior_point::constants::kappa_sigma;
     const OfLanes d = distance(bound, primal);
     const OfLanes moved = (z[i] + length * z_step[i]).max((mu / kappa_sigma) / d).min((mu * kappa_sigma) / d);
     z[i] = (length > 0.0).select(moved, z[i]);

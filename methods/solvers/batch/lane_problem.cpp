@@ -9,22 +9,10 @@
 
 namespace dmocbench::batch {
 
-namespace {
-
-std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
-  std::vector<Eigen::Index> inequalities;
-  for (Eigen::Index i = 0; i < program.constraint_lower().size(); ++i) {
-    if (program.constraint_lower()[i] != program.constraint_upper()[i]) inequalities.push_back(i);
-  }
-  return inequalities;
-}
-
-}  // namespace
-
 LaneProblem::LaneProblem(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes)
     : program_(program),
       lanes_(std::move(lanes)),
-      inequalities_(inequalities_of(program)),
+      inequalities_(inequality_rows(program)),
       fixed_(fixed_variables(program)),
       bounds_(program, inequalities_),
       variables_(static_cast<Eigen::Index>(program.variable_count())),

@@ -41,11 +41,11 @@ class BatchDesk final : public Desk {
     SolverOptions single;
     single.tolerance = options_.tolerance;
     single.most_iterations = options_.most_iterations;
-    single.start_multipliers = instance.multipliers;
     single.stop_requested = options_.stop_requested;
     const InteriorPointSolver solver(std::move(single));
     try {
-      return with_instance(instance, [&](NonlinearProgram& alone) { return solver.solve(alone, instance.start); });
+      return with_instance(
+          instance, [&](NonlinearProgram& alone) { return solver.solve(alone, instance.start, instance.multipliers); });
     } catch (const Error& error) {
       Solution refused;
       refused.status = Status::invalid_program;

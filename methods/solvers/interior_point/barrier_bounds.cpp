@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "methods/solvers/interior_point/constants.hpp"
+
 namespace dmocbench::interior_point {
 
 namespace {
@@ -139,7 +141,7 @@ double BarrierBounds::multiplier_fraction_to_boundary(const Iterate& at, const I
 }
 
 void BarrierBounds::update_multipliers(const Iterate& step, double length, double mu, Iterate& at) const {
-  constexpr double kappa_sigma = 1e10;
+  using constants::kappa_sigma;
   for (const BoundStretch& bounds : stretches_) {
     const auto distances = bounds.distances(at);
     auto z = bounds.z(at);

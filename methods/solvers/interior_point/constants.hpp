@@ -2,7 +2,7 @@
 
 /// The constants of the method, by their names in Wächter and Biegler (2006), with the equation, step or section that
 /// they stand in there. γ_θ and γ_φ are the filter's (`Filter::margin`), those of Algorithm IC the shift's
-/// (`InertiaShift`), s_max is the stop rule's (`StopRule::scale`), κ_Σ that of `BarrierBounds::update_multipliers`.
+/// (`InertiaShift`), s_max is the stop rule's (`StopRule::scale`).
 namespace dmocbench::interior_point::constants {
 
 // The start, section 3.6.
@@ -13,6 +13,8 @@ inline constexpr double lambda_max = 1e3;  // larger least-squares multipliers, 
 inline constexpr double kappa_epsilon = 10.0;  // a barrier problem is solved where E_μ <= κ_ε μ
 inline constexpr double kappa_mu = 0.2;        // (7)
 inline constexpr double theta_mu = 1.5;        // (7)
+// The multipliers of bounds.
+inline constexpr double kappa_sigma = 1e10;  // (16): how far z may be from μ over the distance, as a factor
 // The line search.
 inline constexpr double tau_min = 0.99;          // (8)
 inline constexpr double delta = 1.0;             // (19)

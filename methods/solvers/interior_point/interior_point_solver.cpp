@@ -1,14 +1,16 @@
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "methods/error.hpp"
+#include "methods/choose.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_parameter.hpp"
@@ -290,17 +292,50 @@ class InteriorPointRun final : public PreparedRun {
   std::string message_;
 };
 
+/// What there is to say of a program whose linear systems cannot be factorised as asked.
+class RefusedRun final : public PreparedRun {
+ public:
+  explicit RefusedRun(std::string message) : message_(std::move(message)) {}
+  void run(const Eigen::VectorXd& /*start*/, const Eigen::VectorXd& /*multipliers*/,
+           std::optional<double> /*barrier_parameter*/, Solution& solution) override {
+    solution.status = Status::invalid_program;
+    solution.message = message_;
+  }
+
+ private:
+  std::string message_;
+};
+
+using Factorisation = InteriorPointOptions::Factorisation;
+constexpr std::array factorisations{Named<Factorisation>{"intervals", Factorisation::intervals},
+                                    Named<Factorisation>{"sparse", Factorisation::sparse}};
+
+std::vector<NamedOption> options_by_name(InteriorPointOptions& choices) {
+  return {named_option("factorisation", choices.factorisation, factorisations)};
+}
+
 }  // namespace
 
 }  // namespace interior_point
 
-InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
-    : Solver(std::move(options)), choices_(std::move(choices)) {
-  using Factorisation = InteriorPointOptions::Factorisation;
-  read_named_options("interior_point", this->options().passed_on,
-                     {named_option("factorisation", choices_.factorisation,
-                                   {{"intervals", Factorisation::intervals}, {"sparse", Factorisation::sparse}})});
+InteriorPointOptions::Factorisation factorisation_named(std::string_view name) {
+  return value_named(interior_point::factorisations, name, "there is no factorisation");
 }
+
+InteriorPointOptions interior_point_options(const NamedOptions& named) {
+  InteriorPointOptions choices;
+  read_named_options("interior_point", named, interior_point::options_by_name(choices));
+  return choices;
+}
+
+std::pair<InteriorPointOptions, NamedOptions> interior_point_options_among(const NamedOptions& named) {
+  InteriorPointOptions choices;
+  NamedOptions others = read_known_options("interior_point", named, interior_point::options_by_name(choices));
+  return {std::move(choices), std::move(others)};
+}
+
+InteriorPointSolver::InteriorPointSolver(SolverOptions options, InteriorPointOptions choices)
+    : Solver(std::move(options)), choices_(std::move(choices)) {}
 
 std::string InteriorPointSolver::description() const {
   return "interior-point method whose linear systems are eliminated interval by interval; exact Hessian";
@@ -308,29 +343,11 @@ std::string InteriorPointSolver::description() const {
 
 std::unique_ptr<PreparedRun> InteriorPointSolver::prepare(CountedProgram& program) const {
   auto kkt = interior_point::make_kkt(program, choices_);
-  if (!kkt) return nullptr;
-  return std::make_unique<interior_point::InteriorPointRun>(program, std::move(*kkt), options());
-}
-
-Solution InteriorPointSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
-  const auto given = static_cast<std::size_t>(options().start_multipliers.size());
-  if (given > 0 && given != program.constraint_count()) {
-    throw Error(fmt::format("the solver interior_point got {} start multipliers; the program has {} constraints", given,
-                            program.constraint_count()));
-  }
-  Solution solution;
-  auto kkt = interior_point::make_kkt(program, choices_);
-  if (kkt) {
-    interior_point::InteriorPointRun(program, std::move(*kkt), options())
-        .run(start, options().start_multipliers, options().start_barrier_parameter, solution);
-    return solution;
-  }
-  solution.status = Status::invalid_program;
-  solution.message = fmt::format(
-      "interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
-      "factorisation=sparse.",
-      kkt.error());
-  return solution;
+  if (kkt) return std::make_unique<interior_point::InteriorPointRun>(program, std::move(*kkt), options());
+  return std::make_unique<interior_point::RefusedRun>(
+      fmt::format("interior_point cannot eliminate this program interval by interval: {}; choose ipopt, or the option "
+                  "factorisation=sparse.",
+                  kkt.error()));
 }
 
 }  // namespace dmocbench

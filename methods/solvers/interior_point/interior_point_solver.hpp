@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "methods/solvers/solver.hpp"
 
@@ -23,15 +25,23 @@ struct InteriorPointOptions {
   Factorisation factorisation = Factorisation::intervals;  ///< the factorisation that is tried first
   /// Supplies the linear systems of an experiment in place of `factorisation`, one `KktSystem` (kkt_system.hpp) per
   /// solve; it throws `Error` where it has none for the program, which outlives it. Empty for ours.
-  std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system;
+  std::function<std::unique_ptr<kkt::KktSystem>(NonlinearProgram& program)> make_kkt_system = {};
 };
 
-/// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md.
-///
-/// `InteriorPointOptions` by name: factorisation=intervals|sparse.
+/// The factorisation of that name, "intervals" or "sparse". Throws `Error` that lists the names if there is none.
+[[nodiscard]] InteriorPointOptions::Factorisation factorisation_named(std::string_view name);
+
+/// The options from their names: factorisation=intervals|sparse. Throws `Error` on another name or value.
+[[nodiscard]] InteriorPointOptions interior_point_options(const NamedOptions& named);
+
+/// The same of options that another solver has a share in, which comes second.
+[[nodiscard]] std::pair<InteriorPointOptions, NamedOptions> interior_point_options_among(const NamedOptions& named);
+
+/// Our interior-point method, whose linear systems are solved interval by interval; see interior_point/README.md. A
+/// program whose structure does not allow the factorisation ends with the status "invalid program".
 class InteriorPointSolver final : public Solver {
  public:
-  /// Throws `Error` on an unknown option passed on, or a value that it does not take.
+  /// Throws `Error` if an option is out of range.
   explicit InteriorPointSolver(SolverOptions options = {}, InteriorPointOptions choices = {});
 
   [[nodiscard]] std::string name() const override { return "interior_point"; }
@@ -39,8 +49,6 @@ class InteriorPointSolver final : public Solver {
   [[nodiscard]] std::unique_ptr<PreparedRun> prepare(CountedProgram& program) const override;
 
  private:
-  [[nodiscard]] Solution run(CountedProgram& program, const Eigen::VectorXd& start) const override;
-
   InteriorPointOptions choices_;
 };
 

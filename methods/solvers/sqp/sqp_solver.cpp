@@ -1,12 +1,14 @@
 #include "methods/solvers/sqp/sqp_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "methods/choose.hpp"
 #include "methods/solvers/confirm.hpp"
 #include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/kkt/linearisation.hpp"
@@ -31,6 +33,7 @@ class SequentialRun {
                 const SequentialOptions& choices)
       : program_(program),
         options_(options),
+        choices_(choices),
         tolerance_(std::max(options.tolerance, program.rounding_floors().smallest)),
         quadratic_solver_({.tolerance = tolerance_of_quadratic_programs * tolerance_, .crash = choices.crash},
                           Pricing(choices.pricing, choices.seed),
@@ -75,7 +78,7 @@ class SequentialRun {
   [[nodiscard]] bool observe(MinorIteration minor) {
     minor.major = majors_;
     (minor.phase == MinorIteration::Phase::feasibility ? phase_one_minors_ : phase_two_minors_) += 1;
-    if (options_.on_minor_iteration) options_.on_minor_iteration(minor);
+    if (choices_.on_minor_iteration) choices_.on_minor_iteration(minor);
     return !reason_to_stop();
   }
 
@@ -180,6 +183,7 @@ class SequentialRun {
 
   CountedProgram& program_;
   const SolverOptions& options_;
+  const SequentialOptions& choices_;
   double tolerance_;
   QuadraticSolver quadratic_solver_;
   Globalisation globalisation_;
@@ -196,23 +200,30 @@ class SequentialRun {
   std::string message_;
 };
 
+constexpr std::array crashes{Named<Crash>{"none", Crash::none}, Named<Crash>{"basis", Crash::basis}};
+constexpr std::array hessians{Named<bool>{"exact", false}, Named<bool>{"limited_memory", true}};
+constexpr std::array pricing_rules{
+    Named<PricingRule>{"largest", PricingRule::largest}, Named<PricingRule>{"lowest", PricingRule::lowest},
+    Named<PricingRule>{"last", PricingRule::last}, Named<PricingRule>{"random", PricingRule::random}};
+
 }  // namespace
 
 }  // namespace sqp
 
-SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices) : Solver(std::move(options)), choices_(choices) {
-  using sqp::Crash;
-  using sqp::PricingRule;
-  read_named_options("sqp", this->options().passed_on,
-                     {named_option("crash", choices_.crash, {{"none", Crash::none}, {"basis", Crash::basis}}),
-                      named_option("hessian", choices_.limited_memory, {{"exact", false}, {"limited_memory", true}}),
-                      named_option("pricing", choices_.pricing,
-                                   {{"largest", PricingRule::largest},
-                                    {"lowest", PricingRule::lowest},
-                                    {"last", PricingRule::last},
-                                    {"random", PricingRule::random}}),
-                      named_option("seed", choices_.seed)});
+sqp::Crash crash_named(std::string_view name) { return value_named(sqp::crashes, name, "there is no first basis"); }
+
+SequentialOptions sequential_options(const NamedOptions& named) {
+  SequentialOptions choices;
+  read_named_options(
+      "sqp", named,
+      {named_option("crash", choices.crash, sqp::crashes),
+       named_option("hessian", choices.limited_memory, sqp::hessians),
+       named_option("pricing", choices.pricing, sqp::pricing_rules), named_option("seed", choices.seed)});
+  return choices;
 }
+
+SqpSolver::SqpSolver(SolverOptions options, SequentialOptions choices)
+    : SolverWithoutMemory(std::move(options)), choices_(std::move(choices)) {}
 
 std::string SqpSolver::description() const {
   return "sequential quadratic programming by an active-set method that counts every minor iteration; exact Hessian";

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
+#include "methods/solvers/minor_iteration.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_options.hpp"
 
@@ -14,17 +17,23 @@ struct SequentialOptions {
   sqp::PricingRule pricing = sqp::PricingRule::largest;  ///< which column enters
   std::uint32_t seed = 1;                                ///< of the random pricing rule
   bool limited_memory = false;                           ///< a quasi-Newton matrix instead of the exact Hessian
+  std::function<void(const MinorIteration&)> on_minor_iteration = {};  ///< told of every one
 };
+
+/// The basis of that name, "none" or "basis". Throws `Error` that lists the names if there is none.
+[[nodiscard]] sqp::Crash crash_named(std::string_view name);
+
+/// The options from their names: crash=none|basis, pricing=largest|lowest|last|random, seed=(a whole number),
+/// hessian=exact|limited_memory. Throws `Error` on another name or value.
+[[nodiscard]] SequentialOptions sequential_options(const NamedOptions& named);
 
 /// Sequential quadratic programming with an active-set method that starts each first quadratic program from the slack
 /// basis, as the solver of the paper does: every minor iteration is counted and can be watched
-/// (`SolverOptions::on_minor_iteration`). README.md in this folder says what a minor iteration is and what to expect.
-///
-/// `SequentialOptions` by name: crash=none|basis, pricing=largest|lowest|last|random, seed=(a whole number),
-/// hessian=exact|limited_memory.
-class SqpSolver final : public Solver {
+/// (`SequentialOptions::on_minor_iteration`). README.md in this folder says what a minor iteration is and what to
+/// expect.
+class SqpSolver final : public SolverWithoutMemory {
  public:
-  /// Throws `Error` on an unknown option passed on, or a value that it does not take.
+  /// Throws `Error` if an option is out of range.
   explicit SqpSolver(SolverOptions options = {}, SequentialOptions choices = {});
   [[nodiscard]] std::string name() const override { return "sqp"; }
   [[nodiscard]] std::string description() const override;

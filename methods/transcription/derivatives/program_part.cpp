@@ -14,7 +14,11 @@ ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, con
       rows_(functions.rows.schedule, places.constraints),
       derivatives_(make_derivative_back_end(derivatives, functions, places.derivatives)),
       costs_(static_cast<Eigen::Index>(places.constraints.intervals)) {
-  for (std::size_t i = 0; i < numbers_.parameters; ++i) inputs_[i] = {parameters.data() + i, true};
+  const std::size_t intervals = places.constraints.intervals;
+  const bool are_own = static_cast<std::size_t>(parameters.size()) == intervals * numbers_.parameters;
+  for (std::size_t i = 0; i < numbers_.parameters; ++i) {
+    inputs_[i] = {parameters.data() + (are_own ? i * intervals : i), !are_own};
+  }
   inputs_[numbers_.step()] = {steps.data(), false};
   inputs_[numbers_.time()] = {times.data(), false};
   inputs_[numbers_.objective_factor()] = {&objective_factor_, true};
@@ -32,9 +36,9 @@ std::span<const Tape::Input> ProgramPart::bind(const VectorIn& x, const VectorIn
   return inputs_;
 }
 
-double ProgramPart::cost(const VectorIn& x) {
+const Eigen::VectorXd& ProgramPart::costs(const VectorIn& x) {
   cost_.evaluate(bind(x, no_multipliers_, 1.0), costs_);
-  return costs_.sum();
+  return costs_;
 }
 
 void ProgramPart::rows(const VectorIn& x, const VectorOut& result) {

@@ -27,8 +27,9 @@ struct PartPlaces {
 /// the program's own vectors, read in place. Allocates nothing in an evaluation.
 class ProgramPart {
  public:
-  /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, are read in every
-  /// evaluation and must outlive this object. `derivatives` names a back end, see `make_derivative_back_end`.
+  /// `steps` and `times`, one entry per interval, and `parameters`, one per open parameter, or of each one per
+  /// interval, are read in every evaluation and must outlive this object. `derivatives` names a back end, see
+  /// `make_derivative_back_end`.
   ProgramPart(const LocalFunctions& functions, PartPlaces places, const Eigen::VectorXd& steps,
               const Eigen::VectorXd& times, const Eigen::VectorXd& parameters, std::string_view derivatives);
   // Inputs point into this object.
@@ -43,8 +44,10 @@ class ProgramPart {
   [[nodiscard]] std::span<const Tape::Input> bind(const VectorIn& x, const VectorIn& multipliers,
                                                   double objective_factor);
 
-  /// Its share of φ.
-  [[nodiscard]] double cost(const VectorIn& x);
+  /// Its share of φ, interval by interval. Valid until the next call.
+  [[nodiscard]] const Eigen::VectorXd& costs(const VectorIn& x);
+  /// Their sum.
+  [[nodiscard]] double cost(const VectorIn& x) { return costs(x).sum(); }
   // These write the program's whole arrays, or add to them.
   /// a, constraint_count() entries.
   void rows(const VectorIn& x, const VectorOut& result);

@@ -76,13 +76,10 @@ TEST_F(AutoSolverTest, DoesNotGoOnWhereTheSolveWasStopped) {
 }
 
 TEST_F(AutoSolverTest, PassesOptionsOnToTheSolverThatHasThem) {
-  SolverOptions options;
-  options.passed_on = {{"factorisation", "sparse"}, {"mu_strategy", "adaptive"}};
-  EXPECT_EQ(solve(AutoSolver(options), start_).status, Status::solved);
-  options.passed_on = {{"no_such_option", "1"}};
-  EXPECT_THROW(AutoSolver{options}, Error);
-  options.passed_on = {{"factorisation", "banded"}};
-  EXPECT_THROW(AutoSolver{options}, Error);
+  const auto with = [](const NamedOptions& named) { return make_solver("auto", {}, named); };
+  EXPECT_EQ(solve(*with({{"factorisation", "sparse"}, {"mu_strategy", "adaptive"}}), start_).status, Status::solved);
+  EXPECT_THROW((void)with({{"no_such_option", "1"}}), Error);
+  EXPECT_THROW((void)with({{"factorisation", "banded"}}), Error);
 }
 
 }  // namespace

@@ -71,10 +71,8 @@ struct Case {
   }
 
   [[nodiscard]] Solution solve_alone(const BatchInstance& instance) const {
-    SolverOptions options;
-    options.start_multipliers = instance.multipliers;
     batch::InstanceProgram alone(*program, instance.start, instance.rows);
-    return InteriorPointSolver(options).solve(alone, instance.start);
+    return InteriorPointSolver().solve(alone, instance.start, instance.multipliers);
   }
 
   void expect_answers_of_single_solves(std::size_t count, double share) {

@@ -27,15 +27,13 @@
 namespace dmocbench {
 namespace {
 
-SolverOptions options_with(const std::string& factorisation) {
-  SolverOptions options;
-  options.passed_on["factorisation"] = factorisation;
-  return options;
-}
-
 Solution solve_by_interior_point(NonlinearProgram& program, const Eigen::VectorXd& start,
                                  const SolverOptions& options = {}) {
   return InteriorPointSolver(options).solve(program, start);
+}
+
+Solution solve_with(const std::string& factorisation, NonlinearProgram& program, const Eigen::VectorXd& start) {
+  return InteriorPointSolver({}, {.factorisation = factorisation_named(factorisation)}).solve(program, start);
 }
 
 /// Ipopt's answer, and a point near it, from which a solver cannot but go back to it.
@@ -66,7 +64,7 @@ void expect_agreement_with_ipopt(const Problem& problem, const tests::Scheme& sc
   const AnswerOfIpopt ipopt = ask_ipopt(program, sample(program, motion));
   for (const char* factorisation : {"intervals", "sparse"}) {
     SCOPED_TRACE(factorisation);
-    expect_same_answer(solve_by_interior_point(program, ipopt.near, options_with(factorisation)), ipopt.solution);
+    expect_same_answer(solve_with(factorisation, program, ipopt.near), ipopt.solution);
   }
 }
 
@@ -133,9 +131,7 @@ TEST(InteriorPoint, StartsWarmFromTheMultipliersOfANeighbour) {
     constexpr double share = 1e-5;
     tests::RandomPoints random;
     const Eigen::VectorXd near = cold.primal + share * random.vector(cold.primal.size());
-    SolverOptions options;
-    options.start_multipliers = cold.multipliers;
-    const Solution warm = solve_by_interior_point(program, near, options);
+    const Solution warm = InteriorPointSolver().solve(program, near, cold.multipliers);
     expect_same_answer(warm, cold);
     EXPECT_LE(tests::value_of(warm.major_iterations), tests::value_of(cold.major_iterations) / 2);
     EXPECT_LT(tests::value_of(warm.major_iterations),
@@ -146,9 +142,10 @@ TEST(InteriorPoint, StartsWarmFromTheMultipliersOfANeighbour) {
 TEST(InteriorPoint, RefusesStartMultipliersOfAnotherProgram) {
   const OrbitalTransfer problem;
   Transcription program(problem, *make_element("dmoc"), make_tableau("gauss", 1), Grid::uniform(8));
-  SolverOptions options;
-  options.start_multipliers = Eigen::VectorXd::Ones(3);
-  EXPECT_THROW((void)solve_by_interior_point(program, sample(program, guessed_motion(problem)), options), Error);
+  const Eigen::VectorXd start = sample(program, guessed_motion(problem));
+  tests::expect_error_naming({"multipliers", "3", "constraints"}, [&] {
+    static_cast<void>(InteriorPointSolver().solve(program, start, Eigen::VectorXd::Ones(3)));
+  });
 }
 
 TEST(InteriorPoint, AgreesWithIpoptWhereBoundsOnControlsAreActive) {
@@ -231,7 +228,7 @@ TEST(InteriorPoint, NeedsWithSeveralStagesAsManyIterationsAsWithAnExactInertia) 
       SCOPED_TRACE(problem->name() + " " + method);
       Transcription program(*problem, *make_element(method), make_tableau("gauss", 2), Grid::uniform(32));
       const Eigen::VectorXd start = sample(program, guessed_motion(*problem));
-      const Solution exact = solve_by_interior_point(program, start, options_with("sparse"));
+      const Solution exact = solve_with("sparse", program, start);
       const Solution found = solve_by_interior_point(program, start);
       ASSERT_EQ(found.status, Status::solved) << found.message;
       EXPECT_NEAR(found.objective, exact.objective, 1e-9 * std::abs(exact.objective));
@@ -247,7 +244,7 @@ TEST(InteriorPoint, NeedsOnAFineGridAsManyIterationsAsWithAnExactInertia) {
   const TwoLinkManipulator problem;
   Transcription program(problem, *make_element("hamiltonian"), make_tableau("gauss", 3), Grid::uniform(192));
   const Eigen::VectorXd start = sample(program, guessed_motion(problem));
-  const Solution exact = solve_by_interior_point(program, start, options_with("sparse"));
+  const Solution exact = solve_with("sparse", program, start);
   const Solution found = solve_by_interior_point(program, start);
   expect_same_answer(found, exact);
   EXPECT_LE(1.0 * found.major_iterations.value_or(1000), 1.2 * exact.major_iterations.value_or(0));
@@ -261,7 +258,7 @@ TEST(InteriorPoint, ChecksTheInertiaWhereADirectionIsRedundant) {
     SCOPED_TRACE(method);
     Transcription program(problem, *make_element(method), make_tableau("gauss", 3), Grid::uniform(64));
     const Eigen::VectorXd start = sample(program, guessed_motion(problem));
-    const Solution exact = solve_by_interior_point(program, start, options_with("sparse"));
+    const Solution exact = solve_with("sparse", program, start);
     const Solution found = solve_by_interior_point(program, start);
     expect_same_answer(found, exact);
     EXPECT_LE(found.major_iterations.value_or(1000), 150);
@@ -277,16 +274,17 @@ TEST(InteriorPoint, RefusesAProgramWithoutIntervalsInASentence) {
 }
 
 TEST(InteriorPoint, KnowsItsOptions) {
-  SolverOptions options;
-  options.passed_on["mu_strategy"] = "adaptive";
-  tests::expect_error_naming({"mu_strategy", "factorisation"},
-                             [&] { static_cast<void>(make_solver("interior_point", options)); });
-  tests::expect_error_naming({"factorisation", "dense"},
-                             [&] { static_cast<void>(make_solver("interior_point", options_with("dense"))); });
-  tests::SmallProgram program = tests::rosenbrock();
-  tests::expect_error_naming({"3"}, [&] {
-    static_cast<void>(solve_by_interior_point(program, Eigen::VectorXd::Zero(3), options_with("sparse")));
+  tests::expect_error_naming({"mu_strategy", "factorisation"}, [] {
+    static_cast<void>(make_solver("interior_point", {}, {{"mu_strategy", "adaptive"}}));
   });
+  tests::expect_error_naming({"factorisation", "dense", "intervals or sparse"}, [] {
+    static_cast<void>(make_solver("interior_point", {}, {{"factorisation", "dense"}}));
+  });
+  tests::expect_error_naming({"factorisation", "dense", "intervals, sparse"},
+                             [] { static_cast<void>(factorisation_named("dense")); });
+  tests::SmallProgram program = tests::rosenbrock();
+  tests::expect_error_naming({"3"},
+                             [&] { static_cast<void>(solve_with("sparse", program, Eigen::VectorXd::Zero(3))); });
 }
 
 /// A double integrator whose control may not be as large as the shortest way needs it: T = 1 needs |u| >= 4.

@@ -8,6 +8,7 @@
 
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
+#include "methods/solvers/sqp/sqp_solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
@@ -197,20 +198,18 @@ struct Count {
   int rows = 0;
 };
 
-std::vector<Count> counts(const std::map<std::string, std::string>& choices, const std::vector<Eigen::Index>& grids) {
+std::vector<Count> counts(const SequentialOptions& choices, const std::vector<Eigen::Index>& grids) {
   std::vector<Count> result;
   for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
       for (const Eigen::Index intervals : grids) {
         const auto problem = make_problem(name);
         Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(intervals));
-        SolverOptions options = with_tolerance(1e-8);
-        options.passed_on = choices;
-        result.push_back(
-            {.label = (testing::Message() << name << ' ' << method << " N = " << intervals).GetString(),
-             .solution = make_solver("sqp", options)->solve(program, sample(program, guessed_motion(*problem))),
-             .free_variables = static_cast<int>(free_variable_count(program)),
-             .rows = static_cast<int>(program.constraint_count())});
+        const SqpSolver solver(with_tolerance(1e-8), choices);
+        result.push_back({.label = (testing::Message() << name << ' ' << method << " N = " << intervals).GetString(),
+                          .solution = solver.solve(program, sample(program, guessed_motion(*problem))),
+                          .free_variables = static_cast<int>(free_variable_count(program)),
+                          .rows = static_cast<int>(program.constraint_count())});
         EXPECT_EQ(result.back().solution.status, Status::solved) << result.back().label;
       }
     }
@@ -227,7 +226,7 @@ TEST(MinorIterations, FromTheSlackBasisAreOnePerFreeVariableAndOnePerLaterMajorI
 }
 
 TEST(MinorIterations, FromACrashBasisAreOnePerDegreeOfFreedomInstead) {
-  for (const Count& count : counts({{"crash", "basis"}}, {8, 16, 31, 64})) {
+  for (const Count& count : counts({.crash = Crash::basis}, {8, 16, 31, 64})) {
     EXPECT_EQ(value_of(count.solution.phase_one_minor_iterations), 0) << count.label;
     EXPECT_EQ(value_of(count.solution.minor_iterations),
               count.free_variables - count.rows + value_of(count.solution.major_iterations) - 1)
@@ -237,8 +236,9 @@ TEST(MinorIterations, FromACrashBasisAreOnePerDegreeOfFreedomInstead) {
 
 TEST(MinorIterations, DoNotDependOnPricing) {
   const std::vector<Count> expected = counts({}, {12, 40});
-  for (const auto& choices : std::vector<std::map<std::string, std::string>>{
-           {{"pricing", "lowest"}}, {{"pricing", "last"}}, {{"pricing", "random"}, {"seed", "17"}}}) {
+  for (const SequentialOptions& choices :
+       {SequentialOptions{.pricing = PricingRule::lowest}, SequentialOptions{.pricing = PricingRule::last},
+        SequentialOptions{.pricing = PricingRule::random, .seed = 17}}) {
     const std::vector<Count> found = counts(choices, {12, 40});
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ(value_of(found[i].solution.minor_iterations), value_of(expected[i].solution.minor_iterations))
@@ -265,9 +265,9 @@ TEST(MinorIterations, AreAsManyAsTheObserverSaw) {
   const auto problem = make_problem("two_link_manipulator");
   Transcription program(*problem, *make_element("dmoc"), gauss_tableau(1), Grid::uniform(16));
   std::vector<MinorIteration> seen;
-  SolverOptions options = with_tolerance(1e-8);
-  options.on_minor_iteration = [&](const MinorIteration& minor) { seen.push_back(minor); };
-  const Solution solution = make_solver("sqp", options)->solve(program, sample(program, guessed_motion(*problem)));
+  const SqpSolver solver(with_tolerance(1e-8),
+                         {.on_minor_iteration = [&](const MinorIteration& minor) { seen.push_back(minor); }});
+  const Solution solution = solver.solve(program, sample(program, guessed_motion(*problem)));
   EXPECT_EQ(static_cast<int>(seen.size()), value_of(solution.minor_iterations));
   EXPECT_EQ(
       std::count_if(seen.begin(), seen.end(),

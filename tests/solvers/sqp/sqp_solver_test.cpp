@@ -19,12 +19,6 @@ Solution solve_by_sqp(NonlinearProgram& program, const Eigen::VectorXd& start, c
   return SqpSolver(options).solve(program, start);
 }
 
-SolverOptions with(const std::string& option, const std::string& value) {
-  SolverOptions options;
-  options.passed_on[option] = value;
-  return options;
-}
-
 TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
   for (const std::string& name : paper_problem_names()) {
     for (const std::string& method : element_names()) {
@@ -85,14 +79,15 @@ TEST(Sqp, StepsBackFromPlacesWhereAFormulaGivesNoNumber) {
 }
 
 TEST(Sqp, RefusesWhatItDoesNotKnow) {
-  EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("crush", "basis")); }),
+  const auto refusal_of = [](const std::string& option, const std::string& value) {
+    return tests::sentence_of_error([&] { static_cast<void>(make_solver("sqp", {}, {{option, value}})); });
+  };
+  EXPECT_EQ(refusal_of("crush", "basis"),
             "the solver sqp has no option crush; it has crash, hessian, pricing and seed");
-  EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("crash", "all")); }),
-            "the solver sqp: crash must be none or basis, not all");
-  EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("pricing", "steepest")); }),
+  EXPECT_EQ(refusal_of("crash", "all"), "the solver sqp: crash must be none or basis, not all");
+  EXPECT_EQ(refusal_of("pricing", "steepest"),
             "the solver sqp: pricing must be largest, lowest, last or random, not steepest");
-  EXPECT_EQ(tests::sentence_of_error([] { SqpSolver(with("seed", "1.5")); }),
-            "the solver sqp: seed must be a whole number, not 1.5");
+  EXPECT_EQ(refusal_of("seed", "1.5"), "the solver sqp: seed must be a whole number, not 1.5");
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 
 #include <lapacke.h>
 
-#include "methods/error.hpp"
-
 namespace dmocbench::kkt {
 
 namespace {
@@ -83,11 +81,16 @@ DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_han
   return inertia_of(matrix, work.pivots);
 }
 
-BoundarySystem::BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries)
+BoundarySystem::Made BoundarySystem::make(const NonlinearProgram& program, const IntervalEntries& entries) {
+  BoundarySystem system(entries);
+  if (!system.place(entries)) return tl::unexpected(std::string("an entry of the ends belongs to neither of them"));
+  system.drop_what_is_fixed(program);
+  return system;
+}
+
+BoundarySystem::BoundarySystem(const IntervalEntries& entries)
     : state_size_(state_size(entries.shape)), node_(entries.shape.node), node_sums_(entries.shape.node_sums) {
   number_lines(entries);
-  place(entries);
-  drop_what_is_fixed(program);
   matrix_.resize(size_, size_);
   right_hand_side_.resize(size_);
 }
@@ -118,7 +121,8 @@ void BoundarySystem::number_lines(const IntervalEntries& entries) {
   append(entries.end_rows, rows_);
 }
 
-void BoundarySystem::place(const IntervalEntries& entries) {
+/// False if an entry belongs to neither end.
+bool BoundarySystem::place(const IntervalEntries& entries) {
   using Lines = std::map<Eigen::Index, Eigen::Index>;
   const auto lines_of = [](const auto&... lists) {
     Lines lines;
@@ -129,18 +133,17 @@ void BoundarySystem::place(const IntervalEntries& entries) {
   };
   const Lines unknown_at = lines_of(unknowns_, last_unknowns_);
   const Lines row_at = lines_of(first_rows_, rows_);
-  const auto look_up = [](const Lines& lines, Eigen::Index number) {
-    const auto found = lines.find(number);
-    if (found == lines.end()) throw Error("an entry of the ends belongs to neither of them");
-    return found->second;
-  };
   for (const EndEntry& entry : entries.ends) {
     const bool is_row = entry.source == Source::jacobian;
-    const Eigen::Index row = look_up(is_row ? row_at : unknown_at, entry.row);
-    const Eigen::Index column = look_up(unknown_at, entry.column);
-    const double sign = is_row && defines_carry(row) ? -1.0 : 1.0;
-    placed_.push_back({entry.source, entry.entry, std::max(row, column), std::min(row, column), sign});
+    const Lines& lines = is_row ? row_at : unknown_at;
+    const auto row = lines.find(entry.row);
+    const auto column = unknown_at.find(entry.column);
+    if (row == lines.end() || column == unknown_at.end()) return false;
+    const auto [lower, upper] = std::minmax(row->second, column->second);
+    const double sign = is_row && defines_carry(row->second) ? -1.0 : 1.0;
+    placed_.push_back({entry.source, entry.entry, upper, lower, sign});
   }
+  return true;
 }
 
 void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
@@ -148,7 +151,7 @@ void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
   const auto drop = [&](Eigen::Index at) { moves[static_cast<std::size_t>(at)] = false; };
   for (const auto* list : {&unknowns_, &last_unknowns_}) {
     for (const auto& [number, at] : *list) {
-      if (program.variable_lower()[number] == program.variable_upper()[number]) drop(at);
+      if (is_fixed(program, number)) drop(at);
     }
   }
   // Where nothing but the first interval is in the rows of the first node, s_0 is zero.

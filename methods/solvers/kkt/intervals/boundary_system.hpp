@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
+#include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/kkt/intervals/interval_entries.hpp"
@@ -36,8 +38,9 @@ struct SymmetricWork {
 /// of the end nodes and of the state at the end, ν.
 class BoundarySystem {
  public:
-  /// Throws `Error` if the ends have an entry that belongs to neither of them.
-  BoundarySystem(const NonlinearProgram& program, const IntervalEntries& entries);
+  /// The reason in a sentence if the ends have an entry that belongs to neither of them.
+  using Made = tl::expected<BoundarySystem, std::string>;
+  [[nodiscard]] static Made make(const NonlinearProgram& program, const IntervalEntries& entries);
 
   /// The value of the whole horizon, and the terms that its elimination left out.
   struct Horizon {
@@ -73,8 +76,9 @@ class BoundarySystem {
     double sign;
   };
 
+  explicit BoundarySystem(const IntervalEntries& entries);
   void number_lines(const IntervalEntries& entries);
-  void place(const IntervalEntries& entries);
+  [[nodiscard]] bool place(const IntervalEntries& entries);
   void drop_what_is_fixed(const NonlinearProgram& program);
   void assemble(const KktMatrix& matrix, const KktRightHandSide& right_hand_side, const Horizon& horizon);
   [[nodiscard]] bool defines_carry(Eigen::Index row) const { return row >= carry_at_ && row < last_rows_; }

@@ -279,6 +279,51 @@ bool IntervalEntries::is_fixed_column(int column) const {
   return column >= shape.node && column < next_size(shape) && is_fixed[static_cast<std::size_t>(column - shape.node)];
 }
 
+Eigen::VectorXd IntervalEntries::make_padded(Eigen::Index width) const {
+  return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(padded.size()) * intervals * width);
+}
+
+void IntervalEntries::copy_padded(const NewtonArrays& arrays, Eigen::Index width, Eigen::VectorXd& to) const {
+  for (const PaddedRun& run : padded) {
+    const double* const first = arrays.of(run.source) + run.entry * width;
+    double* const copies = to.data() + (run.padded_first + run.begin) * width;
+    for_stretches(run.length * width, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
+      std::copy_n(first + begin, length, copies + begin);
+    });
+  }
+}
+
+void IntervalEntries::write_fixed(Eigen::Index width, double* primal) const {
+  for (int column = 0; column < next_size(shape); ++column) {
+    if (is_fixed_column(column)) std::fill_n(primal + unknown_in(column) * width, intervals * width, 0.0);
+  }
+}
+
+void IntervalEntries::write_inequality_multipliers(const NewtonArrays& arrays, Eigen::Index width, const double* primal,
+                                                   double* multipliers) const {
+  using Numbers = Eigen::Map<const Eigen::ArrayXd>;
+  const Eigen::Index count = intervals * width;
+  const auto of_row = [&](Eigen::Index row) { return Eigen::Map<Eigen::ArrayXd>(multipliers + row * width, count); };
+  for (const Eigen::Index row : inequality_rows) {
+    of_row(row) = Numbers(arrays.of(Source::rows) + row * width, count);
+  }
+  const int one = next_size(shape) + state_size(shape);
+  for (const LocalEntry& entry : local) {
+    if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
+    const double* const steps = primal + unknown_in(entry.column) * width;
+    auto sum = of_row(inequality_rows[static_cast<std::size_t>(entry.row)]);
+    const Numbers derivative(arrays.of(entry.source) + entry.first * width, count);
+    if (entry.column >= one - shape.global) {
+      sum += derivative * *steps;
+    } else {
+      sum += derivative * Numbers(steps, count);
+    }
+  }
+  for (const Eigen::Index row : inequality_rows) {
+    of_row(row) /= Numbers(arrays.of(Source::compliance) + row * width, count);
+  }
+}
+
 tl::expected<IntervalEntries, std::string> interval_entries(const NonlinearProgram& program) {
   const IntervalStructure* const structure = program.interval_structure();
   if (structure == nullptr) return tl::unexpected(std::string("it tells no interval structure"));

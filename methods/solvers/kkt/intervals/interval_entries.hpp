@@ -67,6 +67,16 @@ struct IntervalEntries {
   [[nodiscard]] Eigen::Index unknown_in(int column) const;
   /// Whether a column is that of a fixed unknown of an interval.
   [[nodiscard]] bool is_fixed_column(int column) const;
+
+  // For arrays with `width` numbers per entry, one of each program.
+  /// The array of padded derivatives, zeros.
+  [[nodiscard]] Eigen::VectorXd make_padded(Eigen::Index width) const;
+  void copy_padded(const NewtonArrays& arrays, Eigen::Index width, Eigen::VectorXd& to) const;
+  /// The steps of fixed unknowns, which are zero.
+  void write_fixed(Eigen::Index width, double* primal) const;
+  /// (J δx + constraints) / e for the rows of every inequality. Unknowns of the whole horizon ask for width 1.
+  void write_inequality_multipliers(const NewtonArrays& arrays, Eigen::Index width, const double* primal,
+                                    double* multipliers) const;
 };
 
 /// Looks up where a program's runs go. The reason instead if the program has no interval structure, or one that is not

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "methods/error.hpp"
 #include "methods/runtime/long_vectors.hpp"
 #include "methods/runtime/parallel.hpp"
 
@@ -19,32 +18,24 @@ constexpr Eigen::Index sampled_intervals = 9;
 IntervalKkt::Made IntervalKkt::make(const NonlinearProgram& program, SegmentKernelChoice choose) {
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
-  try {
-    return std::make_unique<IntervalKkt>(program, std::move(*entries), choose);
-  } catch (const Error& error) {
-    return tl::unexpected(std::string(error.what()));
-  }
+  auto boundary = BoundarySystem::make(program, *entries);
+  if (!boundary) return tl::unexpected(std::move(boundary).error());
+  return std::make_unique<IntervalKkt>(std::move(*entries), std::move(*boundary), choose);
 }
 
-IntervalKkt::IntervalKkt(const NonlinearProgram& program, IntervalEntries entries, SegmentKernelChoice choose)
+IntervalKkt::IntervalKkt(IntervalEntries entries, BoundarySystem boundary, SegmentKernelChoice choose)
     : entries_(std::move(entries)),
-      boundary_(program, entries_),
+      boundary_(std::move(boundary)),
       choose_(choose),
       weights_(entries_),
-      padded_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entries_.padded.size()) * entries_.intervals)),
+      padded_(entries_.make_padded(1)),
       groups_(cut_into_groups(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {}
 
 NewtonArrays IntervalKkt::arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side) {
   NewtonArrays arrays{{matrix.jacobian.data(), matrix.hessian.data(), matrix.diagonal.data(),
                        right_hand_side.gradient.data(), right_hand_side.constraints.data(), matrix.compliance.data(),
                        padded_.data()}};
-  for (const PaddedRun& run : entries_.padded) {
-    const double* from = arrays.of(run.source) + run.entry;
-    double* to = padded_.data() + run.padded_first + run.begin;
-    for_stretches(run.length, [&](std::size_t, Eigen::Index begin, Eigen::Index length) {
-      std::copy_n(from + begin, length, to + begin);
-    });
-  }
+  entries_.copy_padded(arrays, 1, padded_);
   return arrays;
 }
 
@@ -85,7 +76,7 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     if (found.status == FactorisationStatus::singular) weights_.distrust_next_failure();
     if (found.is_certain || !weights_.next_multiple()) return found.status;
   }
-  substitute(arrays, right_hand_side.constraints, step);
+  substitute(arrays, step);
   return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
                                                                : FactorisationStatus::singular;
 }
@@ -148,7 +139,7 @@ bool IntervalKkt::join_segments() {
   return true;
 }
 
-void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step) {
+void IntervalKkt::substitute(const NewtonArrays& arrays, const KktStep& step) {
   chain_.back_substitute(boundary_.state(), boundary_.multiplier(), states_, multipliers_);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const SegmentGroup& group = groups_[g].group();
@@ -159,40 +150,12 @@ void IntervalKkt::substitute(const NewtonArrays& arrays, const Eigen::VectorXd& 
         multipliers_.middleCols(first, lane_count).transpose();
   }
   // The forward sweep writes the steps of free unknowns, `BoundarySystem` those of the ends.
-  for (int column = 0; column < next_size(entries_.shape); ++column) {
-    if (!entries_.is_fixed_column(column)) continue;
-    step.primal.segment(entries_.unknown_in(column), entries_.intervals).setZero();
-  }
+  entries_.write_fixed(1, step.primal.data());
   for_each_part(groups_.size(), [&](std::size_t g) {
     kernel_.forward(plan_, arrays, groups_[g].group(), step.primal.data(), step.multipliers.data());
   });
   boundary_.write(step);
-  write_inequality_multipliers(arrays, constraints, step);
-}
-
-/// (J δx + constraints) / e for the rows of every inequality.
-void IntervalKkt::write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
-                                               const KktStep& step) const {
-  const Eigen::Index count = entries_.intervals;
-  for (const Eigen::Index row : entries_.inequality_rows) {
-    step.multipliers.segment(row, count) = constraints.segment(row, count);
-  }
-  const int one = next_size(entries_.shape) + state_size(entries_.shape);
-  for (const LocalEntry& entry : entries_.local) {
-    if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
-    const Eigen::Index unknown = entries_.unknown_in(entry.column);
-    auto sum = step.multipliers.segment(entries_.inequality_rows[static_cast<std::size_t>(entry.row)], count);
-    const Eigen::Map<const Eigen::VectorXd> derivative(arrays.of(entry.source) + entry.first, count);
-    if (entry.column >= one - entries_.shape.global) {
-      sum += derivative * step.primal[unknown];
-    } else {
-      sum += derivative.cwiseProduct(step.primal.segment(unknown, count));
-    }
-  }
-  for (const Eigen::Index row : entries_.inequality_rows) {
-    const Eigen::Map<const Eigen::ArrayXd> compliance(arrays.of(Source::compliance) + row, count);
-    step.multipliers.segment(row, count).array() /= compliance;
-  }
+  entries_.write_inequality_multipliers(arrays, 1, step.primal.data(), step.multipliers.data());
 }
 
 }  // namespace dmocbench::kkt

@@ -26,9 +26,8 @@ class IntervalKkt : public KktSystem {
   using Made = tl::expected<std::unique_ptr<IntervalKkt>, std::string>;
   [[nodiscard]] static Made make(const NonlinearProgram& program, SegmentKernelChoice choose = segment_kernel_for);
 
-  /// `entries` are those of the program; `choose` selects the kernel for its shape. `make` does both.
-  IntervalKkt(const NonlinearProgram& program, IntervalEntries entries,
-              SegmentKernelChoice choose = segment_kernel_for);
+  /// `entries` and `boundary` are those of the program; `choose` selects the kernel for its shape. `make` does all.
+  IntervalKkt(IntervalEntries entries, BoundarySystem boundary, SegmentKernelChoice choose);
 
   void begin_solve() override { weights_.forget(); }
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
@@ -50,9 +49,7 @@ class IntervalKkt : public KktSystem {
                                  const KktRightHandSide& right_hand_side);
   [[nodiscard]] bool join_segments();
   void find_last_carry(const NewtonArrays& arrays);
-  void substitute(const NewtonArrays& arrays, const Eigen::VectorXd& constraints, const KktStep& step);
-  void write_inequality_multipliers(const NewtonArrays& arrays, const Eigen::VectorXd& constraints,
-                                    const KktStep& step) const;
+  void substitute(const NewtonArrays& arrays, const KktStep& step);
 
   IntervalEntries entries_;
   BoundarySystem boundary_;

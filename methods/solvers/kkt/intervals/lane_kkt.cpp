@@ -23,25 +23,11 @@ const char* refusal_of_ends(const NonlinearProgram& program, const IntervalEntri
   if (!entries.global_unknowns.empty()) return "an unknown belongs to the whole horizon";
   if (!entries.end_unknowns[0].empty() || !entries.end_unknowns[1].empty()) return "an end has unknowns of its own";
   if (!entries.end_rows.empty()) return "there are boundary conditions";
-  const auto is_fixed = [&](Eigen::Index i) { return program.variable_lower()[i] == program.variable_upper()[i]; };
   for (const Eigen::Index first : entries.node_unknowns) {
-    if (!is_fixed(first)) return "the state at the start is not given";
-    if (!is_fixed(first + entries.intervals)) return "the state at the end is not given";
+    if (!is_fixed(program, first)) return "the state at the start is not given";
+    if (!is_fixed(program, first + entries.intervals)) return "the state at the end is not given";
   }
   return nullptr;
-}
-
-/// Copies of the runs that some intervals lack, `width` numbers per entry.
-void copy_padded(const IntervalEntries& entries, const NewtonArrays& arrays, Eigen::Index width,
-                 Eigen::VectorXd& padded) {
-  for (const PaddedRun& run : entries.padded) {
-    std::copy_n(arrays.of(run.source) + run.entry * width, run.length * width,
-                padded.data() + (run.padded_first + run.begin) * width);
-  }
-}
-
-Eigen::VectorXd make_padded(const IntervalEntries& entries, Eigen::Index width) {
-  return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(entries.padded.size()) * entries.intervals * width);
 }
 
 std::size_t lanes_of(int entries) { return static_cast<std::size_t>(entries) * lane_count; }
@@ -52,10 +38,10 @@ LaneKkt::Made LaneKkt::make(const NonlinearProgram& program, const KktMatrix& us
   auto entries = interval_entries(program);
   if (!entries) return tl::unexpected(std::move(entries).error());
   if (const char* const refusal = refusal_of_ends(program, *entries)) return tl::unexpected(std::string(refusal));
-  Eigen::VectorXd padded = make_padded(*entries, 1);
+  Eigen::VectorXd padded = entries->make_padded(1);
   const NewtonArrays arrays{{usual.jacobian.data(), usual.hessian.data(), usual.diagonal.data(), nullptr, nullptr,
                              usual.compliance.data(), padded.data()}};
-  copy_padded(*entries, arrays, 1, padded);
+  entries->copy_padded(arrays, 1, padded);
   auto plan = elimination_plan(*entries, arrays, {entries->intervals / 2});
   if (!plan)
     return tl::unexpected(std::string("the equalities of an interval depend on each other at the usual point"));
@@ -72,7 +58,7 @@ LaneKkt::LaneKkt(IntervalEntries entries, EliminationPlan plan, SegmentKernelCho
       factor_(lane_weights_.size() * static_cast<std::size_t>(state_size(entries_.shape))),
       end_(lane_weights_.size()),
       reachability_(state_size(entries_.shape), state_size(entries_.shape)),
-      padded_(make_padded(entries_, lane_count)),
+      padded_(entries_.make_padded(lane_count)),
       memory_(GroupMemory::of_instances(entries_.shape, static_cast<std::size_t>(entries_.intervals))) {
   fresh_weights_.use(plan_);
   fresh_weights_.prefer_middle();
@@ -94,7 +80,7 @@ void LaneKkt::forget(std::size_t lane) {
 NewtonArrays LaneKkt::arrays_of(const Systems& systems) {
   NewtonArrays arrays{{systems.jacobian, systems.hessian, systems.diagonal, systems.gradient, systems.constraints,
                        systems.compliance, padded_.data()}};
-  copy_padded(entries_, arrays, lane_count, padded_);
+  entries_.copy_padded(arrays, lane_count, padded_);
   arrays.terminal_weights = lane_weights_.data();
   return arrays;
 }
@@ -114,7 +100,7 @@ LaneKkt::Outcomes LaneKkt::solve(const Systems& systems, const Mask& wanted, dou
   find_end_multipliers(systems.constraints);
   kernel_.forward(plan_, arrays, group, primal, multipliers);
   write_ends(primal, multipliers);
-  write_inequality_multipliers(systems, primal, multipliers);
+  entries_.write_inequality_multipliers(arrays, lane_count, primal, multipliers);
   return outcomes;
 }
 
@@ -233,10 +219,7 @@ void LaneKkt::write_ends(double* primal, double* multipliers) const {
     std::fill_n(primal + first * lane_count, lane_count, 0.0);
     std::fill_n(primal + (first + N) * lane_count, lane_count, 0.0);
   }
-  for (int column = 0; column < next_size(entries_.shape); ++column) {
-    if (!entries_.is_fixed_column(column)) continue;
-    std::fill_n(primal + entries_.unknown_in(column) * lane_count, N * lane_count, 0.0);
-  }
+  entries_.write_fixed(lane_count, primal);
   const auto node = static_cast<std::size_t>(entries_.shape.node);
   for (std::size_t i = 0; i < static_cast<std::size_t>(entries_.shape.node_sums); ++i) {
     double* const to = multipliers + (entries_.equality_rows[i] + N) * lane_count;
@@ -244,29 +227,6 @@ void LaneKkt::write_ends(double* primal, double* multipliers) const {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       to[lane] = end_[at + lane] + lane_weights_[at + lane] * last_state_[at + lane];
     }
-  }
-}
-
-/// (J δx + constraints) / e for the rows of every inequality.
-void LaneKkt::write_inequality_multipliers(const Systems& systems, const double* primal, double* multipliers) const {
-  const Eigen::Index count = entries_.intervals * lane_count;
-  using Numbers = Eigen::Map<const Eigen::ArrayXd>;
-  const auto row_of = [&](int inequality) {
-    return entries_.inequality_rows[static_cast<std::size_t>(inequality)] * lane_count;
-  };
-  const auto steps_of = [&](Eigen::Index row) { return Eigen::Map<Eigen::ArrayXd>(multipliers + row, count); };
-  for (const Eigen::Index row : entries_.inequality_rows) {
-    steps_of(row * lane_count) = Numbers(systems.constraints + row * lane_count, count);
-  }
-  const int one = next_size(entries_.shape) + state_size(entries_.shape);
-  for (const LocalEntry& entry : entries_.local) {
-    if (entry.block != LocalEntry::Block::inequality || entry.column < 0 || entry.column == one) continue;
-    const double* const from = entry.source == Source::padded ? padded_.data() : systems.jacobian;
-    steps_of(row_of(entry.row)) += Numbers(from + entry.first * lane_count, count) *
-                                   Numbers(primal + entries_.unknown_in(entry.column) * lane_count, count);
-  }
-  for (const Eigen::Index row : entries_.inequality_rows) {
-    steps_of(row * lane_count) /= Numbers(systems.compliance + row * lane_count, count);
   }
 }
 

@@ -70,7 +70,6 @@ class LaneKkt {
   void factorise_reachability();
   [[nodiscard]] Outcome outcome_of(std::size_t lane);
   void write_ends(double* primal, double* multipliers) const;
-  void write_inequality_multipliers(const Systems& systems, const double* primal, double* multipliers) const;
 
   IntervalEntries entries_;
   EliminationPlan plan_;
