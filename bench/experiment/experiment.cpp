@@ -39,7 +39,7 @@ class Run {
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
         cases_(cases_of(experiment)),
-        starts_({.kind = options_.start,
+        starts_({.start = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().tells_branches,
                  .takes_costates = experiment.card().takes_costates,
