@@ -86,11 +86,7 @@ class Run {
     if (table.rows().empty()) throw_if_interrupted();
     if (complete) write_file(table_file(), (table = experiment_.compared(table)).csv());
     const Outcome outcome = outcome_of(table);
-    if (complete) {
-      experiment_.finish(table, prefix_, metadata_);
-    } else {
-      experiment_.finish_interrupted(table, prefix_, metadata_);
-    }
+    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(table, prefix_, metadata_);
     metadata_["complete"] = complete;
     metadata_["cases"] = cases_.size();
     metadata_["rows"] = table.rows().size();
