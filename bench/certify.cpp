@@ -208,7 +208,7 @@ class Certify final : public Experiment {
   /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
   void complete(SolvedCase& solved) override {
     measured_ = {};
-    CertifiedProblem& certified = *std::ranges::find(problems_, solved.the_case.problem, &CertifiedProblem::problem);
+    ProblemToCertify& certified = *std::ranges::find(problems_, solved.the_case.problem, &ProblemToCertify::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
       measured_.replay = replay(solved);
       measured_.replay_objective = replayed_objective(solved, *solved.trajectory);
@@ -226,7 +226,7 @@ class Certify final : public Experiment {
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_references.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     std::vector<Certificate> certificates;
-    for (const CertifiedProblem& certified : problems_) {
+    for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
       fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, Cell(agreeing_digits(c)).text(),
                  c.agreement.confirmed);
@@ -236,7 +236,7 @@ class Certify final : public Experiment {
   }
 
  private:
-  struct CertifiedProblem {
+  struct ProblemToCertify {
     std::shared_ptr<const Problem> problem;
     std::size_t cases_left = 0;
     std::optional<Trajectory> finest = std::nullopt;  // the first answer on the finest grid so far
@@ -244,7 +244,7 @@ class Certify final : public Experiment {
 
   std::vector<std::string> route_names_{"gauss3", "lobatto4"};
   bool with_indirect_ = true;
-  std::vector<CertifiedProblem> problems_;  // in the order of the cases
+  std::vector<ProblemToCertify> problems_;  // in the order of the cases
   struct {
     std::optional<ReplayError> replay;
     std::optional<double> replay_objective;

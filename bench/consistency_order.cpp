@@ -174,18 +174,19 @@ const Columns<ExactTransform> transform_columns{
     {"largest_momentum", "", "largest entry of L_v, to compare with", &ExactTransform::momentum}};
 
 /// D_1 L_d^E and D_2 L_d^E along e_i by differences of order 4, from boundary value problems with moved ends.
-std::pair<long double, long double> slopes_of_exact_lagrangian(const ExactDiscreteLagrangian& exact,
-                                                               const ExactInterval& at, long double h, Eigen::Index i) {
+std::pair<long double, long double> derivatives_of_exact_lagrangian(const ExactDiscreteLagrangian& exact,
+                                                                    const ExactInterval& at, long double h,
+                                                                    Eigen::Index i) {
   const long double e = 1e-3L * h;
   const LongVector unit = LongVector::Unit(at.q_0.size(), i);
   const auto lagrangian = [&](long double left, long double right) {
     return exact.between(at.q_0 + left * unit, at.q_1 + right * unit, at.v_0, h).objects.lagrangian;
   };
-  const auto slope = [&](const auto& f) {
+  const auto derivative = [&](const auto& f) {
     return (8.0L * (f(e) - f(-e)) - (f(2.0L * e) - f(-2.0L * e))) / (12.0L * e);
   };
-  return {slope([&](long double x) { return lagrangian(x, 0.0L); }),
-          slope([&](long double x) { return lagrangian(0.0L, x); })};
+  return {derivative([&](long double x) { return lagrangian(x, 0.0L); }),
+          derivative([&](long double x) { return lagrangian(0.0L, x); })};
 }
 
 ExactTransform exact_transform(const Problem& problem, long long intervals) {
@@ -199,7 +200,7 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
       throw_if_interrupted();
       const ExactInterval at = exact.along(start.q.cast<long double>(), start.v.cast<long double>(), result.h);
       for (Eigen::Index i = 0; i < at.q_0.size(); ++i) {
-        const auto [by_left, by_right] = slopes_of_exact_lagrangian(exact, at, result.h, i);
+        const auto [by_left, by_right] = derivatives_of_exact_lagrangian(exact, at, result.h, i);
         raise(result.left, -by_left - at.objects.left_force[i] - at.objects.left_momentum[i]);
         raise(result.right, by_right + at.objects.right_force[i] - at.objects.right_momentum[i]);
         raise(result.momentum, at.objects.left_momentum[i]);

@@ -17,7 +17,7 @@
 
 namespace dmocbench::slips_program {
 
-struct Slip {
+struct Misprint {
   std::string problem;
   std::string name;
   std::string where;
@@ -30,7 +30,7 @@ struct Slip {
 };
 
 /// The derivative of the potential's last term with respect to θ₂ where the paper says the arm is in equilibrium.
-Slip potential_without_sine() {
+Misprint potential_without_sine() {
   const auto problem = make_problem("two_link_manipulator");
   const double weight =
       0.5 * problem->parameter("mass_2") * problem->parameter("gravity") * problem->parameter("length_2");
@@ -51,7 +51,7 @@ Slip potential_without_sine() {
 }
 
 /// Free variations at t = 0 give ∂L/∂q̇(0) = p⁰; the paper prints p^T there, and p⁰ at T.
-Slip swapped_momenta(const Problem& problem, const Trajectory& motion) {
+Misprint swapped_momenta(const Problem& problem, const Trajectory& motion) {
   const BoundaryState first = problem.initial_state();
   LegendreTransform legendre{TracedProblem(problem)};
   const Eigen::Index last = motion.q.rows() - 1;
@@ -68,7 +68,7 @@ Slip swapped_momenta(const Problem& problem, const Trajectory& motion) {
 
 /// ṗ = -∇_q H + f; the Mayer paragraph writes -∇_p H + f. On the orbit ∇_q H has no φ part and ∇_p H has φ̇: integrated
 /// over the horizon, Δp_φ = ∫ f_φ dt as meant, and ∫ f_φ dt - Δφ as printed.
-Slip mayer_gradient(const Problem& problem, const Trajectory& motion) {
+Misprint mayer_gradient(const Problem& problem, const Trajectory& motion) {
   const Eigen::Index last = motion.q.rows() - 1;
   double work = 0.0;
   for (Eigen::Index k = 0; k < motion.intervals(); ++k) {
@@ -87,7 +87,7 @@ Slip mayer_gradient(const Problem& problem, const Trajectory& motion) {
 
 /// The control at T of the two shaken masses when their final state costs ½w(|q|² + |q̇|²): H = -C + λ·f is largest at
 /// u = c λ_p₂ ẋ₂, and λ(T) = -∇Φ has p₂ part -w ẋ₂/m₂. As printed, λ(T) = +∇Φ, the sign would be the other one.
-Slip transversality(StartProvider& starts) {
+Misprint transversality(StartProvider& starts) {
   constexpr double weight = 1e3;
   const std::shared_ptr<const Problem> free = make_problem("double_oscillator");
   // The problem's own scale makes the weight so large that rounding of q(T) alone is above the tolerance.
@@ -114,7 +114,7 @@ Slip transversality(StartProvider& starts) {
 
 /// L(η, λ*) - L(η*, λ*) of the double integrator, with q, v and u all moved, none of them at the ends. λ* = (λ_q, λ_p)
 /// with λ_p = u* and λ̇_q = 0.
-Slip saddle_point() {
+Misprint saddle_point() {
   const auto problem = make_problem("double_integrator");
   const auto& closed = dynamic_cast<const ClosedForm&>(*problem);
   constexpr int points = 2000;
@@ -146,7 +146,7 @@ Slip saddle_point() {
 
 /// The Lemma's proof on an interval of the orbit: -D_1 L_d^E - f_d^{E-} = -∫ [L_q - d/dt L_v + f]·∂q/∂q_0 dt + L_v(0),
 /// where the bracket vanishes. As printed, with -f in it, the integral would be 2 f_d^{E-}.
-Slip force_in_lemma(const Problem& problem) {
+Misprint force_in_lemma(const Problem& problem) {
   constexpr long double h = 0.5L;
   constexpr long double e = 1e-5L;
   const ExactDiscreteLagrangian exact(
@@ -176,7 +176,7 @@ Slip force_in_lemma(const Problem& problem) {
 
 /// (q^T, p^T) = 𝔽L(q^N, q̇^N) in a statement about continuous motions, which have no N. Read as the state of the last
 /// interval of a discrete one, q̇^N = (q_N - q_{N-1})/h, it misses the momentum that the final state has.
-Slip final_momentum(const Problem& problem, const Trajectory& motion) {
+Misprint final_momentum(const Problem& problem, const Trajectory& motion) {
   const Eigen::Index last = motion.intervals();
   const BoundaryState end = problem.final_state();
   LegendreTransform legendre{TracedProblem(problem)};
@@ -195,7 +195,7 @@ Slip final_momentum(const Problem& problem, const Trajectory& motion) {
 
 /// The ratio of free variables, collocation to DMOC, that the minor iterations of a figure reflect: of a long horizon
 /// it is (2n + m)/(n + m). The text gives 1.5.
-Slip figure_of_iterations() {
+Misprint figure_of_iterations() {
   const auto ratio = [](const char* name) {
     const auto problem = make_problem(name);
     const auto n = static_cast<double>(problem->configuration_size());
@@ -213,36 +213,36 @@ Slip figure_of_iterations() {
           .required = 1.5};
 }
 
-const Columns<Slip> columns{
-    {"problem", "", "name of the problem", &Slip::problem},
-    {"slip", "", "short name of the statement", &Slip::name},
-    {"where", "", "in the paper", &Slip::where},
-    {"printed", "", "what is printed", &Slip::printed},
-    {"meant", "", "what is meant", &Slip::meant},
-    {"quantity", "", "what tells both apart", &Slip::quantity},
-    {"value_as_printed", "", "its value as printed", &Slip::as_printed},
-    {"value_as_meant", "", "its value as meant", &Slip::as_meant},
-    {"required_value", "", "its value as it has to be", &Slip::required},
+const Columns<Misprint> columns{
+    {"problem", "", "name of the problem", &Misprint::problem},
+    {"slip", "", "short name of the statement", &Misprint::name},
+    {"where", "", "in the paper", &Misprint::where},
+    {"printed", "", "what is printed", &Misprint::printed},
+    {"meant", "", "what is meant", &Misprint::meant},
+    {"quantity", "", "what tells both apart", &Misprint::quantity},
+    {"value_as_printed", "", "its value as printed", &Misprint::as_printed},
+    {"value_as_meant", "", "its value as meant", &Misprint::as_meant},
+    {"required_value", "", "its value as it has to be", &Misprint::required},
 };
 
-int evaluate_slips(CommandLine& line) {
+int evaluate_misprints(CommandLine& line) {
   TableRun run("slips", line);
   const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
   StartProvider starts({}, TableRun::solver_options());
   const Trajectory motion = starts.solve(
       {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
-  const std::vector<Slip> slips{potential_without_sine(),       swapped_momenta(*orbit, motion),
-                                mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
-                                transversality(starts),         saddle_point(),
-                                final_momentum(*orbit, motion), figure_of_iterations()};
-  run.add("slips", columns, slips);
+  const std::vector<Misprint> misprints{potential_without_sine(),       swapped_momenta(*orbit, motion),
+                                        mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
+                                        transversality(starts),         saddle_point(),
+                                        final_momentum(*orbit, motion), figure_of_iterations()};
+  run.add("slips", columns, misprints);
   return run.write();
 }
 
 int run(int argc, char** argv) {
   return run_program(
       "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
-      argc, argv, evaluate_slips);
+      argc, argv, evaluate_misprints);
 }
 
 }  // namespace dmocbench::slips_program

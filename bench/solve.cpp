@@ -56,6 +56,7 @@ class Solve final : public Experiment {
                         "motions whose NAME is motion_PROBLEM.",
                     .options = {.intervals = "128", .start = "guess"},
                     .takes_costates = true,
+                    .finishes_interrupted = true,
                     .takes_parts = false}) {}
   [[nodiscard]] Columns<SolvedCase> columns() const override {
     return columns_of(checks_) +
@@ -171,10 +172,6 @@ class Solve final : public Experiment {
       fmt::print("solve: {}: intervals join to {:.1e} of the range, worst is interval {}\n", the_case.label(),
                  solved.accuracy->relative_jump, solved.accuracy->interval);
     }
-  }
-  void finish_interrupted(const Table& table, const std::filesystem::path& prefix,
-                          nlohmann::ordered_json& metadata) override {
-    finish(table, prefix, metadata);
   }
 
  private:

@@ -1,5 +1,4 @@
 // Step sizes that are tied to the motion: inside the variational principle and outside of it (section 5, KMLTMD).
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +44,8 @@ Columns<Record> choice_columns() {
       {"rule", "",
        "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
        "h = pace * sigma(q_k), known before the step (from_left)",
-       from(&Record::choice, &StepChoice::rule)},
-      {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma)},
+       from(&Record::choice, &StepChoice::rule_name)},
+      {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name)},
       {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages)}};
 }
 template <class Record>
@@ -117,8 +116,8 @@ const Columns<Transfer> transfer_columns{
     {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }},
     {"eccentricity", "", "of both ellipses", [](const Transfer& row) { return fmt::format("{:g}", row.eccentricity); }},
     {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
-     from(&Transfer::choice, &StepChoice::rule)},
-    {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma)},
+     from(&Transfer::choice, &StepChoice::rule_name)},
+    {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name)},
     {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages)},
     {"intervals", "", "number of intervals N", &Transfer::intervals},
     {"variables", "", "of the program", from(solved, &OptimalSteps::variables)},
@@ -133,15 +132,14 @@ const Columns<Transfer> transfer_columns{
     {"replay_error", "", "miss of the final state by the replayed control",
      from(solved, transfer_errors, &StepsErrors::replay)}};
 
-const std::array<std::string, 3> rules{"variational", "imposed", "from_left"};
-
 /// Uniform steps, and every rule with each of some functions.
-std::vector<StepChoice> choices(const std::vector<std::string>& sigmas, const std::vector<int>& stages) {
+std::vector<StepChoice> choices(const std::vector<SigmaReads>& sigmas, const std::vector<int>& stages) {
   std::vector<StepChoice> all;
   for (const int s : stages) {
-    all.push_back({"uniform", "nothing", s});
-    for (const std::string& sigma : sigmas) {
-      for (const std::string& rule : rules) all.push_back({rule, sigma, s});
+    all.push_back({.stages = s});
+    for (const SigmaReads sigma : sigmas) {
+      for (const StepPolicy rule : {StepPolicy::variational, StepPolicy::imposed, StepPolicy::from_left})
+        all.push_back({rule, sigma, s});
     }
   }
   return all;
@@ -166,10 +164,12 @@ class Measurement {
     constexpr int steps = 64;
     std::vector<Symplecticity> forms;
     std::vector<Momentum> momenta;
-    for (const StepChoice& choice : choices({"distance", "acceleration", "thrust"}, {1, 2})) {
-      run_.show("symplectic form and momentum: " + choice.rule + " " + choice.sigma);
+    for (const StepChoice& choice :
+         choices({SigmaReads::distance, SigmaReads::acceleration, SigmaReads::thrust}, {1, 2})) {
+      run_.show(fmt::format("symplectic form and momentum: {} {}", choice.rule_name(), choice.sigma_name()));
       const ControlledSteps controlled(eccentricity, choice, steps, exponent_);
-      if (choice.sigma != "thrust") forms.push_back({choice, eccentricity, steps, 1, controlled.symplecticity()});
+      if (choice.sigma != SigmaReads::thrust)
+        forms.push_back({choice, eccentricity, steps, 1, controlled.symplecticity()});
       momenta.push_back({choice, eccentricity, momentum_steps, 0, controlled.momentum(momentum_steps)});
     }
     run_.add("step_control_symplecticity", symplecticity_columns, forms);
@@ -180,8 +180,8 @@ class Measurement {
     std::vector<EnergyOfPeriod> energies;
     std::vector<EnergyOfPeriods> behaviours;
     for (const double eccentricity : {0.3, 0.6, 0.8}) {
-      for (const StepChoice& choice : choices({"distance"}, {1})) {
-        run_.show(fmt::format("energy over many periods: e = {}, {}", eccentricity, choice.rule));
+      for (const StepChoice& choice : choices({SigmaReads::distance}, {1})) {
+        run_.show(fmt::format("energy over many periods: e = {}, {}", eccentricity, choice.rule_name()));
         const std::vector<PeriodEnergy> watched =
             ControlledSteps(eccentricity, choice, steps, exponent_).energy(periods);
         for (const PeriodEnergy& period : watched) energies.push_back({choice, eccentricity, steps, periods, period});
@@ -196,8 +196,8 @@ class Measurement {
     std::vector<PeriodError> errors;
     std::vector<ErrorOrder> orders;
     for (const double eccentricity : {0.3, 0.6, 0.8}) {
-      for (const StepChoice& choice : choices({"distance", "acceleration"}, {1, 2})) {
-        run_.show(fmt::format("errors of a period: e = {}, {}", eccentricity, choice.rule));
+      for (const StepChoice& choice : choices({SigmaReads::distance, SigmaReads::acceleration}, {1, 2})) {
+        run_.show(fmt::format("errors of a period: e = {}, {}", eccentricity, choice.rule_name()));
         std::vector<GridError> points;
         std::size_t operations = 0;
         for (const int steps : {64, 128, 256, 512}) {
@@ -220,11 +220,11 @@ class Measurement {
     for (const double eccentricity : {0.3, 0.6, 0.8}) {
       run_.show(fmt::format("the optimal transfer between ellipses, e = {}", eccentricity));
       const SteppedTransfer transfer(eccentricity, TableRun::solver_options());
-      for (const StepChoice& choice : {StepChoice{"uniform", "nothing", 1}, StepChoice{"imposed", "distance", 1},
-                                       StepChoice{"variational", "distance", 1}}) {
+      for (const StepChoice& choice : {StepChoice(), StepChoice{StepPolicy::imposed, SigmaReads::distance},
+                                       StepChoice{StepPolicy::variational, SigmaReads::distance}}) {
         for (const long long intervals : {32, 64, 128, 256}) {
-          run_.show(
-              fmt::format("transfer between ellipses, e = {}, {} steps, N = {}", eccentricity, choice.rule, intervals));
+          run_.show(fmt::format("transfer between ellipses, e = {}, {} steps, N = {}", eccentricity, choice.rule_name(),
+                                intervals));
           rows.push_back(
               {choice, eccentricity, intervals, transfer.digits(),
                transfer.solve(choice.rule, step_function(choice.sigma, exponent_), choice.stages, intervals)});

@@ -102,12 +102,12 @@ int write_tables(CommandLine& line) {
   run.show("modified energies");
   const ModifiedEnergyTables modified = modified_energy_tables();
   run.add("structure_modified_energy", modified.drifts);
-  run.add("structure_modified_energy_slopes", modified.slopes);
+  run.add("structure_modified_energy_slopes", modified.orders);
   run.show("energies against the work of forces");
   const EnergyWorkTables work = energy_work_tables(TableRun::solver_options());
   run.add("structure_energy_work", work.plain);
   run.add("structure_modified_work", work.modified);
-  run.add("structure_energy_work_slopes", work.slopes);
+  run.add("structure_energy_work_slopes", work.orders);
   EnergyResults results;
   for (const LongTimeMethod& method : long_time_methods()) {
     run.show("energy over many periods: " + method.name);

@@ -29,7 +29,8 @@ class Sweep final : public Experiment {
                                 .batch = true},
                     .tells_branches = false,
                     .cases_stand_alone = true,
-                    .takes_batches = true}) {}
+                    .takes_batches = true,
+                    .finishes_interrupted = true}) {}
 
   void add_options(CommandLine& line) override {
     line.option("--over", over_,
@@ -79,10 +80,6 @@ class Sweep final : public Experiment {
     for (const Row& row : table.rows()) ++ends[row.text("status")];
     for (const auto& [status, count] : ends)
       fmt::print("sweep: {} of {} rows: {}\n", count, table.rows().size(), status);
-  }
-  void finish_interrupted(const Table& table, const std::filesystem::path& prefix,
-                          nlohmann::ordered_json& metadata) override {
-    finish(table, prefix, metadata);
   }
 
  private:

@@ -47,6 +47,15 @@ CertifiedProblem::CertifiedProblem(const std::string& name, const SolverOptions&
       optimum_(solve_indirect(*problem_, direct_motion(problem_, options))),
       motion_(optimum_.trajectory()) {}
 
+std::unique_ptr<Transcription> CertifiedProblem::transcribe(const Scheme& scheme, long long intervals) const {
+  return Case{.problem = problem_,
+              .method = scheme.method,
+              .tableau = scheme.tableau,
+              .stages = static_cast<int>(scheme.stages),
+              .grid = Grid::uniform(intervals)}
+      .transcribe();
+}
+
 TrueError true_error(const CertifiedProblem& certified, const Trajectory& answer) {
   // At the nodes alone: every point takes Newton's method.
   Eigen::MatrixXd q = -answer.q;

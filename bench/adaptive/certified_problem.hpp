@@ -3,11 +3,13 @@
 #include <memory>
 #include <string>
 
+#include "bench/experiment/column.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
+#include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
 
@@ -19,6 +21,8 @@ class CertifiedProblem {
   CertifiedProblem(const std::string& name, const SolverOptions& options);
 
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
+  /// Its program by a method, on a uniform grid.
+  [[nodiscard]] std::unique_ptr<Transcription> transcribe(const Scheme& scheme, long long intervals) const;
   [[nodiscard]] const IndirectSolution& optimum() const noexcept { return optimum_; }
   /// The optimal motion, from which solves may start.
   [[nodiscard]] const Trajectory& motion() const noexcept { return motion_; }

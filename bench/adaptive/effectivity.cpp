@@ -59,10 +59,9 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
   exact.tolerance = 1e-12;
   const auto solver = make_solver("interior_point", exact);
   for (const long long intervals : {64LL, 128LL}) {
-    Transcription program(certified.problem(), *make_element(method), make_tableau("gauss", stages),
-                          Grid::uniform(intervals));
+    const auto program = certified.transcribe(row.scheme, intervals);
     const Solution solution =
-        solve_from(program, sample(program, smooth_motion(certified.motion())), certified.motion(), *solver);
+        solve_from(*program, sample(*program, smooth_motion(certified.motion())), certified.motion(), *solver);
     row.grid = "uniform";
     row.intervals = intervals;
     row.status = name_of(solution.status);
@@ -70,14 +69,14 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
       rows.push_back(row);
       continue;
     }
-    const Trajectory answer = read_trajectory(program, solution.primal, solution.multipliers);
+    const Trajectory answer = read_trajectory(*program, solution.primal, solution.multipliers);
     if (accuracy(certified.problem(), answer).relative_jump > largest_jump_of_a_motion) {
       row.status = name_of(Status::too_coarse);
       rows.push_back(row);
       continue;
     }
-    ErrorEstimator estimator(program);
-    append_rows(certified, row, answer, estimator.estimate(program, solution.primal, solution.multipliers, answer),
+    ErrorEstimator estimator(*program);
+    append_rows(certified, row, answer, estimator.estimate(*program, solution.primal, solution.multipliers, answer),
                 rows);
   }
   AdaptiveOptions adaptive;

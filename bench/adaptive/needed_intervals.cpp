@@ -29,13 +29,12 @@ struct UniformSolve {
 
 UniformSolve solve_uniform(const CertifiedProblem& certified, const Scheme& scheme, long long intervals,
                            const Solver& solver) {
-  Transcription program(certified.problem(), *make_element(scheme.method),
-                        make_tableau(scheme.tableau, static_cast<int>(scheme.stages)), Grid::uniform(intervals));
+  const auto program = certified.transcribe(scheme, intervals);
   const Solution solution =
-      solve_from(program, sample(program, smooth_motion(certified.motion())), certified.motion(), solver);
-  UniformSolve result{.status = solution.status, .intervals = intervals, .variables = program.variable_count()};
+      solve_from(*program, sample(*program, smooth_motion(certified.motion())), certified.motion(), solver);
+  UniformSolve result{.status = solution.status, .intervals = intervals, .variables = program->variable_count()};
   if (!is_solved(solution.status)) return result;
-  result.error = true_error(certified, read_trajectory(program, solution.primal, solution.multipliers)).relative;
+  result.error = true_error(certified, read_trajectory(*program, solution.primal, solution.multipliers)).relative;
   return result;
 }
 

@@ -80,7 +80,6 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
 
 Claims accuracy_claims() {
   return {{.id = "replay_beside_tangent",
-           .problems = of_paper,
            .where = "section 1",
            .whose = Whose::remark,
            .states =
@@ -91,17 +90,13 @@ Claims accuracy_claims() {
            .cause = "the momentum balance of the discrete system says nothing about the error of its motion",
            .evidence = {"convergence.csv"}},
           {.id = "rounding_floor",
-           .problems = of_paper,
            .where = "section 3.3, Implementation",
-           .whose = Whose::ours,
            .states = "staying on Q x Q costs no digits",
            .judge = rounding_floor,
            .cause = "DMOC's momenta are differences of positions divided by h, so that rounding grows as 1/h",
            .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
           {.id = "interior_point_beside_ipopt",
-           .problems = of_paper,
            .where = "section 4.1, SQP Method",
-           .whose = Whose::ours,
            .states = "interior_point, which solves where the solver is not the question, has the answers of Ipopt",
            .judge = interior_point_beside_ipopt,
            .condition = "warm, from a common start; the answers of both are refined by Newton steps",

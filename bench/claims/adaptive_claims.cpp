@@ -140,7 +140,6 @@ Claims adaptive_claims() {
       {.id = "error_estimate_is_effective",
        .problems = examples,
        .where = "section 5, Adaptive Time Steps",
-       .whose = Whose::ours,
        .states = "from one solve, the error of state, momentum, costate and cost is estimated within a factor of 0.3 "
                  "to 3",
        .judge = effective,
@@ -150,7 +149,6 @@ Claims adaptive_claims() {
       {.id = "adapted_grids_need_fewer_intervals",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
-       .whose = Whose::ours,
        .states = "for an error of 1e-8 uniform grids need at least four times as many intervals as grids that error "
                  "control adapts, the best number of stages of each",
        .judge = fewer_intervals,
@@ -159,7 +157,6 @@ Claims adaptive_claims() {
       {.id = "adapting_takes_less_than_20_ms",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
-       .whose = Whose::ours,
        .states = "from the guess to an estimated error of 1e-8, all grids counted, takes less than 20 ms",
        .judge = quick,
        .condition = "DMOC by interior_point, the quickest number of stages",
@@ -167,7 +164,6 @@ Claims adaptive_claims() {
       {.id = "dmoc_keeps_its_advantage_on_adapted_grids",
        .problems = uneven_problems,
        .where = "section 5, Adaptive Time Steps",
-       .whose = Whose::ours,
        .states = "on grids adapted to the same error collocation needs more variables than DMOC",
        .judge = more_variables_by_collocation,
        .condition = "more: at least 1.05 times as many, by the true error and the order at exactly 1e-8",

@@ -92,10 +92,10 @@ using Predicate = std::function<Finding(const ResultTables& tables, const std::s
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
 struct Claim {
   std::string id;  ///< "state_slope"; the written table puts the problem in front
-  Problems problems;
+  Problems problems = of_paper;
   Wording where;        ///< section or label in the paper; for a statement of ours the place that it sharpens
   Wording figure = "";  ///< label of the paper's figure that shows it; "" if none does
-  Whose whose;
+  Whose whose = Whose::ours;
   Wording states;  ///< what is stated, in the words of whoever states it
   Predicate judge;
   Wording condition = "";             ///< under which condition it holds; written whatever the verdict

@@ -66,17 +66,13 @@ ShareCount count_of_cold_starts(const Row& row, const char* column) {
 
 Claims cold_start_claims() {
   return {{.id = "cold_starts_confirmed_as_often",
-           .problems = of_paper,
            .where = "section 4.1, SQP Method",
-           .whose = Whose::ours,
            .states = "from cold starts, the guess and near it, DMOC is solved and confirmed as often as collocation",
            .judge = as_often_in("confirmed"),
            .condition = "as often: shares of cold starts differ by less than 5 %; by interior_point",
            .evidence = {"cold_start_shares.csv", "figures/{}_cold_start.svg"}},
           {.id = "cold_starts_best_as_often",
-           .problems = of_paper,
            .where = "section 5, Global Minima",
-           .whose = Whose::ours,
            .states = "from cold starts, the guess and near it, DMOC ends on the best branch as often as collocation",
            .judge = as_often_in("best"),
            .condition = "as often: shares of cold starts differ by less than 5 %; by interior_point",

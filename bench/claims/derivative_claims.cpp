@@ -98,7 +98,6 @@ Claims derivative_claims() {
   const std::vector<std::string> evidence{"derivatives.csv", "figures/{}_derivatives.svg"};
   return {
       {.id = "automatic_differentiation_more_robust",
-       .problems = of_paper,
        .where = section,
        .whose = Whose::paper,
        .states = "more solves succeed with automatic differentiation than with finite differences",
@@ -106,7 +105,6 @@ Claims derivative_claims() {
        .condition = "cold, from the problem's guess; \"acceptable\" does not count",
        .evidence = {"derivatives_cold.csv"}},
       {.id = "automatic_differentiation_faster",
-       .problems = of_paper,
        .where = section,
        .whose = Whose::paper,
        .states = "solves are faster with automatic differentiation than with finite differences",
@@ -115,7 +113,6 @@ Claims derivative_claims() {
                     "over all intervals per unknown of one interval",
        .evidence = evidence},
       {.id = "adolc_faster_than_differences",
-       .problems = of_paper,
        .where = section,
        .whose = Whose::paper,
        .states = "faster, by the package ADOL-C",

@@ -80,9 +80,7 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
 Claims energy_claims() {
   return {
       {.id = "energy_against_work",
-       .problems = of_paper,
        .where = in_paper,
-       .whose = Whose::ours,
        .states = "along optimal motions the energy of DMOC misses the virtual work by less than that of tangent-space "
                  "collocation",
        .judge = gap_smaller_than_of_tangent,
@@ -90,9 +88,7 @@ Claims energy_claims() {
                     "the smaller one, on the fast manipulator the larger one",
        .evidence = {"structure_energy_work.csv", "figures/{}_energy_work.svg"}},
       {.id = "modified_energy_and_work",
-       .problems = of_paper,
        .where = in_paper,
-       .whose = Whose::ours,
        .states = "along optimal motions H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule change by the "
                  "modified work up to h^2, h^4 and h^6",
        .judge = balances_modified_work,
@@ -105,7 +101,6 @@ Claims modified_energy_claims() {
   return {{.id = "modified_energy_by_orders",
            .problems = simulated,
            .where = in_paper,
-           .whose = Whose::ours,
            .states =
                "without forces H, H + h^2 H_2 and H + h^2 H_2 + h^4 H_4 of the midpoint rule drift with orders 2, 4 "
                "and 6; tangent-space collocation with a moving mass has no such energy",

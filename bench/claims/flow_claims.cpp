@@ -137,14 +137,12 @@ Claims consistency_order_claims() {
       "order is h^r, while L_d and the map keep h^(r + 1) (derivation: methods/README.md, \"Order of consistency\")";
   const std::vector<std::string> evidence{"consistency_order_slopes.csv", "figures/{}_consistency_order.svg"};
   return {{.id = "order_of_discrete_lagrangian",
-           .problems = of_paper,
            .where = "section 2.3, eq:DMOC_orderL, th:ordercalculation",
            .whose = Whose::paper,
            .states = "L_d and the one-step map are exact up to h^(r + 1)",
            .judge = has_order_of_consistency("lagrangian", "map"),
            .evidence = evidence},
           {.id = "order_of_discrete_forces",
-           .problems = of_paper,
            .where = "section 2.3, eq:DMOC_orderf",
            .whose = Whose::paper,
            .states = "f_d is exact up to h^(r + 1)",
@@ -152,7 +150,6 @@ Claims consistency_order_claims() {
            .cause = cause,
            .evidence = evidence},
           {.id = "order_of_legendre_transforms",
-           .problems = of_paper,
            .where = "section 2.3, eq:DMOC_orderLeg",
            .whose = Whose::paper,
            .states = "the discrete Legendre transforms are exact up to h^(r + 1)",

@@ -11,7 +11,7 @@ namespace dmocbench {
 namespace {
 
 /// A fitted order may miss what theory predicts by this much, or by twice its standard error.
-constexpr double near_slope = 0.1;
+constexpr double near_predicted_order = 0.1;
 constexpr double fewest_points = 3;
 
 /// Boundary values make the ratio of a finite grid differ from the limit by a few over N.
@@ -22,9 +22,9 @@ constexpr double identical_costs = 1e-9;
 /// Errors of the cost, relative to it, that the solver's tolerance may have made.
 constexpr double floor_of_costs = 1e-10;
 
-/// The slope that errors c(h^2 - h_ref^2) against a grid of `reference` intervals show where it is fitted to grids that
+/// The order that errors c(h^2 - h_ref^2) against a grid of `reference` intervals show where it is fitted to grids that
 /// double from `coarsest` on.
-double slope_of_second_order(double coarsest, double points, double reference) {
+double order_against_reference(double coarsest, double points, double reference) {
   std::vector<double> x;
   std::vector<double> y;
   for (double i = 0.0; i < points; ++i) {
@@ -43,32 +43,33 @@ double slope_of_second_order(double coarsest, double points, double reference) {
   return above / below;
 }
 
-/// What theory predicts for a row of slopes. Throws `Error` unless its grids double.
-double predicted_slope(const Row& row, double reference) {
+/// What theory predicts for a row of orders. Throws `Error` unless its grids double.
+double predicted_order(const Row& row, double reference) {
   const double coarsest = row.needed("coarsest");
   const double finest = row.needed("finest");
   const double points = row.needed("points");
   require(points >= 2.0 && coarsest * std::exp2(points - 1.0) == finest && finest < reference,
           "{}: {} grids from N = {} to {} do not double below the reference N = {}", row.place(), points, coarsest,
           finest, reference);
-  return slope_of_second_order(coarsest, points, reference);
+  return order_against_reference(coarsest, points, reference);
 }
 
-/// Judges the slopes NAME_slopes that were fitted to a table of solves.
+/// Judges the orders NAME_slopes that were fitted to a table of solves.
 Predicate is_of_order_two(const std::string& solves, const char* quantity) {
   return [=](const ResultTables& tables, const std::string& problem) -> Finding {
-    const Selection slopes = tables.rows(solves + "_slopes", problem).where("quantity", quantity);
+    const Selection fitted = tables.rows(solves + "_slopes", problem).where("quantity", quantity);
     Selection orders;
     for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
-      const Selection order = midpoint(slopes, method);
+      const Selection order = midpoint(fitted, method);
       require(!order.empty(), "{}_slopes.csv has no slope of {}, {}, {}", solves, problem, method, quantity);
       orders.append(order);
     }
     const double reference = tables.rows(solves, problem).max("intervals");
     const auto is_as_predicted = [&](const Row& row) {
       const double error = row.needed("standard_error");
-      const double miss = std::abs(row.needed("slope") - predicted_slope(row, reference));
-      return miss < std::max(near_slope, std::min(2.0 * error, near_order)) && row.needed("points") >= fewest_points;
+      const double miss = std::abs(row.needed("slope") - predicted_order(row, reference));
+      return miss < std::max(near_predicted_order, std::min(2.0 * error, near_order)) &&
+             row.needed("points") >= fewest_points;
     };
     const auto words = [](const Row& row) {
       return fmt::format("{} {:.3f} +- {:.3f}", row.text("method"), row.needed("slope"), row.needed("standard_error"));
@@ -77,7 +78,7 @@ Predicate is_of_order_two(const std::string& solves, const char* quantity) {
                  orders.in_words(", ", words),
                  unsolved_behind(tables, solves, {{"problem", problem}, {"tableau", "gauss"}, {"stages", "1"}}))
         .because(fmt::format("errors c(h^2 - h_ref^2) against N = {} show the slope {:.3f} on these grids", reference,
-                             predicted_slope(orders.front(), reference)));
+                             predicted_order(orders.front(), reference)));
   };
 }
 
@@ -205,7 +206,6 @@ Claims grid_claims() {
       objective(only_orbit, "section 4.2.2, for the other problem", "", Whose::ours),
       objective(only_two_link, "section 4.2.2", "fig:twolink_obj a)", Whose::paper),
       {.id = "variable_ratio",
-       .problems = of_paper,
        .where = Wording("section 4.2.1, rem:savings", "section 4.2.2, rem:savings"),
        .whose = Whose::paper,
        .states = Wording("DMOC uses 3/5 of the variables of collocation", "DMOC uses 2/3 of the variables"),
@@ -213,7 +213,6 @@ Claims grid_claims() {
        .condition = "it follows from counting the unknowns",
        .evidence = {"convergence.csv"}},
       {.id = "reference_step",
-       .problems = of_paper,
        .where = section,
        .whose = Whose::paper,
        .states = Wording("h = 2.9e-3 at N = 1024", "h = 1.9e-3 at N = 512"),

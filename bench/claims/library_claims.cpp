@@ -88,16 +88,13 @@ Predicate dmoc_best_by(const std::string& measure) {
 
 Claims minima_claims() {
   return {{.id = "local_minima",
-           .problems = of_paper,
            .where = "section 4.1, SQP Method; section 5, Global Minima",
            .whose = Whose::remark,
            .states = "local minima depend on the initial guess",
            .judge = local_minima,
            .evidence = {"local_minima_minima.csv", "figures/{}_local_minima.svg"}},
           {.id = "best_minimum_share",
-           .problems = of_paper,
            .where = "section 5, Global Minima",
-           .whose = Whose::ours,
            .states = "one method finds the best minimum more often than another",
            .judge = best_minimum_share,
            .evidence = {"local_minima_shares.csv", "figures/{}_local_minima.svg"}}};
@@ -109,7 +106,6 @@ Claims library_claims() {
     claims.push_back({.id = "dmoc_best_by_" + measure,
                       .problems = Problems(1, "library"),
                       .where = "section 5, on two problems",
-                      .whose = Whose::ours,
                       .states = "DMOC needs less than collocation on more problems than the paper's two",
                       .judge = dmoc_best_by(measure),
                       .evidence = {"profile.csv", "figures/profile.svg"},

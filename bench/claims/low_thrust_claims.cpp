@@ -107,7 +107,6 @@ Claims low_thrust_claims() {
       {.id = "low_thrust_structure_pays_in_momentum_alone",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
-       .whose = Whose::ours,
        .states = "in polar coordinates, with 8 to 32 steps per revolution, tangent-space collocation has the cost and "
                  "replay errors of DMOC; only the balance of momentum is worse",
        .judge = pays_in_momentum_alone,
@@ -115,7 +114,6 @@ Claims low_thrust_claims() {
       {.id = "low_thrust_structure_pays_beside_explicit",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
-       .whose = Whose::ours,
        .states = "beside shooting by the explicit midpoint rule, of the same order, DMOC has the smaller state error "
                  "from 8 steps per revolution on",
        .judge = pays_beside_explicit,
@@ -123,7 +121,6 @@ Claims low_thrust_claims() {
       {.id = "low_thrust_order_pays_more",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
-       .whose = Whose::ours,
        .states =
            "from 12 steps per revolution on order pays more than structure: shooting by rk4 has at most a fifth of "
            "DMOC's cost error",

@@ -151,7 +151,6 @@ Finding order_of_stage_controls(const ResultTables& tables, const std::string& p
 
 Claims order_claims() {
   return {{.id = "order_of_convergence",
-           .problems = of_paper,
            .where = "section 3.6, main_theorem",
            .whose = Whose::paper,
            .states = "order kappa for state, costate and u(x, psi) at the nodes",
@@ -159,7 +158,6 @@ Claims order_claims() {
            .condition = "the optimum is smooth, and its final state is fixed, which the theorem leaves out",
            .evidence = {"convergence_indirect_slopes.csv", "convergence_indirect.csv", "figures/{}_orders.svg"}},
           {.id = "order_of_adjoint_scheme",
-           .problems = of_paper,
            .where = "section 3.5, th:orderapp, eq:stateco5-eq:stateco9",
            .whose = Whose::paper,
            .states = "the adjoint scheme is that of the states with both halves exchanged, and has its order",

@@ -60,14 +60,12 @@ Claims order_theorem_claims() {
   const std::vector<const char*> forces{"left_force", "right_force"};
   return {
       {.id = "exact_legendre_transform",
-       .problems = of_paper,
        .where = "section 2.3, the Lemma",
        .whose = Whose::paper,
        .states = "the forced discrete Legendre transforms of L_d^E are those of L at the ends of the exact motion",
        .judge = exact_transforms_agree,
        .evidence = {"consistency_order_transforms.csv"}},
       {.id = "order_theorem",
-       .problems = of_paper,
        .where = "section 2.3, th:ordercalculation",
        .whose = Whose::paper,
        .states =
@@ -81,9 +79,7 @@ Claims order_theorem_claims() {
                 "transforms (derivation: methods/README.md, \"Order of consistency\")",
        .evidence = evidence},
       {.id = "order_theorem_with_one_power_less",
-       .problems = of_paper,
        .where = "section 2.3, th:ordercalculation",
-       .whose = Whose::ours,
        .states = "with errors of h^r in eq:DMOC_orderf and eq:DMOC_orderLeg, (i), (ii) and (iii) hold with the same r",
        .judge = all_hold_with_one_order({{"(i) map", {"map"}, 1},
                                          {"(ii) transforms", transforms, 0},

@@ -166,18 +166,14 @@ Claims shooting_claims() {
   };
   const auto dearer = [&](const char* id, const char* method, const char* states) {
     return Claim{.id = id,
-                 .problems = of_paper,
                  .where = where,
-                 .whose = Whose::ours,
                  .states = states,
                  .judge = costs_more(method),
                  .condition = "warm, from the common start; all by Ipopt, rk4 with one step per interval, s = 1",
                  .evidence = {"structure_advantage_shooting.csv"}};
   };
   return {{.id = "order_of_shooting",
-           .problems = of_paper,
            .where = where,
-           .whose = Whose::ours,
            .states = "shooting has the smaller one of the orders of its integrator (rk4 4, midpoint rule 2) and its "
                      "control (2s)",
            .judge = order_of_shooting,
@@ -187,7 +183,6 @@ Claims shooting_claims() {
           {.id = "single_shooting_smallest",
            .problems = with_swing_up,
            .where = where,
-           .whose = Whose::ours,
            .states = "single shooting has the fewest unknowns and multiple shooting the most; DMOC is between them",
            .judge = sizes_of_programs,
            .condition = "it follows from counting the unknowns",
@@ -195,7 +190,6 @@ Claims shooting_claims() {
           {.id = "condition_of_shooting",
            .problems = with_swing_up,
            .where = where,
-           .whose = Whose::ours,
            .states = "the program of DMOC is the best conditioned, that of single shooting the worst",
            .judge = condition_of_programs,
            .condition = "eigenvalues of the KKT matrix at the optimum, rows and columns brought to one size",
@@ -203,7 +197,6 @@ Claims shooting_claims() {
           {.id = "multiple_shooting_more_robust_than_single",
            .problems = with_swing_up,
            .where = where,
-           .whose = Whose::ours,
            .states = "from cold starts, the guess and near it, multiple shooting is solved and confirmed more often "
                      "than single shooting",
            .judge = more_often(multiple, single),
@@ -211,7 +204,6 @@ Claims shooting_claims() {
           {.id = "dmoc_more_robust_than_multiple_shooting",
            .problems = with_swing_up,
            .where = where,
-           .whose = Whose::ours,
            .states = "from cold starts, the guess and near it, DMOC is solved and confirmed more often than multiple "
                      "shooting",
            .judge = more_often("dmoc", multiple),

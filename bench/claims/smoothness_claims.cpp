@@ -12,69 +12,69 @@ const std::vector<std::string> of_theorem{"state", "costate_p", "node_control"};
 
 /// Slopes of DMOC with so many stages, of some quantities, in situations that are picked.
 template <class Picks>
-Selection slopes_of(const ResultTables& tables, const char* stages, const std::vector<std::string>& quantities,
+Selection orders_of(const ResultTables& tables, const char* stages, const std::vector<std::string>& quantities,
                     const Picks& picks) {
-  Selection slopes;
+  Selection orders;
   const Selection rows = tables.rows("smoothness_slopes").where("method", "dmoc").where("stages", stages).where(picks);
   for (const std::string& quantity : quantities) {
     const Selection of_quantity = rows.where("quantity", quantity);
     require(!of_quantity.empty(),
             "smoothness_slopes.csv has no slope of {} with {} stages in a situation that is asked for", quantity,
             stages);
-    slopes.append(of_quantity);
+    orders.append(of_quantity);
   }
-  return slopes;
+  return orders;
 }
 
 auto with_active(std::string bound) {
   return [bound = std::move(bound)](const Row& row) { return row.text("active") == bound; };
 }
 
-std::string slopes_in_words(const Selection& slopes) {
-  return slopes.in_words(", ", [](const Row& row) {
+std::string orders_in_words(const Selection& orders) {
+  return orders.in_words(", ", [](const Row& row) {
     return fmt::format("{} {} {:.2f}", row.text("situation"), row.text("quantity"), row.needed("slope"));
   });
 }
 
 Finding order_2_within_control_bounds(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double beside = 0.35;  // the error's factor changes with the place of a kink within its interval
-  const Selection slopes = slopes_of(tables, "1", of_theorem, with_active("control"));
+  const Selection orders = orders_of(tables, "1", of_theorem, with_active("control"));
   const auto is_2 = [](const Row& row) { return std::abs(row.needed("slope") - 2.0) < beside; };
-  return found(std::ranges::all_of(slopes, is_2), "slopes by the midpoint rule: {}", slopes_in_words(slopes));
+  return found(std::ranges::all_of(orders, is_2), "slopes by the midpoint rule: {}", orders_in_words(orders));
 }
 
 Finding kinks_leave_order_2(const ResultTables& tables, const std::string& /*problem*/) {
   constexpr double nearer_to_2 = 3.0;
   const auto has_kinks = [](const Row& row) { return row.text("active") != "nothing"; };
-  const Selection kinked = slopes_of(tables, "2", {"state"}, has_kinks);
-  const Selection smooth = slopes_of(tables, "2", {"state"}, std::not_fn(has_kinks));
+  const Selection kinked = orders_of(tables, "2", {"state"}, has_kinks);
+  const Selection smooth = orders_of(tables, "2", {"state"}, std::not_fn(has_kinks));
   const auto lost = [](const Row& row) { return row.needed("slope") < nearer_to_2 && row.needed("slope") > 1.5; };
   const auto kept = [](const Row& row) { return has_order(row, 4.0); };
   return found(std::ranges::all_of(kinked, lost) && std::ranges::all_of(smooth, kept),
-               "slopes of the state by Gauss, s = 2, with kinks: {}; without: {}", slopes_in_words(kinked),
-               slopes_in_words(smooth));
+               "slopes of the state by Gauss, s = 2, with kinks: {}; without: {}", orders_in_words(kinked),
+               orders_in_words(smooth));
 }
 
 Finding free_end_has_the_order(const ResultTables& tables, const std::string& /*problem*/) {
   const auto is_free = [](const Row& row) { return row.text("active") == "nothing" && row.text("end") == "free"; };
-  Selection slopes;
+  Selection orders;
   for (const char* stages : {"1", "2"}) {
-    slopes.append(slopes_of(tables, stages, {"state", "costate_q", "costate_p", "node_control"}, is_free));
+    orders.append(orders_of(tables, stages, {"state", "costate_q", "costate_p", "node_control"}, is_free));
   }
-  return found(std::ranges::all_of(slopes, [](const Row& row) { return has_order(row, row.needed("order")); }),
-               "slopes of DMOC, s = 1 and 2: {}", slopes_in_words(slopes));
+  return found(std::ranges::all_of(orders, [](const Row& row) { return has_order(row, row.needed("order")); }),
+               "slopes of DMOC, s = 1 and 2: {}", orders_in_words(orders));
 }
 
 Finding state_bound_orders(const ResultTables& tables, const std::string& /*problem*/) {
   const auto is_arc = [](const Row& row) { return row.text("situation") == "beam"; };
-  const Selection theorem = slopes_of(tables, "1", of_theorem, is_arc);
-  const Selection control = slopes_of(tables, "1", {"control"}, is_arc);
-  const Selection jumping = slopes_of(tables, "1", {"costate_q"}, is_arc);
+  const Selection theorem = orders_of(tables, "1", of_theorem, is_arc);
+  const Selection control = orders_of(tables, "1", {"control"}, is_arc);
+  const Selection jumping = orders_of(tables, "1", {"costate_q"}, is_arc);
   const bool holds = std::ranges::all_of(theorem, [](const Row& row) { return has_order(row, 2.0); }) &&
                      std::ranges::all_of(control, [](const Row& row) { return has_order(row, 1.0); }) &&
                      std::ranges::all_of(jumping, [](const Row& row) { return has_order(row, 0.0); });
-  return found(holds, "slopes by the midpoint rule: {}; {}; {}", slopes_in_words(theorem), slopes_in_words(control),
-               slopes_in_words(jumping));
+  return found(holds, "slopes by the midpoint rule: {}; {}; {}", orders_in_words(theorem), orders_in_words(control),
+               orders_in_words(jumping));
 }
 
 /// The smallest curvature of DMOC over the grids, coarsest first.
@@ -120,7 +120,6 @@ Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/)
 
 Claims coercivity_claims() {
   return {{.id = "coercive",
-           .problems = of_paper,
            .where = "section 3.5, assumption of coercivity",
            .whose = Whose::paper,
            .states = "the second variation is coercive (assumed)",
@@ -151,7 +150,6 @@ Claims smoothness_claims() {
       {.id = "kinks_leave_order_2",
        .problems = examples,
        .where = "section 3.6, eq:conv_estimate",
-       .whose = Whose::ours,
        .states = "where the optimal control has kinks, a method of order 4 is left with about order 2",
        .judge = kinks_leave_order_2,
        .condition = "tau(d^3 u*/dt^3; h) of eq:conv_estimate does not exist there; of u* and its first derivative it "
@@ -160,7 +158,6 @@ Claims smoothness_claims() {
       {.id = "order_within_a_state_bound",
        .problems = examples,
        .where = "section 3.6, main_theorem",
-       .whose = Whose::ours,
        .states = "with a bound on the state, state, psi^p and u(x, psi) keep order 2, stage controls have order 1, and "
                  "psi^q, which jumps, does not converge",
        .judge = state_bound_orders,
@@ -168,7 +165,6 @@ Claims smoothness_claims() {
       {.id = "brachistochrone_not_coercive",
        .problems = examples,
        .where = "section 3.5, assumption of coercivity",
-       .whose = Whose::ours,
        .states = "of a problem that is linear in its control the constant of coercivity tends to 0",
        .judge = not_coercive,
        .evidence = {"coercivity.csv"}}};

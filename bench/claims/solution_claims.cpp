@@ -167,7 +167,6 @@ Claims solution_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const std::vector<std::string> equivalence{"equivalence.csv", "figures/{}_equivalence.svg"};
   return {{.id = "momentum_consistency",
-           .problems = of_paper,
            .where = section,
            .figure = Wording("fig:kepler_J", "fig:twolink_obj b)"),
            .whose = Whose::paper,
@@ -176,7 +175,6 @@ Claims solution_claims() {
            .judge = momentum_consistency,
            .evidence = {"consistency.csv", "figures/{}_momentum.svg"}},
           {.id = "equal_solutions",
-           .problems = of_paper,
            .where = "section 3.4, th:equi, equ_L_RK, ex:RK",
            .whose = Whose::paper,
            .states = "DMOC and Hamiltonian collocation by the same tableau have equal solutions",
@@ -184,9 +182,7 @@ Claims solution_claims() {
            .condition = "fixed ends, no inequality is active, answers are refined by Newton steps",
            .evidence = equivalence},
           {.id = "tangent_differs",
-           .problems = of_paper,
            .where = section,
-           .whose = Whose::ours,
            .states = "collocation on the tangent space is another discretisation: its solutions are not those of DMOC",
            .judge = tangent_differs,
            .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}}};
@@ -196,7 +192,6 @@ Claims coincidence_claims() {
   return {{.id = "tangent_coincides",
            .problems = Problems(1, oscillator),
            .where = "section 3.4, ex:RK",
-           .whose = Whose::ours,
            .states = "where L_vv is constant, collocation on the tangent space by Gauss is Hamiltonian collocation",
            .judge = tangent_coincides,
            .evidence = {"equivalence.csv", "figures/{}_equivalence.svg"}}};

@@ -123,7 +123,6 @@ Claims step_control_claims() {
       {.id = "variational_steps_symplectic",
        .problems = simulated,
        .where = in_outlook,
-       .whose = Whose::ours,
        .states = "steps tied to the motion leave the extended flow symplectic only if their constraint is part of "
                  "the principle",
        .judge = symplectic_by_principle,
@@ -131,7 +130,6 @@ Claims step_control_claims() {
       {.id = "steps_by_the_motion_keep_momentum",
        .problems = simulated,
        .where = in_outlook,
-       .whose = Whose::ours,
        .states = "steps that are invariant under the group keep momentum in balance with forces, inside and outside "
                  "of the principle",
        .judge = momentum_by_every_route,
@@ -139,14 +137,12 @@ Claims step_control_claims() {
       {.id = "variational_steps_energy",
        .problems = simulated,
        .where = in_outlook,
-       .whose = Whose::ours,
        .states = "with variational steps the energy oscillates, with steps known beforehand it drifts",
        .judge = energy_by_principle,
        .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
       {.id = "variational_steps_accuracy",
        .problems = simulated,
        .where = in_outlook,
-       .whose = Whose::ours,
        .states = "as part of the principle, steps tied to the motion leave at most a fifth of the errors that the same "
                  "number of them leaves outside of it",
        .judge = accuracy_by_principle,

@@ -67,8 +67,8 @@ std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_p
   return means;
 }
 
-Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind) {
-  Finding finding = found(ratios.verdict(), "{}{}{}", what, ratios.in_words(), behind).as_sure_as(ratios.sure());
+Finding judged(const TimedRatios& ratios, const std::string& before, const std::string& behind) {
+  Finding finding = found(ratios.verdict(), "{}{}{}", before, ratios.in_words(), behind).as_sure_as(ratios.sure());
   if (ratios.rounds() >= fewest_rounds) return finding;
   return std::move(finding).because(
       fmt::format("there are {} rounds; a verdict on times needs {}", ratios.rounds(), fewest_rounds));

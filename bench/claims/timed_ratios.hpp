@@ -40,7 +40,7 @@ class TimedRatios {
 /// program with the fewest rounds has. A single small program would be judged by the clock's noise.
 [[nodiscard]] std::vector<double> means_of_rounds(const std::vector<std::vector<double>>& of_programs);
 
-/// What the ratios say of a claim, in words with `what` in front and `behind` at the end.
-[[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& what, const std::string& behind = "");
+/// What the ratios say of a claim, in words with `before` in front and `behind` at the end.
+[[nodiscard]] Finding judged(const TimedRatios& ratios, const std::string& before, const std::string& behind = "");
 
 }  // namespace dmocbench

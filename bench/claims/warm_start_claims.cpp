@@ -99,18 +99,14 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 
 Claims warm_start_claims() {
   return {{.id = "warm_starts_in_fewer_iterations",
-           .problems = of_paper,
            .where = "section 4.1, SQP Method",
-           .whose = Whose::ours,
            .states = "started warm, from unknowns and multipliers of the problem before, DMOC takes fewer iterations "
                      "than collocation",
            .judge = fewer_iterations,
            .condition = "fewer: collocation takes at least 1.05 times as many; by interior_point",
            .evidence = {"sequence.csv", "figures/{}_sequence.svg"}},
           {.id = "warm_starts_in_less_time",
-           .problems = of_paper,
            .where = "section 3.4, rem:savings",
-           .whose = Whose::ours,
            .states = "started warm, from unknowns and multipliers of the problem before, a step by DMOC takes less "
                      "time than one by collocation",
            .judge = less_time,

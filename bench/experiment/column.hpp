@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -88,26 +89,30 @@ template <class Record>
   return names;
 }
 
-/// What columns mean by their names: "[UNIT] MEANING".
+/// What columns mean by their names: "[UNIT] MEANING". Columns that another table explains are not among them.
 template <class Record>
 [[nodiscard]] std::map<std::string, std::string> meanings_of(const Columns<Record>& columns) {
   std::map<std::string, std::string> meanings;
-  for (const Column<Record>& column : columns)
+  for (const Column<Record>& column : columns) {
+    if (column.meaning.empty()) continue;
     meanings[column.name] = (column.unit.empty() ? "" : "[" + column.unit + "] ") + column.meaning;
+  }
   return meanings;
 }
 
-/// What columns hold by their names.
+/// What columns hold by their names, where somebody says it.
 template <class Record>
 [[nodiscard]] std::map<std::string, FieldType> types_of(const Columns<Record>& columns) {
   std::map<std::string, FieldType> types;
-  for (const Column<Record>& column : columns) types[column.name] = column.cell.type();
+  for (const Column<Record>& column : columns) {
+    if (column.cell.type().kind != FieldKind::any) types[column.name] = column.cell.type();
+  }
   return types;
 }
 
 /// The table of records: a row for each.
-template <class Record>
-[[nodiscard]] Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
+template <class Record, std::ranges::input_range Records = std::vector<Record>>
+[[nodiscard]] Table table_of(const Columns<Record>& columns, const Records& records) {
   Table table(names_of(columns));
   table.explain(meanings_of(columns));
   table.declare(types_of(columns));
@@ -132,6 +137,21 @@ template <class Record>
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }
+
+/// Columns that a summary takes over from a row of what it sums up, `Record::head`; the table of that row explains
+/// them.
+template <class Record>
+[[nodiscard]] Columns<Record> head_columns(const std::vector<std::string>& names) {
+  Columns<Record> columns;
+  for (const std::string& name : names) {
+    const auto text = [name](const Record& record) { return Cell(record.head.text(name)); };
+    columns.push_back({name, "", "", FieldReader<Record>(text, FieldType())});
+  }
+  return columns;
+}
+
+/// How tables write that something holds.
+[[nodiscard]] constexpr const char* yes_or_no(bool holds) { return holds ? "yes" : "no"; }
 
 /// A value that need not be there: of an optional, what it holds.
 template <class Value>
@@ -193,16 +213,18 @@ template <class Record>
           {"stages", "", "number of stages s", from(scheme, &Scheme::stages)}};
 }
 
+/// The standard error of a fitted order; none with two points.
+[[nodiscard]] inline std::optional<double> standard_error_of(const FittedOrder& fit) {
+  return fit.points > 2 ? std::optional(fit.standard_error) : std::nullopt;
+}
+
 /// The columns that tell a fitted order.
 template <class Record>
 [[nodiscard]] Columns<Record> fitted_order_columns(FittedOrder Record::*fit) {
   return {{"slope", "", "fitted order", from(fit, &FittedOrder::order)},
-          {"standard_error", "", "of the order; empty with two points",
-           [fit](const Record& record) {
-             return (record.*fit).points > 2 ? std::optional((record.*fit).standard_error) : std::nullopt;
-           }},
-          {"finest", "", "smallest step used", from(fit, &FittedOrder::finest)},
-          {"coarsest", "", "largest step used", from(fit, &FittedOrder::coarsest)},
+          {"standard_error", "", "of the order; empty with two points", from(fit, standard_error_of)},
+          {"finest", "", "smallest step used", from(fit, &FittedOrder::first_abscissa)},
+          {"coarsest", "", "largest step used", from(fit, &FittedOrder::last_abscissa)},
           {"points", "", "number of steps used", from(fit, &FittedOrder::points)}};
 }
 

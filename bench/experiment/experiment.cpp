@@ -39,7 +39,7 @@ class Run {
         options_(experiment.options()),
         solver_options_(solver_options(options_)),
         cases_(cases_of(experiment)),
-        starts_({.kind = options_.start,
+        starts_({.start = options_.start,
                  .most_seconds = options_.start_seconds,
                  .tells_branch = experiment.card().tells_branches,
                  .takes_costates = experiment.card().takes_costates,
@@ -87,11 +87,7 @@ class Run {
     if (table.rows().empty()) throw_if_interrupted();
     if (complete) write_file(table_file(), (table = experiment_.compared(table)).csv());
     const Outcome outcome = outcome_of(table);
-    if (complete) {
-      experiment_.finish(table, prefix_, metadata_);
-    } else {
-      experiment_.finish_interrupted(table, prefix_, metadata_);
-    }
+    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(table, prefix_, metadata_);
     metadata_["complete"] = complete;
     metadata_["cases"] = cases_.size();
     metadata_["rows"] = table.rows().size();

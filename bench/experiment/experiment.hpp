@@ -23,13 +23,14 @@ struct ExperimentCard {
   bool problems_are_independent = false;   ///< rows of one problem need nothing of another's: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
-  bool compares_tolerances = false;  ///< several tolerances make several cases: --tolerances is offered
-  bool polishes = false;             ///< solved cases are tightened by Newton steps (polish.hpp)
-  bool takes_costates = false;       ///< a start from a file brings its costates as start multipliers
-  bool cases_stand_alone = false;    ///< an error in the first case is no reason to give up the others
-  bool takes_batches = false;        ///< cases of one program may be solved side by side, without times: --batch is
-                                     ///< offered; `solver_for`, `solved_first` and `solved_once` are those above
-  bool takes_parts = true;           ///< --part is offered: `finish` needs nothing of solves but rows and findings
+  bool compares_tolerances = false;   ///< several tolerances make several cases: --tolerances is offered
+  bool polishes = false;              ///< solved cases are tightened by Newton steps (polish.hpp)
+  bool takes_costates = false;        ///< a start from a file brings its costates as start multipliers
+  bool cases_stand_alone = false;     ///< an error in the first case is no reason to give up the others
+  bool takes_batches = false;         ///< cases of one program may be solved side by side, without times: --batch is
+                                      ///< offered; `solver_for`, `solved_first` and `solved_once` are those above
+  bool finishes_interrupted = false;  ///< `finish` is called too where a stop was asked for behind the first row
+  bool takes_parts = true;            ///< --part is offered: `finish` needs nothing of solves but rows and findings
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
@@ -85,13 +86,10 @@ class Experiment {
   [[nodiscard]] virtual nlohmann::ordered_json findings() const;
   /// Takes in what a part has found, part after part, before `finish` is called of all.
   virtual void add_findings(const nlohmann::ordered_json& /*findings*/) {}
-  /// Writes further files when all rows are there; may add to the metadata. `prefix` is the folder and name of the
-  /// table.
+  /// Writes further files when all rows are there, or as the card says; may add to the metadata. `prefix` is the folder
+  /// and name of the table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
                       nlohmann::ordered_json& /*metadata*/) {}
-  /// The same where a stop was asked for before all rows were there, but not before the first.
-  virtual void finish_interrupted(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
-                                  nlohmann::ordered_json& /*metadata*/) {}
 
  protected:
   /// What the experiment says of itself.

@@ -58,17 +58,21 @@ std::string operating_system() {
 
 }  // namespace
 
+std::string compiler() {
+#ifdef __clang__
+  return __VERSION__;  // begins with a name
+#else
+  return "g++ " __VERSION__;
+#endif
+}
+
 nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line) {
   nlohmann::ordered_json description;
   description["command_line"] = command_line;
   description["utc_time"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   description["commit"] = commit();
   description["dmocbench"] = DMOCBENCH_VERSION;
-#ifdef __clang__
-  description["compiler"] = __VERSION__;  // begins with a name
-#else
-  description["compiler"] = "g++ " __VERSION__;
-#endif
+  description["compiler"] = compiler();
   description["flags"] = DMOCBENCH_FLAGS;
   description["instruction_set"] = std::string(name_of(preferred_instruction_set()));
   if (const NativeCodeUse use = preferred_native_code_use(); use != NativeCodeUse::when_worthwhile) {

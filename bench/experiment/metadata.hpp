@@ -8,6 +8,9 @@
 
 namespace dmocbench {
 
+/// The compiler of this build, with its version.
+[[nodiscard]] std::string compiler();
+
 /// What a reader needs to judge or repeat a table: compiler, flags, processor, memory, versions of the libraries,
 /// libraries of problems, commit, command line, UTC time.
 [[nodiscard]] nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line);

@@ -107,11 +107,11 @@ void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
   constexpr double zero = 1e-9;  // what is smaller is rounding
   if (!is_solved(solved.solution.status)) return;
   std::vector<std::string> found;
-  const auto look = [&](const char* what, const Eigen::MatrixXd& values, const std::vector<std::string>& names) {
+  const auto look = [&](const char* prefix, const Eigen::MatrixXd& values, const std::vector<std::string>& names) {
     for (Eigen::Index i = 0; i < values.cols(); ++i) {
       const double size = values.col(i).cwiseAbs().maxCoeff();
       if (size >= far || (size > zero && size <= 1.0 / far)) {
-        found.push_back(fmt::format("{}{} ({:.1g})", what, names[static_cast<std::size_t>(i)], size));
+        found.push_back(fmt::format("{}{} ({:.1g})", prefix, names[static_cast<std::size_t>(i)], size));
       }
     }
   };
@@ -301,8 +301,8 @@ bool is_discrete_optimum(const SolvedCase& solved) {
 
 bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
 
-void note_stop(SolvedCase& solved, const std::string& what) {
-  if (is_solved(solved.solution.status)) solved.note(what + ": the time limit was reached.");
+void note_stop(SolvedCase& solved, const std::string& left_out) {
+  if (is_solved(solved.solution.status)) solved.note(left_out + ": the time limit was reached.");
 }
 
 std::optional<ReplayError> replay(SolvedCase& solved) {

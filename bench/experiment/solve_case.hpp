@@ -151,7 +151,7 @@ void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 [[nodiscard]] bool is_usable(const Row& row);
 
 /// Says of a solved case what the end of its time left out.
-void note_stop(SolvedCase& solved, const std::string& what);
+void note_stop(SolvedCase& solved, const std::string& left_out);
 
 /// The controls of the case's trajectory replayed; none without a trajectory or, with the reason in the row's message,
 /// if that fails.

@@ -40,7 +40,7 @@ std::string identity_of(const std::string& problem, const std::string& settings,
 /// The metadata in a file; null if it holds none, whatever else it is.
 nlohmann::json metadata_in(const std::filesystem::path& file) {
   std::error_code none;
-  if (file.extension() != ".json" || !std::filesystem::is_regular_file(file, none)) return {};
+  if (!std::filesystem::is_regular_file(file, none)) return {};
   try {
     return nlohmann::json::parse(read_file(file), nullptr, false);
   } catch (const Error&) {
@@ -62,22 +62,33 @@ std::string origin_in(const nlohmann::json& metadata, const std::string& nodes) 
   return {};
 }
 
-/// The identity of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws `Error`
-/// if they tell of another content, as that of a file that was cut short.
-std::string origin_of(const std::filesystem::path& nodes_file) {
-  if (!std::filesystem::exists(nodes_file)) return {};
+/// The JSON files beside a node file, those whose name it begins with, as its run's does, first.
+std::vector<std::filesystem::path> metadata_beside(const std::filesystem::path& nodes_file) {
+  std::vector<std::filesystem::path> files;
   const std::filesystem::path folder = nodes_file.has_parent_path() ? nodes_file.parent_path() : ".";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const nlohmann::json metadata = metadata_in(entry.path());
-    const std::string nodes = nodes_file.filename().string();
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::ranges::partition(files, [&](const std::filesystem::path& file) {
+    return nodes_file.filename().string().starts_with(file.stem().string());
+  });
+  return files;
+}
+
+/// The identity of the solve that wrote a node file, as the metadata beside it tell; empty if none do. Throws `Error`
+/// if they tell of another content, as that of a file that was cut short.
+std::string origin_of(const std::filesystem::path& nodes_file, const MotionTexts& texts) {
+  const std::string nodes = nodes_file.filename().string();
+  for (const std::filesystem::path& file : metadata_beside(nodes_file)) {
+    const nlohmann::json metadata = metadata_in(file);
     std::string origin = origin_in(metadata, nodes);
     if (origin.empty()) continue;
-    for (const std::string& table : {nodes, stages_file_of(nodes_file).filename().string()}) {
-      try {
-        require_as_written(metadata, entry.path().filename().string(), table, read_file(folder / table));
-      } catch (const Error& error) {
-        throw Error(fmt::format("{}; run it again, or give a motion of your own another name", error.what()));
-      }
+    try {
+      const std::string source = file.filename().string();
+      require_as_written(metadata, source, nodes, texts.nodes);
+      require_as_written(metadata, source, stages_file_of(nodes_file).filename().string(), texts.stages);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}; run it again, or give a motion of your own another name", error.what()));
     }
     return origin;
   }
@@ -254,20 +265,28 @@ StartProvider::StartProvider(Rules rules, SolverOptions options)
   options_.most_iterations = std::min(options_.most_iterations, SolverOptions{}.most_iterations);
 }
 
+StartKind StartProvider::Rules::kind() const {
+  if (start == "common") return StartKind::common;
+  return start == "guess" ? StartKind::guess : StartKind::file;
+}
+
 void StartProvider::check(const std::vector<Case>& cases) {
-  if (rules_.kind == "common" || rules_.kind == "guess") return;
+  if (rules_.kind() != StartKind::file) return;
   for (const Case& the_case : cases) static_cast<void>(motion_in_file(*the_case.problem));
 }
 
 const Trajectory& StartProvider::motion_in_file(const Problem& problem) {
   if (const auto known = files_.find(problem.name()); known != files_.end()) return known->second;
-  if (files_.empty()) origin_ = origin_of(rules_.kind);
-  return files_.emplace(problem.name(), read_motion_tables(problem, rules_.kind)).first->second;
+  if (!texts_) {
+    texts_ = read_motion_texts(rules_.start);
+    origin_ = origin_of(rules_.start, *texts_);
+  }
+  return files_.emplace(problem.name(), motion_in_texts(problem, *texts_, rules_.start)).first->second;
 }
 
 Start StartProvider::start_for(const Case& the_case) {
-  const bool from_guess = rules_.kind == "guess";
-  if (!from_guess && rules_.kind != "common") return start_in_file(the_case);
+  if (rules_.kind() == StartKind::file) return start_in_file(the_case);
+  const bool from_guess = rules_.kind() == StartKind::guess;
   if (the_case.nominal && !from_guess) {
     Case nominal = the_case;
     nominal.problem = std::exchange(nominal.nominal, nullptr);
@@ -292,7 +311,7 @@ Start StartProvider::start_in_file(const Case& the_case) {
   if (origin_ == identity_of(the_case.problem->name(), the_case.problem->settings(), the_case.method, the_case.tableau,
                              the_case.stages, the_case.intervals())) {
     throw NoStart(fmt::format("--start {} is itself the answer of {}; counts and times from there would say nothing",
-                              rules_.kind, the_case.label()));
+                              rules_.start, the_case.label()));
   }
   const Motion motion = smooth_motion(tables);
   Start start{motion, rules_.tells_branch ? std::optional(motion) : std::nullopt};

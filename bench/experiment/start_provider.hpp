@@ -13,6 +13,7 @@
 #include "bench/experiment/solve_case.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/tables/motion_file.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 
 namespace dmocbench {
@@ -24,6 +25,9 @@ class NoStart : public Error {
   explicit NoStart(const std::string& sentence, Status of_row = Status::not_run) : Error(sentence), status(of_row) {}
   Status status;  ///< what the case's row says
 };
+
+/// What solves start from.
+enum class StartKind : std::uint8_t { common, guess, file };
 
 /// Where solves start: the common start, the problem's guess or a file.
 ///
@@ -39,11 +43,13 @@ class StartProvider {
  public:
   /// What the command line says about starts.
   struct Rules {
-    std::string kind = "common";           ///< common, guess or the name of a node file
+    std::string start = "common";          ///< common, guess or the name of a node file
     double most_seconds = 30.0;            ///< of the search of one common start
     bool tells_branch = true;              ///< starts come with the motion whose branch a case should be on
     bool takes_costates = false;           ///< a file's costates come with its motion, where it has them
     bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
+
+    [[nodiscard]] StartKind kind() const;
   };
   /// `options` are those of the solves that look for a common start.
   StartProvider(Rules rules, SolverOptions options);
@@ -84,6 +90,7 @@ class StartProvider {
   Rules rules_;
   SolverOptions options_;
   std::map<Key, FoundStart> common_;
+  std::optional<MotionTexts> texts_;         // of the file
   std::map<std::string, Trajectory> files_;  // the file's motion, by the problem it was read for
   std::string origin_;  // which solve wrote the file: problem, parameters, scheme, grid; empty if unknown
 };

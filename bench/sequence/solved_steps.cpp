@@ -1,9 +1,7 @@
 #include "bench/sequence/solved_steps.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "bench/experiment/column.hpp"
@@ -34,60 +32,6 @@ StepSolve told_of(const Solution& solution) {
   return {.status = std::string(name_of(solution.status)),
           .iterations = solution.major_iterations.value_or(0),
           .microseconds = micro * solution.seconds};
-}
-
-void set_quantiles(Row& row, const std::string& what, std::vector<double> values) {
-  if (values.empty()) return;
-  std::ranges::sort(values);
-  row.set("median_" + what, quantile(values, 0.5));
-  row.set("p99_" + what, quantile(values, 0.99));
-  row.set("largest_" + what, values.back());
-}
-
-/// A number of every solved step that has such a solve.
-template <class Number>
-std::vector<double> numbers_of(const std::vector<const SequenceStep*>& steps, Number number) {
-  std::vector<double> numbers;
-  for (const SequenceStep* step : steps) {
-    if (const std::optional<double> value = number(*step)) numbers.push_back(*value);
-  }
-  return numbers;
-}
-
-Row summary_of(const std::vector<const SequenceStep*>& steps) {
-  const SequenceStep& any = *steps.front();
-  Row row;
-  row.set("problem", any.scheme.problem);
-  row.set("method", any.scheme.method);
-  row.set("tableau", any.scheme.tableau);
-  row.set("stages", any.scheme.stages);
-  row.set("intervals", any.intervals);
-  row.set("sequence", any.sequence);
-  row.set("steps", steps.size());
-  row.set("solved", std::ranges::count_if(steps, [](const SequenceStep* step) { return is_solved(step->warm); }));
-  const auto of_warm = [&](auto member) {
-    return numbers_of(steps, [member](const SequenceStep& step) -> std::optional<double> {
-      return is_solved(step.warm) ? std::optional<double>(step.warm.*member) : std::nullopt;
-    });
-  };
-  const auto of_cold = [&](auto member) {
-    return numbers_of(steps, [member](const SequenceStep& step) -> std::optional<double> {
-      return step.cold && is_solved(*step.cold) ? std::optional<double>((*step.cold).*member) : std::nullopt;
-    });
-  };
-  set_quantiles(row, "iterations", of_warm(&StepSolve::iterations));
-  set_quantiles(row, "microseconds", of_warm(&StepSolve::microseconds));
-  set_quantiles(row, "cold_iterations", of_cold(&StepSolve::iterations));
-  set_quantiles(row, "cold_microseconds", of_cold(&StepSolve::microseconds));
-  const std::vector<double> worse = numbers_of(steps, [](const SequenceStep& step) -> std::optional<double> {
-    const std::optional<bool> is_worse = step.is_warm_worse();
-    return is_worse ? std::optional(*is_worse ? 1.0 : 0.0) : std::nullopt;
-  });
-  row.set("compared_with_cold", worse.size());
-  if (!worse.empty()) {
-    row.set("warm_is_worse", static_cast<double>(std::ranges::count(worse, 1.0)) / static_cast<double>(worse.size()));
-  }
-  return row;
 }
 
 }  // namespace
@@ -179,51 +123,79 @@ Table step_table(const std::vector<SequenceStep>& steps) {
 
 namespace {
 
-/// What the columns of the summary mean.
-std::map<std::string, std::string> meanings_in_summary() {
-  std::map<std::string, std::string> meanings = meanings_of(scheme_columns<SequenceStep>());
-  meanings["intervals"] = "number of intervals N";
-  meanings["sequence"] = "receding_horizon or homotopy";
-  meanings["steps"] = "number of steps";
-  meanings["solved"] = "how many of them were solved";
-  meanings["compared_with_cold"] = "how many were solved from the guess too";
-  meanings["warm_is_worse"] = "share of those that cost more than the answer from the guess";
-  for (const auto& [what, meaning] : {std::pair{"iterations", "iterations of a warm solve"},
-                                      {"microseconds", "[us] time of a warm solve"},
-                                      {"cold_iterations", "iterations of a solve from the guess"},
-                                      {"cold_microseconds", "[us] time of a solve from the guess"}}) {
-    meanings[fmt::format("median_{}", what)] = meaning;
-    meanings[fmt::format("p99_{}", what)] = fmt::format("{}, 99th percentile", meaning);
-    meanings[fmt::format("largest_{}", what)] = fmt::format("{}, the largest", meaning);
+/// The steps of a sequence.
+struct SummarisedSteps {
+  Scheme scheme;
+  std::size_t intervals = 0;
+  std::string sequence;
+  std::vector<const SequenceStep*> steps;
+
+  [[nodiscard]] std::ptrdiff_t solved() const {
+    return std::ranges::count_if(steps, [](const SequenceStep* step) { return is_solved(step->warm); });
   }
-  return meanings;
+  /// How many steps were solved from the guess too, and how many of these cost more than the answer from the guess.
+  [[nodiscard]] std::ptrdiff_t compared() const {
+    return std::ranges::count_if(steps, [](const SequenceStep* step) { return step->is_warm_worse().has_value(); });
+  }
+  [[nodiscard]] std::optional<double> share_of_worse() const {
+    if (compared() == 0) return std::nullopt;
+    const auto worse =
+        std::ranges::count_if(steps, [](const SequenceStep* step) { return step->is_warm_worse().value_or(false); });
+    return static_cast<double>(worse) / static_cast<double>(compared());
+  }
+};
+
+/// median_NAME, p99_NAME and largest_NAME of the solved ones among the solves that `solve_of` finds in steps.
+template <class Find, class Number>
+Columns<SummarisedSteps> quantile_columns(const std::string& name, const std::string& unit, const std::string& meaning,
+                                          Find solve_of, Number StepSolve::*number) {
+  const auto at = [=](double share) {
+    return [=](const SummarisedSteps& of) {
+      std::vector<double> numbers;
+      for (const SequenceStep* step : of.steps) {
+        const StepSolve* solve = solve_of(*step);
+        if (solve != nullptr && is_solved(*solve)) numbers.push_back(solve->*number);
+      }
+      std::ranges::sort(numbers);
+      return quantile(numbers, share);
+    };
+  };
+  return {{"median_" + name, unit, meaning, at(0.5)},
+          {"p99_" + name, unit, meaning + ", 99th percentile", at(0.99)},
+          {"largest_" + name, unit, meaning + ", the largest", at(1.0)}};
+}
+
+Columns<SummarisedSteps> summary_columns() {
+  using Steps = SummarisedSteps;
+  const auto warm = [](const SequenceStep& step) { return &step.warm; };
+  const auto cold = [](const SequenceStep& step) { return step.cold ? &*step.cold : nullptr; };
+  return scheme_columns<Steps>() +
+         Columns<Steps>{{"intervals", "", "number of intervals N", &Steps::intervals},
+                        {"sequence", "", "receding_horizon or homotopy", &Steps::sequence},
+                        {"steps", "", "number of steps", [](const Steps& of) { return of.steps.size(); }},
+                        {"solved", "", "how many of them were solved", &Steps::solved}} +
+         quantile_columns("iterations", "", "iterations of a warm solve", warm, &StepSolve::iterations) +
+         quantile_columns("microseconds", "us", "time of a warm solve", warm, &StepSolve::microseconds) +
+         quantile_columns("cold_iterations", "", "iterations of a solve from the guess", cold, &StepSolve::iterations) +
+         quantile_columns("cold_microseconds", "us", "time of a solve from the guess", cold, &StepSolve::microseconds) +
+         Columns<Steps>{{"compared_with_cold", "", "how many were solved from the guess too", &Steps::compared},
+                        {"warm_is_worse", "", "share of those that cost more than the answer from the guess",
+                         &Steps::share_of_worse}};
 }
 
 }  // namespace
 
 Table sequence_summary(const std::vector<SequenceStep>& steps) {
-  std::map<std::tuple<std::string, std::string, std::string>, std::vector<const SequenceStep*>> groups;
-  std::vector<std::tuple<std::string, std::string, std::string>> order;
+  std::vector<SummarisedSteps> all;
   for (const SequenceStep& step : steps) {
-    const auto key = std::tuple(step.scheme.problem, step.sequence, step.scheme.method);
-    auto& group = groups[key];
-    if (group.empty()) order.push_back(key);
-    group.push_back(&step);
+    auto of = std::ranges::find_if(all, [&](const SummarisedSteps& summary) {
+      return summary.sequence == step.sequence && summary.scheme.problem == step.scheme.problem &&
+             summary.scheme.method == step.scheme.method;
+    });
+    if (of == all.end()) of = all.insert(of, {step.scheme, step.intervals, step.sequence, {}});
+    of->steps.push_back(&step);
   }
-  std::vector<std::string> names{"problem", "method", "tableau", "stages", "intervals", "sequence", "steps", "solved"};
-  for (const char* what : {"iterations", "microseconds", "cold_iterations", "cold_microseconds"}) {
-    for (const char* which : {"median_", "p99_", "largest_"}) names.push_back(std::string(which) + what);
-  }
-  names.insert(names.end(), {"compared_with_cold", "warm_is_worse"});
-  Table table(names);
-  table.explain(meanings_in_summary());
-  table.declare(types_of(scheme_columns<SequenceStep>()));
-  table.declare({{"sequence", {FieldKind::text, false}}});
-  for (const char* const count : {"intervals", "steps", "solved", "compared_with_cold"})
-    table.declare({{count, {FieldKind::integer, false}}});
-  for (const std::string& name : names) table.declare({{name, {FieldKind::number, true}}});  // all others
-  for (const auto& key : order) table.append(summary_of(groups.at(key)));
-  return table;
+  return table_of(summary_columns(), all);
 }
 
 }  // namespace dmocbench

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
+#include "bench/speed/speed_tables.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -231,59 +233,75 @@ void register_batches() {
   }
 }
 
-std::vector<std::string> counter_names() {
-  std::vector<std::string> names{"processor_seconds", "median_iterations", "solved", "one_by_one", "lanes_in_use"};
-  for (const char* const phase : phase_names) names.push_back(fmt::format("share_{}", phase));
-  return names;
+constexpr double nanosecond = 1e-9;
+
+/// What a way took for the instances.
+struct BatchTimes : Benchmark {
+  std::optional<double> ratio = std::nullopt;  ///< to the batch on all threads
+
+  [[nodiscard]] double seconds() const { return nanosecond * median_of("real_time").value_or(NAN); }
+  [[nodiscard]] std::vector<double> rounds() const {
+    std::vector<double> times = numbers.at("real_time");
+    for (double& time : times) time *= nanosecond;
+    return times;
+  }
+  /// Solves a second; filling a batch solves nothing.
+  [[nodiscard]] std::optional<double> rate(const std::optional<double>& seconds) const {
+    return label("way") == "fill" || !seconds ? std::nullopt : std::optional(1.0 / *seconds);
+  }
+};
+
+Columns<BatchTimes> batch_columns() {
+  using Times = BatchTimes;
+  Columns<Times> columns =
+      Columns<Times>{label_column<Times>("problem", "name of the problem"),
+                     label_column<Times>("start", "cold, warm or nearest"),
+                     label_column<Times>("way", "batch, fill (it is filled only), or the solver of a loop"),
+                     label_column<Times>("threads", "that work", FieldKind::integer),
+                     label_column<Times>("instances", "that are solved", FieldKind::integer),
+                     {"repetitions", "", "how often it was measured",
+                      [](const Times& times) { return times.numbers.at("real_time").size(); }}} +
+      median_columns<Times>("seconds", "s", "time per instance", &Times::rounds) +
+      Columns<Times>{
+          {"solves_per_second", "1/s", "by the median", [](const Times& times) { return times.rate(times.seconds()); }},
+          {"rate_lower", "1/s", "of the interval of 99 % of this rate",
+           [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
+          {"rate_upper", "1/s", "of the same interval",
+           [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
+          {"ratio", "", "seconds by those of the batch on all threads, from the same start", &Times::ratio},
+          counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
+          counter_column<Times>("median_iterations", "", "of a solve"),
+          counter_column<Times>("solved", "", "share of the instances"),
+          counter_column<Times>("one_by_one", "", "share of the instances that leave their lanes"),
+          counter_column<Times>("lanes_in_use", "", "share of the turns of all lanes")};
+  for (const char* const phase : phase_names) {
+    columns.push_back(
+        counter_column<Times>(fmt::format("share_{}", phase), "", "of the phase in the time of all threads"));
+  }
+  return columns;
 }
 
-/// A row per benchmark: medians of the repetitions, with 99 % intervals (bootstrap); `ratio` is how many times as long
-/// as one instance of the batch on all threads it takes, of the same start.
+/// A row per benchmark: medians of the repetitions, with 99 % intervals (bootstrap).
 Table batch_table(const Benchmarks& benchmarks) {
-  std::vector<std::string> columns{"problem",     "start",      "way",           "threads",       "instances",
-                                   "repetitions", "seconds",    "seconds_lower", "seconds_upper", "solves_per_second",
-                                   "rate_lower",  "rate_upper", "ratio"};
-  for (const std::string& name : counter_names()) columns.push_back(name);
-  Table table(columns);
-  std::map<std::string, double> fastest;  // per problem and start: of the batch
   const auto key = [](const Benchmark& of) { return of.label("problem") + of.label("start"); };
-  constexpr double nanosecond = 1e-9;
-  const auto seconds = [](const Benchmark& of) { return nanosecond * of.median_of("real_time").value_or(NAN); };
+  std::vector<BatchTimes> all;
+  std::map<std::string, double> fastest;  // per problem and start: of the batch
   for (const auto& [name, benchmark] : benchmarks) {
-    if (benchmark.label("way") != "batch") continue;
-    const auto [found, is_new] = fastest.emplace(key(benchmark), seconds(benchmark));
-    if (!is_new) found->second = std::min(found->second, seconds(benchmark));
+    const BatchTimes& times = all.emplace_back(BatchTimes{benchmark});
+    if (times.label("way") != "batch") continue;
+    const auto found = fastest.emplace(key(times), times.seconds()).first;
+    found->second = std::min(found->second, times.seconds());
   }
-  for (const auto& [name, benchmark] : benchmarks) {
-    Row row;
-    for (const char* label : {"problem", "start", "way", "threads", "instances"}) {
-      row.set(label, benchmark.label(label));
-    }
-    std::vector<double> times = benchmark.numbers.at("real_time");
-    for (double& time : times) time *= nanosecond;
-    row.set("repetitions", times.size());
-    set_median(row, "seconds", times);
-    if (benchmark.label("way") != "fill") {
-      row.set("solves_per_second", 1.0 / seconds(benchmark));
-      row.set("rate_lower", 1.0 / row.needed("seconds_upper"));
-      row.set("rate_upper", 1.0 / row.needed("seconds_lower"));
-    }
-    if (fastest.contains(key(benchmark))) row.set("ratio", seconds(benchmark) / fastest.at(key(benchmark)));
-    for (const std::string& counter : counter_names()) {
-      if (const auto value = benchmark.median_of(counter)) row.set(counter, *value);
-    }
-    table.append(std::move(row));
+  for (BatchTimes& times : all) {
+    const auto found = fastest.find(key(times));
+    if (found != fastest.end()) times.ratio = times.seconds() / found->second;
   }
-  return table;
+  return table_of(batch_columns(), all);
 }
 
 }  // namespace
 
-}  // namespace dmocbench::speed
-
-int main(int argc, char** argv) {
-  using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
+int run_batches(int argc, char** argv) {
   const BenchmarkProgram program{
       .name = "batch",
       .description = "Times per solve of many instances of a program: in lanes, and one by one.",
@@ -293,5 +311,9 @@ int main(int argc, char** argv) {
       .tables = [](const Benchmarks& benchmarks) -> TablesBySuffix {
         return {{"", batch_table(benchmarks)}};
       }};
-  return program.run({argv, static_cast<std::size_t>(argc)});
+  return program.run(argc, argv);
 }
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) { return dmocbench::speed::run_batches(argc, argv); }

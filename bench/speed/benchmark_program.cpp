@@ -96,14 +96,14 @@ bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path&
 
 }  // namespace
 
-int BenchmarkProgram::run(std::span<char* const> arguments) const try {
+int BenchmarkProgram::run(int argc, char** argv) const try {
   CLI::App app(description + " All flags of Google Benchmark hold as well:", name);
   std::filesystem::path file;
   app.add_option("--csv", file, csv)->option_text("FILE");
   app.allow_extras();
   std::vector<std::string> flags;
   try {
-    app.parse(static_cast<int>(arguments.size()), arguments.data());
+    app.parse(argc, argv);
     flags = app.remaining();
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}\n", app.help());
@@ -114,7 +114,7 @@ int BenchmarkProgram::run(std::span<char* const> arguments) const try {
   }
   check_environment();
   order_by_one_thread();
-  if (!initialize(*this, arguments.front(), flags)) return 2;
+  if (!initialize(*this, *argv, flags)) return 2;
   if (!file.empty()) require_writable(file);  // before anything is timed
   for (const std::string& flag : flags) {
     if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions are at least 1");

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +29,7 @@ struct BenchmarkProgram {
   ///
   /// The flags are those of this suite (five repetitions, in random order so that a disturbance of a shared machine is
   /// spread over all benchmarks), then the user's, which win.
-  [[nodiscard]] int run(std::span<char* const> arguments) const;
+  [[nodiscard]] int run(int argc, char** argv) const;
 };
 
 /// Adds a benchmark that measures its turns itself. Where it ends with an `Error`, that is its result, and the others

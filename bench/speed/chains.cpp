@@ -1,6 +1,7 @@
 // How the cost of an iteration grows with the number of configurations: chains of 2 to 32 links, DMOC, N = 256; and how
 // long the program of a chain takes to make, up to 64 links.
-#include <filesystem>
+#include <iterator>
+#include <list>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
@@ -84,22 +83,22 @@ class Chain {
     iteration_.push_back(evaluation + elimination);
   }
 
-  [[nodiscard]] Row row() const {
-    Row row;
-    row.set("problem", "link_chain");
-    row.set("method", "dmoc");
-    row.set("intervals", intervals);
-    row.set("links", links_);
-    row.set("rounds", setup_seconds_.size());
-    const LocalFunctions& functions = made_.program->functions();
-    row.set("lagrangian_operations", functions.lagrangian.operation_count());
-    row.set("hessian_operations", functions.hessian.schedule.operation_count());
-    set_median(row, "setup_seconds", setup_seconds_);
-    if (evaluation_.empty()) return row;
-    row.set("evaluation_ns", median(evaluation_));
-    row.set("elimination_ns", median(elimination_));
-    set_median(row, "iteration_ns", iteration_);
-    return row;
+  [[nodiscard]] static Columns<Chain> columns() {
+    const auto functions = [](const Chain& chain) { return &chain.made_.program->functions(); };
+    return Columns<Chain>{
+               {"problem", "", "name of the problem", [](const Chain&) { return "link_chain"; }},
+               {"method", "", "family of elements", [](const Chain&) { return "dmoc"; }},
+               {"intervals", "", "number of intervals N", [](const Chain&) { return intervals; }},
+               {"links", "", "links of the chain, its number of configurations", &Chain::links_},
+               {"rounds", "", "how often the chain took its turn", from(&Chain::setup_seconds_, &Rounds::size)},
+               {"lagrangian_operations", "", "of the tape of an interval's Lagrangian",
+                from(functions, [](const LocalFunctions& of) { return of.lagrangian.operation_count(); })},
+               {"hessian_operations", "", "of the tape of its Hessian",
+                from(functions, [](const LocalFunctions& of) { return of.hessian.schedule.operation_count(); })},
+               {"evaluation_ns", "ns", "evaluating all derivatives, per interval", from(&Chain::evaluation_, median)},
+               {"elimination_ns", "ns", "eliminating a system, per interval", from(&Chain::elimination_, median)}} +
+           median_columns<Chain>("iteration_ns", "ns", "both", &Chain::iteration_) +
+           median_columns<Chain>("setup_seconds", "s", "making the program", &Chain::setup_seconds_);
   }
 
  private:
@@ -120,6 +119,8 @@ class Chain {
     if (status != kkt::FactorisationStatus::solved) throw Error("the system of a chain is not eliminated");
   }
 
+  using Rounds = std::vector<double>;
+
   int links_;
   GuessedProgram made_;
   std::unique_ptr<kkt::IntervalKkt> kkt_;
@@ -133,10 +134,10 @@ class Chain {
   Eigen::VectorXd step_;
   Eigen::VectorXd step_of_multipliers_;
   // A number per round.
-  std::vector<double> setup_seconds_;
-  std::vector<double> evaluation_;   // nanoseconds
-  std::vector<double> elimination_;  // nanoseconds
-  std::vector<double> iteration_;    // nanoseconds
+  Rounds setup_seconds_;
+  Rounds evaluation_;   // nanoseconds
+  Rounds elimination_;  // nanoseconds
+  Rounds iteration_;    // nanoseconds
 };
 
 /// The exponent of n in a column, as a sentence.
@@ -150,28 +151,11 @@ std::string exponent_of(const Table& table, const std::string& column, const std
   const auto fitted = fit_order(points);
   if (!fitted) return fmt::format("- {}: too few chains to fit an exponent\n", words);
   return fmt::format("- {}: {:.2f} ± {:.2f}, over {} chains of {:.0f} to {:.0f} links\n", words, fitted->order,
-                     fitted->standard_error, fitted->points, fitted->finest, fitted->coarsest);
+                     fitted->standard_error, fitted->points, fitted->first_abscissa, fitted->last_abscissa);
 }
 
-/// Whether a chain stays below a target.
-std::string judged_chain(const Table& table, int links, const std::string& column, double target,
-                         const std::string& words) {
-  for (const Row& row : table.rows()) {
-    if (row.needed("links") != links) continue;
-    const RatioInterval time{.ratio = row.needed(column),
-                             .lower = row.needed(column + "_lower"),
-                             .upper = row.needed(column + "_upper"),
-                             .rounds = static_cast<std::size_t>(row.needed("rounds")),
-                             .resampled = {}};
-    return fmt::format("- {}, {} links: {:.3g} ({:.3g} to {:.3g}), {:.3g} wanted: {}\n", words, links, time.ratio,
-                       time.lower, time.upper, target, verdict_on_target(time, target));
-  }
-  return "";
-}
-
-std::string page_of(const Table& table, const std::vector<std::string>& command) {
-  std::string page = page_head("Chains of links: what an interval takes in an iteration", command);
-  page += fmt::format(
+std::string page_of(const Table& table) {
+  std::string page = fmt::format(
       "`link_chain` by DMOC with the midpoint rule, N = {}. An iteration of `interior_point` evaluates residuals, "
       "gradient, Jacobian and Hessian and eliminates one system; times are per interval, medians over rounds in which "
       "every chain takes its turn, intervals of 99 % (bootstrap). Operations are those of the tape of an interval's "
@@ -196,44 +180,34 @@ std::string page_of(const Table& table, const std::vector<std::string>& command)
   page += exponent_of(table, "elimination_ns", "time of elimination");
   page += exponent_of(table, "iteration_ns", "time of both");
   page += exponent_of(table, "setup_seconds", "time of making the program");
-  page += "\n## Targets\n\n";
-  page += judged_chain(table, 10, "iteration_ns", 6000.0, "nanoseconds per interval and iteration");
-  page += judged_chain(table, longest, "setup_seconds", 1.0, "seconds to make the program");
   return page;
 }
 
-int run_chains(CommandLine& line, const std::vector<std::string>& command) {
-  std::filesystem::path out = "results";
-  int rounds = 11;
-  int most = longest;
-  line.option("--out", out, "folder for speed_chains.csv and speed_chains.md");
-  line.number("--rounds", rounds, 1, 1000, "how often every chain takes its turn");
-  line.number("--links", most, 2, longest, "the longest chain");
-  line.parse();
-  static_cast<void>(is_busy());
-  const OutputFolder folder(out);
-  std::vector<std::unique_ptr<Chain>> chains;
+MeasuredPage measure(int most_links, int rounds) {
+  std::list<Chain> chains;
   for (const int links : {2, 3, 4, 6, 8, 10, 16, 32, longest}) {
-    if (links <= most) chains.push_back(std::make_unique<Chain>(links));
+    if (links <= most_links) chains.emplace_back(links);
   }
   for (int round = 0; round < rounds; ++round) {
-    for (const auto& chain : chains) chain->measure();
+    for (Chain& chain : chains) chain.measure();
   }
-  Table table({"problem", "method", "intervals", "links", "rounds", "lagrangian_operations", "hessian_operations",
-               "evaluation_ns", "elimination_ns", "iteration_ns", "iteration_ns_lower", "iteration_ns_upper",
-               "setup_seconds", "setup_seconds_lower", "setup_seconds_upper"});
-  for (const auto& chain : chains) table.append(chain->row());
-  write_file(out / "speed_chains.csv", table.csv());
-  write_page(out / "speed_chains.md", page_of(table, command));
-  return 0;
+  const Table table = table_of(Chain::columns(), chains);
+  return {"Chains of links: what an interval takes in an iteration", page_of(table), {{"", table}}};
 }
 
 }  // namespace
 
+int run_chains(int argc, char** argv) {
+  int most_links = longest;
+  const PageProgram program{
+      .name = "chains",
+      .description = "Chains of links: what an interval takes in an iteration, over n.",
+      .columns = describe(Chain::columns()),
+      .options = [&](CommandLine& line) { line.number("--links", most_links, 2, longest, "the longest chain"); },
+      .measure = [&](int rounds) { return measure(most_links, rounds); }};
+  return program.run(argc, argv);
+}
+
 }  // namespace dmocbench::speed
 
-int main(int argc, char** argv) {
-  return dmocbench::speed::run_page_program("chains",
-                                            "Chains of links: what an interval takes in an iteration, over n.", argc,
-                                            argv, dmocbench::speed::run_chains);
-}
+int main(int argc, char** argv) { return dmocbench::speed::run_chains(argc, argv); }

@@ -9,6 +9,7 @@
 #include <valgrind/callgrind.h>
 
 #include "bench/experiment/command_line.hpp"
+#include "bench/experiment/metadata.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
@@ -128,7 +129,7 @@ int main(int argc, char** argv) {
     int extra = 0;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       if (arguments[i] == "--compiler") {
-        fmt::print("g++ {}\n", __VERSION__);
+        fmt::print("{}\n", compiler());
       } else if (arguments[i] == "--list") {
         for (const CountedSolve& solve : counted_solves()) fmt::print("{}\n", solve.name());
       } else if (arguments[i] == "--slowed" && i + 1 < arguments.size()) {

@@ -2,18 +2,16 @@
 // turns.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "bench/speed/one_lane_kernel.hpp"
@@ -138,69 +136,104 @@ bool are_same(const Times& a, const Times& b) {
          std::abs(a.solution.objective - b.solution.objective) <= equal * std::abs(b.solution.objective);
 }
 
-void set_program(Row& row, const SharedProgram& of) {
-  row.set("problem", of.problem);
-  row.set("intervals", of.intervals);
-  row.set("derivatives", of.derivatives);
+/// The columns that tell `Record::of`.
+template <class Record>
+Columns<Record> program_columns() {
+  return {{"problem", "", "name of the problem", from(&Record::of, &SharedProgram::problem)},
+          {"intervals", "", "number of intervals N", from(&Record::of, &SharedProgram::intervals)},
+          {"derivatives", "", "back end of derivatives", from(&Record::of, &SharedProgram::derivatives)}};
 }
 
-/// A row per way: its time, its iterations, the time of one, and the share of derivatives.
-void append_ways(Table& table, const SharedProgram& of, const TimesByWay& times,
-                 const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    const Times& measured = times.at(name);
-    const double seconds = median(measured.seconds);
-    Row row;
-    set_program(row, of);
-    row.set("way", name);
-    row.set("words", way_named(name).words);
-    row.set("rounds", measured.seconds.size());
-    row.set("status", std::string(name_of(measured.solution.status)));
-    row.set("iterations", measured.iterations());
-    row.set("linear_systems", measured.solution.linear_systems);
-    set_median(row, "seconds", measured.seconds);
-    row.set("us_per_iteration", 1e6 * seconds / std::max(1.0, measured.iterations()));
-    row.set("evaluation_share", median(measured.evaluation_seconds) / seconds);
-    table.append(std::move(row));
-  }
+/// What a way took for a program.
+struct TimedWay {
+  SharedProgram of;
+  const Way* way = nullptr;
+  Times times;
+
+  [[nodiscard]] double seconds() const { return median(times.seconds); }
+};
+
+Columns<TimedWay> way_columns() {
+  constexpr auto times = &TimedWay::times;
+  return program_columns<TimedWay>() +
+         Columns<TimedWay>{
+             {"way", "", "name of the way to solve", [](const TimedWay& timed) { return timed.way->name; }},
+             {"words", "", "what it is", [](const TimedWay& timed) { return timed.way->words; }},
+             {"rounds", "", "how often it solved", [](const TimedWay& timed) { return timed.times.seconds.size(); }},
+             {"status", "", "of the last solve",
+              [](const TimedWay& timed) { return name_of(timed.times.solution.status); }},
+             {"iterations", "", "of a solve", from(times, &Times::iterations)},
+             {"linear_systems", "", "of a solve", from(times, &Times::solution, &Solution::linear_systems)}} +
+         median_columns<TimedWay>("seconds", "s", "of a solve", times, &Times::seconds) +
+         Columns<TimedWay>{
+             {"us_per_iteration", "us", "time of a solve by its iterations",
+              [](const TimedWay& timed) { return 1e6 * timed.seconds() / std::max(1.0, timed.times.iterations()); }},
+             {"evaluation_share", "", "share of derivatives in the time",
+              [](const TimedWay& timed) { return median(timed.times.evaluation_seconds) / timed.seconds(); }}};
 }
 
 /// One thing that is changed.
 struct Change {
   std::string order;
-  std::string what;
+  std::string subject;
   std::string from;
   std::string to;
 };
 
-/// The factor of a change, split into iterations and time per iteration; only a verdict where costs differ.
-void append_change(Table& table, const SharedProgram& of, const TimesByWay& times, const Change& change) {
-  const Times& from = times.at(change.from);
-  const Times& to = times.at(change.to);
-  Row row;
-  set_program(row, of);
-  row.set("order", change.order);
-  row.set("changed", change.what);
-  row.set("from", change.from);
-  row.set("to", change.to);
-  if (!are_same(from, to)) {
-    row.set("verdict", "not both solved with equal costs");
-  } else {
-    const std::vector<double> ratios = round_ratios(from.seconds, to.seconds);
-    const RatioInterval factor = ratio_interval(ratios);
-    const double of_iterations = from.iterations() / to.iterations();
-    row.set("factor", factor.ratio);
-    set_rounds(row, ratios);
-    row.set("of_iterations", of_iterations);
-    row.set("of_time_per_iteration", factor.ratio / of_iterations);
-    row.set("of_time_lower", factor.lower / of_iterations);
-    row.set("of_time_upper", factor.upper / of_iterations);
-    row.set("verdict", is_busy()                                  ? "not judged on a busy machine"
-                       : ratios.size() < fewest_rounds            ? "too few rounds"
-                       : factor.lower > 1.0 || factor.upper < 1.0 ? "apart from 1"
-                                                                  : "not apart from 1");
+/// The factor of a change, split into iterations and time per iteration; empty where costs differ.
+struct Factor {
+  double of_iterations = 1.0;
+  MedianOfRounds rounds;
+
+  [[nodiscard]] double of_time(std::optional<double> MedianOfRounds::*bound) const {
+    return (rounds.*bound).value_or(NAN) / of_iterations;
   }
-  table.append(std::move(row));
+};
+
+struct MeasuredChange {
+  SharedProgram of;
+  Change change;
+  std::optional<Factor> factor;
+  std::size_t round_count = 0;
+
+  MeasuredChange(const SharedProgram& program, Change changed, const TimesByWay& times)
+      : of(program), change(std::move(changed)) {
+    const Times& from = times.at(change.from);
+    const Times& to = times.at(change.to);
+    if (!are_same(from, to)) return;
+    const std::vector<double> ratios = round_ratios(from.seconds, to.seconds);
+    round_count = ratios.size();
+    factor = {.of_iterations = from.iterations() / to.iterations(), .rounds = MedianOfRounds(ratios)};
+  }
+  [[nodiscard]] std::string verdict() const {
+    if (!factor) return "not both solved with equal costs";
+    if (is_busy()) return "not judged on a busy machine";
+    if (round_count < fewest_rounds) return "too few rounds";
+    return *factor->rounds.lower > 1.0 || *factor->rounds.upper < 1.0 ? "apart from 1" : "not apart from 1";
+  }
+};
+
+Columns<MeasuredChange> change_columns() {
+  constexpr auto change = &MeasuredChange::change;
+  constexpr auto factor = &MeasuredChange::factor;
+  const auto of_time = [](std::optional<double> MedianOfRounds::*bound) {
+    return from(&MeasuredChange::factor, [bound](const Factor& split) { return split.of_time(bound); });
+  };
+  return program_columns<MeasuredChange>() +
+         Columns<MeasuredChange>{
+             {"order", "", "in which order lanes and sizes are switched", from(change, &Change::order)},
+             {"changed", "", "what is changed", from(change, &Change::subject)},
+             {"from", "", "the way before", from(change, &Change::from)},
+             {"to", "", "the way behind", from(change, &Change::to)},
+             {"factor", "", "seconds before by seconds behind, the median over the rounds",
+              from(factor, &Factor::rounds, &MedianOfRounds::median)}} +
+         round_columns<MeasuredChange>(factor, &Factor::rounds) +
+         Columns<MeasuredChange>{
+             {"of_iterations", "", "the factor in the number of iterations", from(factor, &Factor::of_iterations)},
+             {"of_time_per_iteration", "", "the factor in the time per iteration", of_time(&MedianOfRounds::median)},
+             {"of_time_lower", "", "of the interval of 99 % of this factor", of_time(&MedianOfRounds::lower)},
+             {"of_time_upper", "", "of the same interval", of_time(&MedianOfRounds::upper)},
+             {"verdict", "", "whether the factor is apart from 1", &MeasuredChange::verdict}};
 }
 
 const std::vector<Change>& changes() {
@@ -225,14 +258,9 @@ constexpr const char* words_of_page =
     "orders: where their factors differ between the orders, they act together. Ipopt takes no order of elimination "
     "from outside, so the first two steps have one order only.\n\n";
 
-/// The table of ways, and that of factors.
 struct MeasuredFactors {
-  Table of_ways{std::vector<std::string>{"problem", "intervals", "derivatives", "way", "words", "rounds", "status",
-                                         "iterations", "linear_systems", "seconds", "seconds_lower", "seconds_upper",
-                                         "us_per_iteration", "evaluation_share"}};
-  Table of_changes{std::vector<std::string>{"problem", "intervals", "derivatives", "order", "changed", "from", "to",
-                                            "factor", "ratio_lower", "ratio_upper", "round_ratios", "of_iterations",
-                                            "of_time_per_iteration", "of_time_lower", "of_time_upper", "verdict"}};
+  std::vector<TimedWay> of_ways;
+  std::vector<MeasuredChange> of_changes;
 
   /// Solves a program by all ways that the changes name.
   void measure_program(const SharedProgram& of, const std::vector<Change>& of_program, int rounds, double tolerance) {
@@ -242,8 +270,8 @@ struct MeasuredFactors {
       if (std::ranges::any_of(of_program, names_it)) names.push_back(way.name);
     }
     const TimesByWay times = measure(of, names, rounds, tolerance);
-    append_ways(of_ways, of, times, names);
-    for (const Change& change : of_program) append_change(of_changes, of, times, change);
+    for (const std::string& name : names) of_ways.push_back({of, &way_named(name), times.at(name)});
+    for (const Change& change : of_program) of_changes.emplace_back(of, change, times);
   }
 };
 
@@ -262,59 +290,59 @@ MeasuredFactors measure_all(int rounds) {
   return measured;
 }
 
-std::string tables_on_page(const MeasuredFactors& measured) {
+std::string tables_on_page(const Table& of_ways, const Table& of_changes) {
   return "## Factors\n\n" +
-         page_table(measured.of_changes.rows(), {{"problem", "problem"},
-                                                 {"intervals", "N", 9},
-                                                 {"derivatives", "derivatives"},
-                                                 {"order", "order"},
-                                                 {"changed", "changed"},
-                                                 {"factor", "factor"},
-                                                 {"ratio_lower", "from"},
-                                                 {"ratio_upper", "to"},
-                                                 {"of_iterations", "of iterations"},
-                                                 {"of_time_per_iteration", "of time per iteration"},
-                                                 {"of_time_lower", "from"},
-                                                 {"of_time_upper", "to"},
-                                                 {"verdict", "verdict"}}) +
+         page_table(of_changes.rows(), {{"problem", "problem"},
+                                        {"intervals", "N", 9},
+                                        {"derivatives", "derivatives"},
+                                        {"order", "order"},
+                                        {"changed", "changed"},
+                                        {"factor", "factor"},
+                                        {"ratio_lower", "from"},
+                                        {"ratio_upper", "to"},
+                                        {"of_iterations", "of iterations"},
+                                        {"of_time_per_iteration", "of time per iteration"},
+                                        {"of_time_lower", "from"},
+                                        {"of_time_upper", "to"},
+                                        {"verdict", "verdict"}}) +
          "## Times\n\n" +
-         page_table(measured.of_ways.rows(), {{"problem", "problem"},
-                                              {"intervals", "N", 9},
-                                              {"derivatives", "derivatives"},
-                                              {"words", "by"},
-                                              {"seconds", "seconds"},
-                                              {"seconds_lower", "from"},
-                                              {"seconds_upper", "to"},
-                                              {"iterations", "iterations", 9},
-                                              {"linear_systems", "systems", 9},
-                                              {"us_per_iteration", "µs per iteration"},
-                                              {"evaluation_share", "share of derivatives", 2},
-                                              {"status", "status"}});
+         page_table(of_ways.rows(), {{"problem", "problem"},
+                                     {"intervals", "N", 9},
+                                     {"derivatives", "derivatives"},
+                                     {"words", "by"},
+                                     {"seconds", "seconds"},
+                                     {"seconds_lower", "from"},
+                                     {"seconds_upper", "to"},
+                                     {"iterations", "iterations", 9},
+                                     {"linear_systems", "systems", 9},
+                                     {"us_per_iteration", "µs per iteration"},
+                                     {"evaluation_share", "share of derivatives", 2},
+                                     {"status", "status"}});
 }
 
-int run_factors(CommandLine& line, const std::vector<std::string>& command) {
-  std::filesystem::path out = "results";
-  int rounds = 11;
-  line.option("--out", out, "folder for speed_factors.csv, speed_factors_steps.csv and speed_factors.md");
-  line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
-  line.parse();
-  static_cast<void>(is_busy());
+MeasuredPage measure_page(int rounds) {
   if (preferred_instruction_set() == InstructionSet::baseline)
     throw Error("one lane is compiled for processors with AVX2");
-  const OutputFolder folder(out);
   const MeasuredFactors measured = measure_all(rounds);
-  write_file(out / "speed_factors.csv", measured.of_ways.csv());
-  write_file(out / "speed_factors_steps.csv", measured.of_changes.csv());
-  write_page(out / "speed_factors.md", page_head("Why interior_point is faster than Ipopt, factor by factor", command) +
-                                           words_of_page + tables_on_page(measured));
-  return 0;
+  const Table of_ways = table_of(way_columns(), measured.of_ways);
+  const Table of_changes = table_of(change_columns(), measured.of_changes);
+  return {.title = "Why interior_point is faster than Ipopt, factor by factor",
+          .text = words_of_page + tables_on_page(of_ways, of_changes),
+          .tables = {{"", of_ways}, {"_steps", of_changes}}};
 }
 
 }  // namespace
 
+int run_factors(int argc, char** argv) {
+  const PageProgram program{
+      .name = "factors",
+      .description = "What makes interior_point faster than Ipopt, factor by factor.",
+      .ends = {"", "_steps"},
+      .columns = describe(way_columns()) + "\nof speed_factors_steps.csv:\n" + describe(change_columns()),
+      .measure = measure_page};
+  return program.run(argc, argv);
+}
+
 }  // namespace dmocbench::speed
 
-int main(int argc, char** argv) {
-  return dmocbench::speed::run_page_program("factors", "What makes interior_point faster than Ipopt, factor by factor.",
-                                            argc, argv, dmocbench::speed::run_factors);
-}
+int main(int argc, char** argv) { return dmocbench::speed::run_factors(argc, argv); }

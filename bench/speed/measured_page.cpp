@@ -20,13 +20,8 @@ double load_at_start() {
   return load;
 }
 
-}  // namespace
-
-bool is_busy() {
-  constexpr double idle = 0.5;
-  return load_at_start() > idle;
-}
-
+/// The title, the command, and commit, compiler, flags and processor of this run. Where other work kept the machine
+/// busy, it says that the times are upper bounds.
 std::string page_head(const std::string& title, const std::vector<std::string>& command_line) {
   const nlohmann::ordered_json run = describe_run(command_line);
   std::string head = fmt::format("# {}\n\nWritten by `{}`, on\n", title, fmt::join(command_line, " "));
@@ -37,35 +32,42 @@ std::string page_head(const std::string& title, const std::vector<std::string>& 
   if (is_busy()) {
     head +=
         "\nOther work kept the machine busy: times are upper bounds, and ratios are those of this load, because a "
-        "solve of a millisecond ends before it has to share its processor and a longer one does not. Nothing is judged "
-        "but that a time is below a target.\n";
+        "solve of a millisecond ends before it has to share its processor and a longer one does not. Nothing is "
+        "judged.\n";
   }
   return head + "\n";
 }
 
-void write_page(const std::filesystem::path& file, const std::string& page) {
-  write_file(file, page);
+}  // namespace
+
+bool is_busy() {
+  constexpr double idle = 0.5;
+  return load_at_start() > idle;
+}
+
+void write_page(const std::filesystem::path& file, const MeasuredPage& page, const std::vector<std::string>& command) {
+  write_file(file, page_head(page.title, command) + page.text);
   fmt::print("{}\n", file.string());
 }
 
-int run_page_program(const std::string& name, const std::string& description, int argc, char** argv,
-                     const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run) {
-  const std::vector<std::string> command(argv, argv + argc);
-  return run_program(name, description, argc, argv, [&](CommandLine& line) { return run(line, command); });
-}
-
-void set_median(Row& row, const std::string& column, std::span<const double> of_rounds) {
-  const RatioInterval interval = ratio_interval(of_rounds);
-  row.set(column, interval.ratio);
-  row.set(column + "_lower", interval.lower);
-  row.set(column + "_upper", interval.upper);
-}
-
-std::string verdict_on_target(const RatioInterval& time, double target) {
-  if (time.rounds < fewest_rounds) return "too few rounds";
-  if (time.upper <= target) return "below";
-  if (is_busy()) return "not judged on a busy machine";
-  return time.lower > target ? "above" : "undecided";
+int PageProgram::run(int argc, char** argv) const {
+  return run_program(name, description, argc, argv, [&](CommandLine& line) {
+    std::filesystem::path out = "results";
+    int rounds = 11;
+    const std::string prefix = "speed_" + name;
+    line.option("--out", out,
+                fmt::format("folder for {0}{1}.csv and {0}.md", prefix, fmt::join(ends, ".csv, " + prefix)));
+    line.number("--rounds", rounds, 1, 1000, "how often everything is measured, in turn");
+    if (options) options(line);
+    if (!columns.empty()) line.footer("Columns of the tables:\n" + columns);
+    line.parse();
+    static_cast<void>(is_busy());
+    const OutputFolder folder(out);
+    const MeasuredPage page = measure(rounds);
+    for (const auto& [end, table] : page.tables) write_file(out / fmt::format("{}{}.csv", prefix, end), table.csv());
+    write_page(out / (prefix + ".md"), page, {argv, argv + argc});
+    return 0;
+  });
 }
 
 std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns) {

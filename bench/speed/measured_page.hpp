@@ -2,19 +2,16 @@
 
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/experiment/column.hpp"
 #include "bench/experiment/command_line.hpp"
 #include "bench/summary/ratio_interval.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {
-
-/// The head of a generated page: its title, the command, and commit, compiler, flags and processor of this run. Where
-/// other work kept the machine busy, it says that the times are upper bounds.
-[[nodiscard]] std::string page_head(const std::string& title, const std::vector<std::string>& command_line);
 
 /// These columns of the rows as a Markdown table: numbers with three digits, or all that a column is asked for.
 struct PageColumn {
@@ -24,21 +21,43 @@ struct PageColumn {
 };
 [[nodiscard]] std::string page_table(const std::vector<Row>& rows, const std::vector<PageColumn>& columns);
 
-/// Writes a page whole and prints where it is. Throws `Error` if it cannot be written.
-void write_page(const std::filesystem::path& file, const std::string& page);
+/// What a program has measured: a page, and tables beside it.
+struct MeasuredPage {
+  std::string title;
+  std::string text;                                   ///< behind the head
+  std::vector<std::pair<std::string, Table>> tables;  ///< by the ends of their names
+};
 
-/// A program that writes such a page, as `run_program`; `run` is given the command line as it was typed, too.
-[[nodiscard]] int run_page_program(
-    const std::string& name, const std::string& description, int argc, char** argv,
-    const std::function<int(CommandLine& line, const std::vector<std::string>& command)>& run);
+/// A program that measures in rounds and writes results/speed_NAME.md, and a table speed_NAMEEND.csv for every end.
+struct PageProgram {
+  std::string name;
+  std::string description;                         ///< a sentence
+  std::vector<std::string> ends = {""};            ///< of the names of its tables
+  std::string columns = {};                        ///< of its tables, for `--help`
+  std::function<void(CommandLine&)> options = {};  ///< adds what it takes beside `--out` and `--rounds`
+  std::function<MeasuredPage(int rounds)> measure;
 
-/// Sets COLUMN, COLUMN_lower and COLUMN_upper: the median of what was measured round by round, with its 99 % interval
-/// (bootstrap). Throws `Error` as `ratio_interval` does.
-void set_median(Row& row, const std::string& column, std::span<const double> of_rounds);
+  /// Returns the exit code, as `run_program`.
+  [[nodiscard]] int run(int argc, char** argv) const;
+};
 
-/// Whether a time stays below a target: "below", "above", "undecided", or why nothing is said. A busy machine shows
-/// upper bounds, which say nothing against the program.
-[[nodiscard]] std::string verdict_on_target(const RatioInterval& time, double target);
+/// The page as `PageProgram` writes it, by a program with other options. Prints where it is. Throws `Error` if it
+/// cannot be written.
+void write_page(const std::filesystem::path& file, const MeasuredPage& page, const std::vector<std::string>& command);
+
+/// The columns NAME, NAME_lower and NAME_upper: the median of what was measured round by round, with its 99 % interval
+/// (bootstrap). `rounds` is what `from` takes, and leads to the numbers of the rounds.
+template <class Record, class... Members>
+[[nodiscard]] Columns<Record> median_columns(const std::string& name, const std::string& unit,
+                                             const std::string& meaning, Members... rounds) {
+  const auto part = [=](auto of_median) {
+    return from(rounds...,
+                [of_median](const std::vector<double>& numbers) { return MedianOfRounds(numbers).*of_median; });
+  };
+  return {{name, unit, meaning + ", the median over the rounds", part(&MedianOfRounds::median)},
+          {name + "_lower", unit, "of the interval of 99 % of this median", part(&MedianOfRounds::lower)},
+          {name + "_upper", unit, "of the same interval", part(&MedianOfRounds::upper)}};
+}
 
 /// Whether other programs wanted a processor when this was first asked, which a program does before it measures.
 [[nodiscard]] bool is_busy();

@@ -16,6 +16,7 @@
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
+#include "methods/runtime/parsed.hpp"
 #include "methods/solvers/prepared_solve.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/motions/moved_to_ends.hpp"
@@ -135,34 +136,38 @@ void register_solves() {
 
 /// Medians over the repetitions.
 TablesBySuffix tables_of(const Benchmarks& benchmarks) {
-  const std::vector<std::string> counters{
-      "iterations",          "solved",        "plain_microseconds", "prepared_microseconds", "residuals_microseconds",
-      "plain_over_prepared", "over_long_grid"};
-  std::vector<std::string> columns{"problem", "method", "start", "intervals"};
-  columns.insert(columns.end(), counters.begin(), counters.end());
-  std::vector<Row> rows;
-  for (const auto& [name, benchmark] : benchmarks) {
-    rows.push_back(row_of(benchmark, counters));
-  }
-  std::ranges::sort(rows, {}, [](const Row& row) {
-    return std::tuple(row.text("problem"), row.text("method"), row.text("start"), row.number("intervals"));
+  const Columns<Benchmark> columns{
+      label_column("problem", "name of the problem"),
+      label_column("method", "family of elements"),
+      label_column("start", "warm or cold"),
+      label_column("intervals", "number of intervals N", FieldKind::integer),
+      counter_column("iterations", "", "of a solve"),
+      counter_column("solved", "", "1 if the program is solved"),
+      counter_column("plain_microseconds", "us", "of a solve by Solver::solve"),
+      counter_column("prepared_microseconds", "us", "of a solve by PreparedSolve"),
+      counter_column("residuals_microseconds", "us", "of one that judges answers by residuals only"),
+      counter_column("plain_over_prepared", "", "plain_microseconds by prepared_microseconds"),
+      counter_column("over_long_grid", "", "time per interval and iteration by that of a long grid")};
+  std::vector<Benchmark> solves = without_names(benchmarks);
+  std::ranges::sort(solves, {}, [](const Benchmark& of) {
+    return std::tuple(of.label("problem"), of.label("method"), of.label("start"),
+                      parsed<double>(of.label("intervals")));
   });
-  Table table(columns);
-  for (Row& row : rows) table.append(std::move(row));
-  return {{"", table}};
+  return {{"", table_of(columns, solves)}};
 }
 
 }  // namespace
 
-}  // namespace dmocbench::speed
-
-int main(int argc, char** argv) {
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace): the program's own
+int run_prepared(int argc, char** argv) {
   const BenchmarkProgram program{.name = "prepared",
                                  .description = "Programs that are solved again: prepared solves against plain ones.",
                                  .csv = "write FILE, a row per benchmark",
                                  .default_filter = "/dmoc/",
                                  .register_benchmarks = register_solves,
                                  .tables = tables_of};
-  return program.run({argv, static_cast<std::size_t>(argc)});
+  return program.run(argc, argv);
 }
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) { return dmocbench::speed::run_prepared(argc, argv); }

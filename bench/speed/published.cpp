@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/command_line.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
@@ -29,23 +28,17 @@ struct OwnSolve {
   std::string problem;
   std::string method;
   int intervals = 0;
-  double target = 0.0;  ///< seconds that its time is judged by; 0 for none
   int stages = 1;
   bool is_straight = false;  ///< starts at the straight line between the ends and not at the problem's guess
 };
 
 const std::vector<OwnSolve>& own_solves() {
   static const std::vector<OwnSolve> solves{
-      {"double_oscillator", "dmoc", 10000, 0.025},
-      {"double_oscillator", "hamiltonian", 10000, 0.025},
-      {"hang_glider", "dmoc", 10000, 5.0},
-      {"hang_glider", "tangent", 10000, 5.0},
-      {"rigid_quadrotor", "dmoc", 200000, 13.0},
-      {"cart_pole", "dmoc", 64, 0.002, 3},
-      {"cart_pole", "dmoc", 64, 0.002, 3, true},
-      {"beam", "dmoc", 10000},
-      {"beam", "hamiltonian", 10000},
-      {"beam", "dmoc", 20000},
+      {"double_oscillator", "dmoc", 10000}, {"double_oscillator", "hamiltonian", 10000},
+      {"hang_glider", "dmoc", 10000},       {"hang_glider", "tangent", 10000},
+      {"rigid_quadrotor", "dmoc", 200000},  {"cart_pole", "dmoc", 64, 3},
+      {"cart_pole", "dmoc", 64, 3, true},   {"beam", "dmoc", 10000},
+      {"beam", "hamiltonian", 10000},       {"beam", "dmoc", 20000},
       {"beam", "hamiltonian", 20000},
   };
   return solves;
@@ -79,13 +72,12 @@ class TimedRival {
     row.set("iterations", solution_.major_iterations);
     row.set("status", std::string(name_of(solution_.status)));
     if (!is_solved(solution_.status)) return row;
-    set_median(row, "seconds", seconds_);
+    const MedianOfRounds seconds(seconds_);
+    row.set("seconds", seconds.median);
+    row.set("seconds_lower", seconds.lower);
+    row.set("seconds_upper", seconds.upper);
     row.set("smallest_seconds", std::ranges::min(seconds_));
     row.set("objective", solution_.objective / made_.problem->cost_scale());
-    if (solve_.target > 0.0) {
-      row.set("target", solve_.target);
-      row.set("verdict", verdict_on_target(ratio_interval(seconds_), solve_.target));
-    }
     return row;
   }
 
@@ -119,7 +111,7 @@ std::string order_of_beam(const std::string& method) {
   if (!fitted) return fmt::format("The cost of the beam by {}: too few grids are solved to fit an order.\n", method);
   return fmt::format(
       "The cost of the beam by {}: order {:.3f} ± {:.3f}, fitted over {} grids from N = {:.0f} to {:.0f}.\n", method,
-      fitted->order, fitted->standard_error, fitted->points, 1.0 / fitted->coarsest, 1.0 / fitted->finest);
+      fitted->order, fitted->standard_error, fitted->points, 1.0 / fitted->last_abscissa, 1.0 / fitted->first_abscissa);
 }
 
 /// The published rows of these problems, of all if none is named. Lines that begin with # are words about them. Throws
@@ -147,10 +139,10 @@ constexpr const char* words_of_page =
     "the problem's reference, as a share of it.\n\n";
 
 /// The rows of others and of us, those of one problem and number of intervals beside each other.
-Table table_of(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {
-  Table table({"position", "problem",       "intervals",     "who",           "where",      "machine",   "rounds",
-               "seconds",  "seconds_lower", "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error",
-               "status",   "target",        "verdict",       "tolerance",     "differs",    "source"});
+Table times_beside_ours(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {
+  Table table({"position", "problem", "intervals", "who", "where", "machine", "rounds", "seconds", "seconds_lower",
+               "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error", "status", "tolerance",
+               "differs", "source"});
   const auto are_beside = [](const Row& row, const Row& other) {
     return row.text("problem") == other.text("problem") && row.text("intervals") == other.text("intervals");
   };
@@ -186,32 +178,23 @@ std::string table_on_page(const Table& table) {
                                    {"objective", "cost", 10},
                                    {"cost_error", "cost off", 2},
                                    {"status", "status"},
-                                   {"target", "target"},
-                                   {"verdict", "verdict"},
                                    {"differs", "what differs"},
                                    {"source", "source"}});
 }
 
-int run_published(CommandLine& line, const std::vector<std::string>& command) {
+/// Where the published times are, and which of them count.
+struct Choices {
   std::filesystem::path published = "bench/speed/published.csv";
-  std::filesystem::path out = "results";
   std::vector<std::string> problems;
-  int rounds = 11;
   int threads = static_cast<int>(thread_count());
-  line.option("--published", published, "the table of published times");
-  line.option("--out", out, "folder for speed_published.csv and speed_published.md");
-  line.list("--problem", problems, "problems of that table; none: all of them");
-  line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
-  line.number("--threads", threads, 1, 1024, "threads of a solve");
-  line.parse();
-  static_cast<void>(is_busy());
-  const std::vector<Row> others = published_rows(published, problems);
+};
+
+MeasuredPage measure(const Choices& choices, int rounds) {
+  const std::vector<Row> others = published_rows(choices.published, choices.problems);
   const auto is_asked_for = [&](const std::string& problem) {
     return std::ranges::any_of(others, [&](const Row& other) { return other.text("problem") == problem; });
   };
-  const OutputFolder folder(out);
-  set_thread_count(static_cast<std::size_t>(threads));
-
+  set_thread_count(static_cast<std::size_t>(choices.threads));
   std::vector<std::unique_ptr<TimedRival>> ours;
   for (const OwnSolve& solve : own_solves()) {
     if (is_asked_for(solve.problem)) ours.push_back(std::make_unique<TimedRival>(solve));
@@ -219,22 +202,30 @@ int run_published(CommandLine& line, const std::vector<std::string>& command) {
   for (int round = 0; round < rounds; ++round) {
     for (const auto& rival : ours) rival->solve();
   }
-  const Table table = table_of(others, ours);
-  write_file(out / "speed_published.csv", table.csv());
-  std::string page = page_head("Published times beside ours", command) + words_of_page + table_on_page(table);
+  const Table table = times_beside_ours(others, ours);
+  std::string text = words_of_page + table_on_page(table);
   if (is_asked_for("beam")) {
-    for (const char* method : {"dmoc", "hamiltonian"}) page += order_of_beam(method) + "\n";
+    for (const char* method : {"dmoc", "hamiltonian"}) text += order_of_beam(method) + "\n";
   }
-  write_page(out / "speed_published.md", page);
-  return 0;
+  return {"Published times beside ours", text, {{"", table}}};
 }
 
 }  // namespace
 
+int run_published(int argc, char** argv) {
+  Choices choices;
+  const PageProgram program{.name = "published",
+                            .description = "Times that others have published beside ours on this machine.",
+                            .options =
+                                [&](CommandLine& line) {
+                                  line.option("--published", choices.published, "the table of published times");
+                                  line.list("--problem", choices.problems, "problems of that table; none: all of them");
+                                  line.number("--threads", choices.threads, 1, 1024, "threads of a solve");
+                                },
+                            .measure = [&](int rounds) { return measure(choices, rounds); }};
+  return program.run(argc, argv);
+}
+
 }  // namespace dmocbench::speed
 
-int main(int argc, char** argv) {
-  return dmocbench::speed::run_page_program("published",
-                                            "Times that others have published beside ours on this machine.", argc, argv,
-                                            dmocbench::speed::run_published);
-}
+int main(int argc, char** argv) { return dmocbench::speed::run_published(argc, argv); }

@@ -191,7 +191,7 @@ Table placed_table(const std::filesystem::path& file) {
   return table;
 }
 
-int run_page(CommandLine& line, const std::vector<std::string>& command) {
+int write_robustness(CommandLine& line, const std::vector<std::string>& command) {
   std::filesystem::path solves;
   std::filesystem::path earlier;
   std::filesystem::path starts;
@@ -209,8 +209,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
   const Selection ipopt = Selection(table).where("solver", other);
   const Selection then = Selection(before).where("solver", ours);
 
-  std::string page = page_head("Robustness of interior_point over the library", command);
-  page +=
+  std::string page =
       "Every problem from its own guess by every method with Gauss of s stages on N intervals, tolerance 1e-8, 500 "
       "iterations at most; `bench/speed/robustness` runs it. Numbers are iterations; in words how a solve failed. An "
       "answer that is \"too coarse\" is a solved program whose grid is too coarse for a motion: it counts as solved. "
@@ -230,7 +229,7 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
     page += fmt::format("## N = {}\n\n", cells.front().text("intervals"));
     page += cells_table(cells, ipopt, then);
   }
-  write_page(out, page);
+  write_page(out, {"Robustness of interior_point over the library", page, {}}, command);
   return 0;
 }
 
@@ -239,7 +238,9 @@ int run_page(CommandLine& line, const std::vector<std::string>& command) {
 }  // namespace dmocbench::speed
 
 int main(int argc, char** argv) {
-  return dmocbench::speed::run_page_program(
-      "robustness_page", "What interior_point solves of the library beside Ipopt, as a page for readers.", argc, argv,
-      dmocbench::speed::run_page);
+  return dmocbench::run_program("robustness_page",
+                                "What interior_point solves of the library beside Ipopt, as a page for readers.", argc,
+                                argv, [&](dmocbench::CommandLine& line) {
+                                  return dmocbench::speed::write_robustness(line, {argv, argv + argc});
+                                });
 }

@@ -168,11 +168,7 @@ void register_solves() {
 
 }  // namespace
 
-}  // namespace dmocbench::speed
-
-int main(int argc, char** argv) {
-  using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
+int run_solves(int argc, char** argv) {
   // Without flags it takes seconds: long grids and the library are left out.
   const BenchmarkProgram program{
       .name = "solves",
@@ -184,5 +180,9 @@ int main(int argc, char** argv) {
         const Table solves = solve_table(benchmarks);
         return {{"", solves}, {"_ratios", solve_ratios(solves)}, {"_exponents", solve_exponents(solves)}};
       }};
-  return program.run({argv, static_cast<std::size_t>(argc)});
+  return program.run(argc, argv);
 }
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) { return dmocbench::speed::run_solves(argc, argv); }

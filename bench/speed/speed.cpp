@@ -5,9 +5,9 @@
 #include "bench/speed/speed_tables.hpp"
 #include "problems/registry.hpp"
 
-int main(int argc, char** argv) {
-  using namespace dmocbench;         // NOLINT(google-build-using-namespace): the program's own
-  using namespace dmocbench::speed;  // NOLINT(google-build-using-namespace)
+namespace dmocbench::speed {
+
+int run_speed(int argc, char** argv) {
   FormulasOfPaper paper;
   const BenchmarkProgram program{
       .name = "speed",
@@ -32,5 +32,9 @@ int main(int argc, char** argv) {
           [](const Benchmarks& benchmarks) {
             return TablesBySuffix{{"", interval_table(benchmarks)}, {"_machine", machine_table(benchmarks)}};
           }};
-  return program.run({argv, static_cast<std::size_t>(argc)});
+  return program.run(argc, argv);
 }
+
+}  // namespace dmocbench::speed
+
+int main(int argc, char** argv) { return dmocbench::speed::run_speed(argc, argv); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "bench/summary/selection.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/runtime/parsed.hpp"
 
 namespace dmocbench::speed {
 
@@ -18,146 +20,216 @@ namespace {
 constexpr double nanoseconds = 1e9;  // of a second
 constexpr double second = 1e-9;      // of a nanosecond
 
-/// The roof as (nanoseconds, limit), from the rows of the machine; none where a benchmark that it takes did not run.
-std::optional<std::pair<double, std::string>> roof_of(const Selection& machine, double operations, double bytes,
-                                                      double working_set) {
-  const Row& arithmetic = machine.where("limit", "arithmetic").front();
-  const Selection holds_arrays = machine.where([&](const Row& level) {
-    return working_set > level.number("more_than_bytes", working_set) &&
-           working_set <= level.number("up_to_bytes", 0.0);
-  });
-  const Row& memory = holds_arrays.front();
-  const auto computing = ratio(nanoseconds * operations, arithmetic.number("rate"));
-  const auto moving = ratio(nanoseconds * bytes, memory.number("rate"));
-  if (!computing || !moving) return std::nullopt;
-  return *computing >= *moving ? std::pair(*computing, arithmetic.text("limit"))
-                               : std::pair(*moving, memory.text("limit"));
+double number_in_label(const Benchmark& benchmark, const std::string& key, double missing) {
+  return parsed<double>(benchmark.label(key)).value_or(missing);
 }
 
-Row interval_row(const Benchmark& benchmark, double time, const Selection& machine) {
-  Row row = row_of(benchmark);
-  const double operations = benchmark.median_of(operations_per_interval).value_or(0.0);
-  row.set("repetitions", benchmark.numbers.at(ns_per_interval).size());
-  row.set("nanoseconds", time);
-  row.set("smallest_nanoseconds", benchmark.smallest_of(ns_per_interval));
-  row.set("operations", operations);
-  row.set("operations_per_second", nanoseconds * operations / time);
-  const auto bytes = benchmark.median_of(bytes_per_interval);
-  if (!bytes) return row;
-  row.set("bytes", bytes);
-  row.set("operations_per_byte", operations / *bytes);
-  const double working_set = *bytes * row.number("intervals", 0.0);
-  if (const auto roof = roof_of(machine.matching(row, {"instruction_set"}), operations, *bytes, working_set)) {
-    row.set("roof_nanoseconds", roof->first);
-    row.set("roof_limit", roof->second);
-    row.set("roof_share", roof->first / time);
+/// Operations or bytes per second, of a benchmark of the machine.
+std::optional<double> rate_of(const Benchmark& benchmark) {
+  const auto operations = benchmark.median_of(operations_per_second);
+  return operations ? operations : benchmark.median_of(bytes_per_second);
+}
+
+std::vector<Benchmark> of_the_machine(const Benchmarks& benchmarks) {
+  std::vector<Benchmark> machine = without_names(benchmarks);
+  std::erase_if(machine, [](const Benchmark& benchmark) { return !rate_of(benchmark); });
+  return machine;
+}
+
+/// The least time of an evaluation on this machine.
+struct Roof {
+  double nanoseconds = 0.0;
+  std::string limit;
+};
+
+/// An evaluation of an interval.
+struct Evaluation : Benchmark {
+  double time = 0.0;                        ///< nanoseconds
+  std::optional<Roof> roof = std::nullopt;  ///< none where a benchmark that it takes did not run
+
+  Evaluation(const Benchmark& benchmark, const std::vector<Benchmark>& machine)
+      : Benchmark(benchmark), time(median_of(ns_per_interval).value_or(0.0)) {
+    if (!bytes()) return;
+    const double working_set = *bytes() * number_in_label(*this, "intervals", 0.0);
+    const auto time_at = [&](double amount, const auto& limits) -> std::optional<Roof> {
+      const auto found = std::ranges::find_if(machine, [&](const Benchmark& level) {
+        return level.label("instruction_set") == label("instruction_set") && limits(level);
+      });
+      const auto least = found == machine.end() ? std::nullopt : ratio(nanoseconds * amount, rate_of(*found));
+      return least ? std::optional(Roof{*least, found->label("limit")}) : std::nullopt;
+    };
+    const auto computing =
+        time_at(operations(), [](const Benchmark& level) { return level.label("limit") == "arithmetic"; });
+    const auto moving = time_at(*bytes(), [&](const Benchmark& level) {
+      return working_set > number_in_label(level, "more_than_bytes", working_set) &&
+             working_set <= number_in_label(level, "up_to_bytes", 0.0);
+    });
+    if (computing && moving) roof = computing->nanoseconds >= moving->nanoseconds ? computing : moving;
   }
-  return row;
+  [[nodiscard]] double operations() const { return median_of(operations_per_interval).value_or(0.0); }
+  [[nodiscard]] std::optional<double> bytes() const { return median_of(bytes_per_interval); }
+};
+
+Columns<Evaluation> evaluation_columns() {
+  constexpr auto roof = &Evaluation::roof;
+  const auto label = label_column<Evaluation>;
+  return {
+      label("way", "how it is evaluated", FieldKind::text),
+      label("quantity", "what is evaluated", FieldKind::text),
+      label("problem", "name of the problem", FieldKind::text),
+      label("links", "of a chain", FieldKind::integer),
+      label("method", "family of elements", FieldKind::text),
+      label("tableau", "family of Butcher tableaus", FieldKind::text),
+      label("stages", "number of stages s", FieldKind::integer),
+      label("instruction_set", "of the processor", FieldKind::text),
+      label("intervals", "number of intervals N", FieldKind::integer),
+      {"repetitions", "", "how often it was measured",
+       [](const Evaluation& of) { return of.numbers.at(ns_per_interval).size(); }},
+      {"nanoseconds", "ns", "per interval, the median", &Evaluation::time},
+      {"smallest_nanoseconds", "ns", "per interval, the least",
+       [](const Evaluation& of) { return of.smallest_of(ns_per_interval); }},
+      {"operations", "", "per interval", &Evaluation::operations},
+      {"bytes", "", "per interval, read and written", &Evaluation::bytes},
+      {"operations_per_byte", "", "operations by bytes",
+       [](const Evaluation& of) { return of.bytes() ? std::optional(of.operations() / *of.bytes()) : std::nullopt; }},
+      {"operations_per_second", "1/s", "operations by their time",
+       [](const Evaluation& of) { return nanoseconds * of.operations() / of.time; }},
+      {"roof_nanoseconds", "ns", "least time on this machine", from(roof, &Roof::nanoseconds)},
+      {"roof_limit", "", "what limits it", from(roof, &Roof::limit)},
+      {"roof_share", "", "roof_nanoseconds by nanoseconds",
+       [](const Evaluation& of) { return of.roof ? std::optional(of.roof->nanoseconds / of.time) : std::nullopt; }}};
 }
 
 double seconds_per_iteration(const Row& row) {
   return row.number("seconds", 0.0) / std::max(1.0, row.number("iterations", 0.0));
 }
 
-Row solve_row(const Benchmark& benchmark) {
-  Row row = row_of(benchmark);
-  row.set("repetitions", benchmark.numbers.at("real_time").size());
-  row.set("seconds", second * *benchmark.median_of("real_time"));
-  row.set("smallest_seconds", second * *benchmark.smallest_of("real_time"));
-  row.set("iterations", benchmark.median_of("major_iterations"));
-  row.set("solved", benchmark.smallest_of("solved") == 1.0 ? 1 : 0);
-  for (const char* counter :
-       {"linear_systems", "objective", "evaluation_share", "bytes_per_interval", "setup_seconds"}) {
-    row.set(counter, benchmark.median_of(counter));
-  }
-  row.set("ns_per_interval_iteration", seconds_per_iteration(row) / row.number("intervals", 0.0) / second);
-  return row;
+Columns<Benchmark> solve_columns() {
+  const auto seconds = [](const Benchmark& of) { return second * of.median_of("real_time").value_or(NAN); };
+  return {label_column("problem", "name of the problem"),
+          label_column("method", "family of elements"),
+          label_column("intervals", "number of intervals N", FieldKind::integer),
+          label_column("solver", "name of the solver"),
+          label_column("threads", "of a solve", FieldKind::integer),
+          {"repetitions", "", "how often it was solved",
+           [](const Benchmark& of) { return of.numbers.at("real_time").size(); }},
+          {"seconds", "s", "of a solve, the median", seconds},
+          {"smallest_seconds", "s", "of a solve, the least",
+           [](const Benchmark& of) { return second * of.smallest_of("real_time").value_or(NAN); }},
+          {"iterations", "", "major iterations", [](const Benchmark& of) { return of.median_of("major_iterations"); }},
+          counter_column("linear_systems", "", "that were solved"),
+          {"solved", "", "1 if every repetition ended solved",
+           [](const Benchmark& of) { return of.smallest_of("solved") == 1.0; }},
+          counter_column("objective", "cost", "of the answer"),
+          {"ns_per_interval_iteration", "ns", "time of a solve by intervals and iterations",
+           [seconds](const Benchmark& of) {
+             const double iterations = std::max(1.0, of.median_of("major_iterations").value_or(0.0));
+             return seconds(of) / iterations / number_in_label(of, "intervals", 0.0) / second;
+           }},
+          counter_column("evaluation_share", "", "share of derivatives in the time"),
+          counter_column("bytes_per_interval", "", "largest memory of a solve, by intervals"),
+          counter_column("setup_seconds", "s", "that making the program took")};
 }
 
-/// The times of the first row over those of the second, if there are both.
-void append_ratio(Table& table, const std::string& quantity, const Selection& slower, const Selection& faster) {
-  if (slower.empty() || faster.empty()) return;
-  const Row& slow = slower.front();
-  const Row& fast = faster.front();
-  constexpr double same_objective = 1e-9;
-  Row row = fields_of(fast, {"problem", "method", "intervals"});
-  row.set("quantity", quantity);
-  const double objective = fast.number("objective", 0.0);
-  if (slow.text("solved") != "1" || fast.text("solved") != "1") {
-    row.set("verdict", "not both solved");
-  } else if (std::abs(slow.number("objective", 0.0) - objective) <= same_objective * std::abs(objective)) {
-    row.set("verdict", "same");
-    row.set("ratio", ratio(slow.number("seconds"), fast.number("seconds")));
-    row.set("ratio_of_smallest", ratio(slow.number("smallest_seconds"), fast.number("smallest_seconds")));
-  } else {
-    row.set("verdict", "other branch");
+/// Two solves of a program.
+struct SolvesOfPair {
+  Row head;  ///< the faster one
+  Row slower;
+  std::string quantity;
+
+  [[nodiscard]] std::string verdict() const {
+    constexpr double same_objective = 1e-9;
+    if (slower.text("solved") != "1" || head.text("solved") != "1") return "not both solved";
+    const double objective = head.number("objective", 0.0);
+    const bool is_same = std::abs(slower.number("objective", 0.0) - objective) <= same_objective * std::abs(objective);
+    return is_same ? "same" : "other branch";
   }
-  table.append(std::move(row));
+  [[nodiscard]] std::optional<double> ratio_of(const char* column) const {
+    return verdict() == "same" ? ratio(slower.number(column), head.number(column)) : std::nullopt;
+  }
+};
+
+Columns<SolvesOfPair> pair_columns() {
+  using Pair = SolvesOfPair;
+  return head_columns<Pair>({"problem", "method", "intervals"}) +
+         Columns<Pair>{{"quantity", "", "in which the two solves differ: solver or threads", &Pair::quantity},
+                       {"ratio", "", "of their seconds, Ipopt's or one thread's above",
+                        [](const Pair& pair) { return pair.ratio_of("seconds"); }},
+                       {"ratio_of_smallest", "", "of their smallest seconds",
+                        [](const Pair& pair) { return pair.ratio_of("smallest_seconds"); }},
+                       {"verdict", "", "same where the costs are equal", &Pair::verdict}};
+}
+
+void append_pair(std::vector<SolvesOfPair>& pairs, const std::string& quantity, const Selection& slower,
+                 const Selection& faster) {
+  if (!slower.empty() && !faster.empty()) pairs.push_back({faster.front(), slower.front(), quantity});
+}
+
+/// The line through the times per iteration over N, in logarithms.
+struct TimesOverGrids {
+  Row head;
+  FittedOrder line;
+};
+
+Columns<TimesOverGrids> exponent_columns() {
+  constexpr auto line = &TimesOverGrids::line;
+  return head_columns<TimesOverGrids>({"problem", "method", "solver", "threads"}) +
+         Columns<TimesOverGrids>{
+             {"exponent", "", "of N in the time per iteration", from(line, &FittedOrder::order)},
+             {"standard_error", "", "of the exponent", from(line, &FittedOrder::standard_error)},
+             {"grids", "", "number of grids used", from(line, &FittedOrder::points)},
+             {"coarsest", "", "smallest number of intervals used", from(line, &FittedOrder::first_abscissa)},
+             {"finest", "", "largest number of intervals used", from(line, &FittedOrder::last_abscissa)}};
 }
 
 }  // namespace
 
-Row row_of(const Benchmark& benchmark, const std::vector<std::string>& counters) {
-  Row row;
-  for (const auto& [key, value] : benchmark.labels) row.set(key, value);
-  for (const std::string& counter : counters) row.set(counter, benchmark.median_of(counter));
-  return row;
+std::vector<Benchmark> without_names(const Benchmarks& benchmarks) {
+  const auto values = std::views::values(benchmarks);
+  return {values.begin(), values.end()};
 }
 
 Table interval_table(const Benchmarks& benchmarks) {
-  Table table({"way", "quantity", "problem", "links", "method", "tableau", "stages", "instruction_set", "intervals",
-               "repetitions", "nanoseconds", "smallest_nanoseconds", "operations", "bytes", "operations_per_byte",
-               "operations_per_second", "roof_nanoseconds", "roof_limit", "roof_share"});
-  const Table machine = machine_table(benchmarks);
+  const std::vector<Benchmark> machine = of_the_machine(benchmarks);
+  std::vector<Evaluation> evaluations;
   for (const auto& [name, benchmark] : benchmarks) {
-    if (const auto time = benchmark.median_of(ns_per_interval)) table.append(interval_row(benchmark, *time, machine));
+    if (benchmark.median_of(ns_per_interval)) evaluations.emplace_back(benchmark, machine);
   }
-  return table;
+  return table_of(evaluation_columns(), evaluations);
 }
 
 Table machine_table(const Benchmarks& benchmarks) {
-  Table table({"instruction_set", "limit", "rate", "array_bytes"});
-  for (const auto& [name, benchmark] : benchmarks) {
-    const auto operations = benchmark.median_of(operations_per_second);
-    const auto rate = operations ? operations : benchmark.median_of(bytes_per_second);
-    if (!rate) continue;
-    Row row = row_of(benchmark);
-    row.set("rate", rate);
-    table.append(std::move(row));
-  }
-  return table;
+  const Columns<Benchmark> columns{label_column("instruction_set", "of the processor"),
+                                   label_column("limit", "arithmetic, or a level of memory"),
+                                   {"rate", "1/s", "operations or bytes per second", rate_of},
+                                   label_column("array_bytes", "of the arrays that are worked on", FieldKind::integer)};
+  return table_of(columns, of_the_machine(benchmarks));
 }
 
 Table solve_table(const Benchmarks& benchmarks) {
-  std::vector<Row> rows;
-  rows.reserve(benchmarks.size());
-  for (const auto& [name, benchmark] : benchmarks) rows.push_back(solve_row(benchmark));
-  std::ranges::sort(rows, {}, [](const Row& row) {
-    return std::tuple(row.text("problem"), row.text("method"), row.number("intervals"), row.text("solver"),
-                      row.text("threads"));
+  std::vector<Benchmark> solves = without_names(benchmarks);
+  std::ranges::sort(solves, {}, [](const Benchmark& of) {
+    return std::tuple(of.label("problem"), of.label("method"), number_in_label(of, "intervals", 0.0),
+                      of.label("solver"), of.label("threads"));
   });
-  Table table({"problem", "method", "intervals", "solver", "threads", "repetitions", "seconds", "smallest_seconds",
-               "iterations", "linear_systems", "solved", "objective", "ns_per_interval_iteration", "evaluation_share",
-               "bytes_per_interval", "setup_seconds"});
-  for (Row& row : rows) table.append(std::move(row));
-  return table;
+  return table_of(solve_columns(), solves);
 }
 
 Table solve_ratios(const Table& solves) {
-  Table table({"problem", "method", "intervals", "quantity", "ratio", "ratio_of_smallest", "verdict"});
+  std::vector<SolvesOfPair> pairs;
   for (const Selection& program : Selection(solves).group_by({"problem", "method", "intervals"})) {
     const Selection ours = program.where("solver", "interior_point");
     const Selection by_one = ours.where("threads", "1");
-    append_ratio(table, "solver", program.where("solver", "ipopt").where("threads", "1"), by_one);
-    append_ratio(table, "threads", by_one, ours.where("threads", "2"));
+    append_pair(pairs, "solver", program.where("solver", "ipopt").where("threads", "1"), by_one);
+    append_pair(pairs, "threads", by_one, ours.where("threads", "2"));
   }
-  return table;
+  return table_of(pair_columns(), pairs);
 }
 
 Table solve_exponents(const Table& solves) {
   constexpr double coarsest_grid = 1024;
   constexpr int fewest_grids = 3;
-  Table table({"problem", "method", "solver", "threads", "exponent", "standard_error", "grids", "coarsest", "finest"});
+  std::vector<TimesOverGrids> all;
   // By solvers first: two threads begin on a finer grid, and stand behind one all the same.
   for (const Selection& by_solver : Selection(solves).group_by({"problem", "method", "solver"})) {
     for (const Selection& curve : by_solver.group_by({"threads"})) {
@@ -167,18 +239,10 @@ Table solve_exponents(const Table& solves) {
         if (intervals >= coarsest_grid) points.push_back({intervals, seconds_per_iteration(row)});
       }
       const auto line = fit_order(points);
-      if (!line || line->points < fewest_grids) continue;
-      Row row = fields_of(curve.front(), {"problem", "method", "solver", "threads"});
-      row.set("exponent", line->order);
-      row.set("standard_error", line->standard_error);
-      row.set("grids", line->points);
-      // The abscissa is N instead of a step: the smallest is that of the coarsest grid.
-      row.set("coarsest", line->finest);
-      row.set("finest", line->coarsest);
-      table.append(std::move(row));
+      if (line && line->points >= fewest_grids) all.push_back({curve.front(), *line});
     }
   }
-  return table;
+  return table_of(exponent_columns(), all);
 }
 
 }  // namespace dmocbench::speed

@@ -2,17 +2,13 @@
 // beside what the machine gains by them where nothing is shared.
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/kernels.hpp"
 #include "bench/speed/measured_page.hpp"
@@ -34,14 +30,26 @@ namespace {
 struct Turns {
   std::vector<double> on_one;
   std::vector<double> on_several;
+  double work = 1.0;  ///< how many times as much was done on several
 
-  /// Times over those of one thread: `work` times as much was done on several.
-  [[nodiscard]] std::vector<double> gains(double work = 1.0) const {
+  /// Times over those of one thread.
+  [[nodiscard]] std::vector<double> gains() const {
     std::vector<double> ratios = round_ratios(on_one, on_several);
     for (double& ratio : ratios) ratio *= work;
     return ratios;
   }
+  [[nodiscard]] MedianOfRounds gain() const { return MedianOfRounds(gains()); }
 };
+
+std::size_t rounds_of(const Turns& turns) { return turns.on_one.size(); }
+
+/// The columns of what was gained.
+template <class Record>
+Columns<Record> gain_columns(Turns Record::*turns) {
+  return Columns<Record>{{"gain", "", "seconds by seconds_on_threads, for as much work, the median over the rounds",
+                          from(turns, &Turns::gain, &MedianOfRounds::median)}} +
+         round_columns<Record>(turns, &Turns::gain);
+}
 
 /// Work that threads do without sharing anything: as much of it on every thread as on one.
 class Ceiling {
@@ -53,6 +61,8 @@ class Ceiling {
       : name_(std::move(name)), words_(std::move(words)), size_(size), loop_(std::move(loop)) {}
 
   void measure(std::size_t threads) {
+    threads_ = threads;
+    turns_.work = static_cast<double>(threads);
     set_thread_count(threads);
     memory_.resize(threads);
     // Everything is written first by the thread that works on it.
@@ -63,18 +73,16 @@ class Ceiling {
     memory_.clear();
   }
 
-  [[nodiscard]] Row row(std::size_t threads) const {
-    const std::vector<double> gains = turns_.gains(static_cast<double>(threads));
-    Row row;
-    row.set("what", name_);
-    row.set("words", words_);
-    row.set("threads", threads);
-    row.set("rounds", gains.size());
-    row.set("seconds", median(turns_.on_one));
-    row.set("seconds_on_threads", median(turns_.on_several));
-    row.set("gain", median(gains));
-    set_rounds(row, gains);
-    return row;
+  [[nodiscard]] static Columns<Ceiling> columns() {
+    return Columns<Ceiling>{
+               {"what", "", "name of the work", &Ceiling::name_},
+               {"words", "", "what it is", &Ceiling::words_},
+               {"threads", "", "that are compared with one", &Ceiling::threads_},
+               {"rounds", "", "how often it was done", from(&Ceiling::turns_, rounds_of)},
+               {"seconds", "s", "on one thread, the median", from(&Ceiling::turns_, &Turns::on_one, median)},
+               {"seconds_on_threads", "s", "on all threads, each as much, the median",
+                from(&Ceiling::turns_, &Turns::on_several, median)}} +
+           gain_columns<Ceiling>(&Ceiling::turns_);
   }
 
  private:
@@ -87,6 +95,7 @@ class Ceiling {
   std::string name_;
   std::string words_;
   std::size_t size_;
+  std::size_t threads_ = 1;
   Loop loop_;
   std::vector<std::vector<double>> memory_;
   Turns turns_;
@@ -115,46 +124,56 @@ std::vector<Ceiling> ceilings() {
 /// A program, made once and solved in every round on one thread and on several.
 class SharedSolves {
  public:
-  SharedSolves(const std::string& problem, const std::string& method, int intervals)
-      : intervals_(intervals), method_(method), made_(make_problem(problem), method, intervals) {}
+  SharedSolves(const std::string& problem, const std::string& method, int intervals, std::size_t threads)
+      : threads_(threads), intervals_(intervals), method_(method), made_(make_problem(problem), method, intervals) {}
 
-  void solve(std::size_t threads) {
-    turns_.on_one.push_back(seconds_on(1));
-    const Eigen::VectorXd primal = std::move(solution_.primal);
-    turns_.on_several.push_back(seconds_on(threads));
-    is_same_ = is_same_ && solution_.primal == primal;
+  void solve(int rounds) {
+    for (rounds_ = 0; rounds_ < rounds; ++rounds_) {
+      turns_.on_one.push_back(seconds_on(1));
+      const Eigen::VectorXd primal = std::move(solution_.primal);
+      turns_.on_several.push_back(seconds_on(threads_));
+      is_same_ = is_same_ && solution_.primal == primal;
+    }
+    judge();
   }
 
-  [[nodiscard]] Row row(std::size_t threads) {
-    constexpr double nanoseconds = 1e9;
-    judge();
-    const double iterations = solution_.major_iterations.value_or(0);
-    Row row;
-    row.set("problem", made_.problem->name());
-    row.set("method", method_);
-    row.set("intervals", intervals_);
-    row.set("threads", threads);
-    row.set("rounds", turns_.on_one.size());
-    row.set("status", std::string(name_of(solution_.status)));
-    row.set("iterations", iterations);
-    row.set("linear_systems", solution_.linear_systems);
-    row.set("same_digits", is_same_ ? "yes" : "no");
-    if (!is_solved(solution_.status)) return row;
-    const std::vector<double> gains = turns_.gains();
-    row.set("seconds", median(turns_.on_one));
-    row.set("seconds_on_threads", median(turns_.on_several));
-    row.set("ns_per_interval_iteration",
-            nanoseconds * median(turns_.on_several) / intervals_ / std::max(1.0, iterations));
-    row.set("gain", median(gains));
-    set_rounds(row, gains);
-    return row;
+  [[nodiscard]] static Columns<SharedSolves> columns() {
+    using Solves = SharedSolves;
+    constexpr auto solution = &Solves::solution_;
+    return Columns<Solves>{
+               {"problem", "", "name of the problem", [](const Solves& of) { return of.made_.problem->name(); }},
+               {"method", "", "family of elements", &Solves::method_},
+               {"intervals", "", "number of intervals N", &Solves::intervals_},
+               {"threads", "", "that are compared with one", &Solves::threads_},
+               {"rounds", "", "how often it was solved, on one thread and on several", &Solves::rounds_},
+               {"status", "", "of the last solve", [](const Solves& of) { return name_of(of.solution_.status); }},
+               {"iterations", "", "of a solve", [](const Solves& of) { return of.iterations(); }},
+               {"linear_systems", "", "of a solve", from(solution, &Solution::linear_systems)},
+               {"seconds", "s", "on one thread, the median; empty where the program is not solved, as what follows",
+                from(&Solves::turns_, &Turns::on_one, median)},
+               {"seconds_on_threads", "s", "on all threads, the median",
+                from(&Solves::turns_, &Turns::on_several, median)},
+               {"ns_per_interval_iteration", "ns", "on all threads, by intervals and iterations",
+                [](const Solves& of) {
+                  constexpr double nanoseconds = 1e9;
+                  return nanoseconds * median(of.turns_.on_several) / of.intervals_ / std::max(1.0, of.iterations());
+                }}} +
+           gain_columns<Solves>(&Solves::turns_) +
+           Columns<Solves>{{"same_digits", "", "yes if the answers on one thread and on several are the same",
+                            from(&Solves::is_same_, yes_or_no)}};
   }
 
  private:
+  [[nodiscard]] double iterations() const { return solution_.major_iterations.value_or(0); }
+
+  /// Times of a program that is not solved say nothing.
   void judge() {
-    if (!is_solved(solution_.status)) return;
-    judge_residuals(*made_.program, solution_);
-    solution_.status = judged(solution_.status, scaled_residual(*made_.program, SolverOptions().tolerance, solution_));
+    if (is_solved(solution_.status)) {
+      judge_residuals(*made_.program, solution_);
+      const double residual = scaled_residual(*made_.program, SolverOptions().tolerance, solution_);
+      solution_.status = judged(solution_.status, residual);
+    }
+    if (!is_solved(solution_.status)) turns_ = {};
   }
 
   /// As `Solver::solve` measures it. Judging the answer, which would take longer than the solve, is left to `judge`.
@@ -169,8 +188,10 @@ class SharedSolves {
     return counted.elapsed_seconds();
   }
 
+  std::size_t threads_;
   int intervals_;
   std::string method_;
+  int rounds_ = 0;
   GuessedProgram made_;
   Solution solution_;
   bool is_same_ = true;
@@ -185,17 +206,22 @@ constexpr const char* words_of_page =
     "are the same to the last digit. The first table is what the machine gives to threads that share nothing but "
     "itself: times the work of one thread that they do in its time. A solve is a mixture of such work.\n\n";
 
-Table solves_table(const std::vector<std::string>& problems, const std::vector<std::string>& methods,
-                   const std::vector<int>& grids, int rounds, std::size_t threads) {
-  Table table({"problem", "method", "intervals", "threads", "rounds", "status", "iterations", "linear_systems",
-               "seconds", "seconds_on_threads", "ns_per_interval_iteration", "gain", "ratio_lower", "ratio_upper",
-               "round_ratios", "same_digits"});
-  for (const std::string& problem : problems) {
-    for (const std::string& method : methods) {
-      for (const int intervals : grids) {
-        SharedSolves solves(problem, method, intervals);
-        for (int round = 0; round < rounds; ++round) solves.solve(threads);
-        table.append(solves.row(threads));
+/// What is solved.
+struct Programs {
+  std::vector<std::string> problems = paper_problem_names();
+  std::vector<std::string> methods{"dmoc", "hamiltonian"};
+  std::vector<int> grids{65536, 262144, 1000000};
+};
+
+/// One program after the other: those of long grids do not fit into memory together.
+Table solves_table(const Programs& programs, int rounds, std::size_t threads) {
+  Table table = table_of(SharedSolves::columns(), std::vector<SharedSolves>());
+  for (const std::string& problem : programs.problems) {
+    for (const std::string& method : programs.methods) {
+      for (const int intervals : programs.grids) {
+        SharedSolves solves(problem, method, intervals, threads);
+        solves.solve(rounds);
+        table.append(row_of(SharedSolves::columns(), solves));
       }
     }
   }
@@ -207,10 +233,7 @@ Table ceiling_table(int rounds, std::size_t threads) {
   for (int round = 0; round < rounds; ++round) {
     for (Ceiling& ceiling : machine) ceiling.measure(threads);
   }
-  Table table({"what", "words", "threads", "rounds", "seconds", "seconds_on_threads", "gain", "ratio_lower",
-               "ratio_upper", "round_ratios"});
-  for (const Ceiling& ceiling : machine) table.append(ceiling.row(threads));
-  return table;
+  return table_of(Ceiling::columns(), machine);
 }
 
 std::string tables_on_page(const Table& machine, const Table& solves, std::size_t threads) {
@@ -237,38 +260,35 @@ std::string tables_on_page(const Table& machine, const Table& solves, std::size_
                                     {"status", "status"}});
 }
 
-int run_threads(CommandLine& line, const std::vector<std::string>& command) {
-  std::filesystem::path out = "results";
-  std::vector<std::string> problems = paper_problem_names();
-  std::vector<std::string> methods{"dmoc", "hamiltonian"};
-  std::vector<int> grids{65536, 262144, 1000000};
-  int rounds = 11;
-  int threads = 2;
-  line.option("--out", out, "folder for speed_threads.csv, speed_threads_ceiling.csv and speed_threads.md");
-  line.list("--problem", problems, "problems");
-  line.list("--method", methods, "methods");
-  line.list("--intervals", grids, "numbers of intervals");
-  line.number("--rounds", rounds, 1, 1000, "how often everything is solved, in turn");
-  line.number("--threads", threads, 2, 1024, "threads that are compared with one");
-  line.parse();
-  static_cast<void>(is_busy());
-  const OutputFolder folder(out);
-  const auto several = static_cast<std::size_t>(threads);
-  const Table solves = solves_table(problems, methods, grids, rounds, several);
-  const Table machine = ceiling_table(rounds, several);
-  write_file(out / "speed_threads.csv", solves.csv());
-  write_file(out / "speed_threads_ceiling.csv", machine.csv());
-  write_page(out / "speed_threads.md", page_head(fmt::format("What {} threads gain", threads), command) +
-                                           words_of_page + tables_on_page(machine, solves, several));
-  return 0;
-}
-
 }  // namespace
+
+int run_threads(int argc, char** argv) {
+  Programs programs;
+  int threads = 2;
+  const PageProgram program{
+      .name = "threads",
+      .description = "What a second thread gains in whole solves, beside what the machine gives.",
+      .ends = {"", "_ceiling"},
+      .columns = describe(SharedSolves::columns()) + "\nof speed_threads_ceiling.csv:\n" + describe(Ceiling::columns()),
+      .options =
+          [&](CommandLine& line) {
+            line.list("--problem", programs.problems, "problems");
+            line.list("--method", programs.methods, "methods");
+            line.list("--intervals", programs.grids, "numbers of intervals");
+            line.number("--threads", threads, 2, 1024, "threads that are compared with one");
+          },
+      .measure =
+          [&](int rounds) {
+            const auto several = static_cast<std::size_t>(threads);
+            const Table solves = solves_table(programs, rounds, several);
+            const Table machine = ceiling_table(rounds, several);
+            return MeasuredPage{.title = fmt::format("What {} threads gain", threads),
+                                .text = words_of_page + tables_on_page(machine, solves, several),
+                                .tables = {{"", solves}, {"_ceiling", machine}}};
+          }};
+  return program.run(argc, argv);
+}
 
 }  // namespace dmocbench::speed
 
-int main(int argc, char** argv) {
-  return dmocbench::speed::run_page_program(
-      "threads", "What a second thread gains in whole solves, beside what the machine gives.", argc, argv,
-      dmocbench::speed::run_threads);
-}
+int main(int argc, char** argv) { return dmocbench::speed::run_threads(argc, argv); }

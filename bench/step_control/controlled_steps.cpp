@@ -1,6 +1,7 @@
 #include "bench/step_control/controlled_steps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -9,7 +10,6 @@
 #include "bench/step_control/kepler_ellipse.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
-#include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/step_times.hpp"
 
@@ -17,11 +17,9 @@ namespace dmocbench {
 
 namespace {
 
-StepRule rule_named(const std::string& rule) {
-  if (rule == "variational") return StepRule::variational;
-  if (rule == "imposed" || rule == "uniform") return StepRule::imposed;
-  if (rule == "from_left") return StepRule::from_left;
-  throw Error("there is no choice of steps \"" + rule + "\"");
+StepRule rule_of(StepPolicy policy) {
+  if (policy == StepPolicy::variational) return StepRule::variational;
+  return policy == StepPolicy::from_left ? StepRule::from_left : StepRule::imposed;
 }
 
 /// One period without thrust.
@@ -31,23 +29,34 @@ Motion free_period(const KeplerEllipse& ellipse) {
 
 }  // namespace
 
-StepFunction step_function(const std::string& name, double exponent) {
-  if (name == "nothing") return [](const ControlledState& /*x*/) { return Expression(1.0); };
-  if (name == "distance") return [exponent](const ControlledState& x) { return pow(x.q.dot(x.q), 0.5 * exponent); };
-  if (name == "acceleration") {
-    const auto traced = std::make_shared<TracedProblem>(KeplerEllipse(0.0));
-    return [traced](const ControlledState& x) {
-      const ExpressionVector acceleration = traced->at(x.state()).configuration_force;  // unit mass
-      return pow(acceleration.dot(acceleration), -0.25);
-    };
+std::string_view name_of(StepPolicy policy) {
+  constexpr std::array names{"uniform", "variational", "imposed", "from_left"};
+  return names.at(static_cast<std::size_t>(policy));
+}
+
+std::string_view name_of(SigmaReads sigma) {
+  constexpr std::array names{"nothing", "distance", "acceleration", "thrust"};
+  return names.at(static_cast<std::size_t>(sigma));
+}
+
+StepFunction step_function(SigmaReads sigma, double exponent) {
+  switch (sigma) {
+    case SigmaReads::distance:
+      return [exponent](const ControlledState& x) { return pow(x.q.dot(x.q), 0.5 * exponent); };
+    case SigmaReads::acceleration:
+      return [traced = std::make_shared<TracedProblem>(KeplerEllipse(0.0))](const ControlledState& x) {
+        const ExpressionVector acceleration = traced->at(x.state()).configuration_force;  // unit mass
+        return pow(acceleration.dot(acceleration), -0.25);
+      };
+    case SigmaReads::thrust:
+      return [](const ControlledState& x) {
+        constexpr double reference = 0.05;
+        return 1.0 / sqrt(1.0 + x.u[0] * x.u[0] / (reference * reference));
+      };
+    case SigmaReads::nothing:
+      break;
   }
-  if (name == "thrust") {
-    return [](const ControlledState& x) {
-      constexpr double reference = 0.05;
-      return 1.0 / sqrt(1.0 + x.u[0] * x.u[0] / (reference * reference));
-    };
-  }
-  throw Error("there is no function \"" + name + "\" that steps are proportional to");
+  return [](const ControlledState& /*x*/) { return Expression(1.0); };
 }
 
 ControlledSteps::ControlledSteps(double eccentricity, const StepChoice& choice, int steps_per_period, double exponent)
@@ -55,7 +64,7 @@ ControlledSteps::ControlledSteps(double eccentricity, const StepChoice& choice, 
       stages_(choice.stages),
       steps_per_period_(steps_per_period),
       map_(KeplerEllipse(eccentricity), gauss_tableau(choice.stages), step_function(choice.sigma, exponent),
-           rule_named(choice.rule)),
+           rule_of(choice.rule)),
       pace_(
           step_times(step_function(choice.sigma, exponent), free_period(KeplerEllipse(eccentricity)), steps_per_period)
               .pace) {}

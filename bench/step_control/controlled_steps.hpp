@@ -1,6 +1,7 @@
 #pragma once
 
-#include <string>
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "bench/structure/long_time_energy.hpp"
@@ -8,21 +9,34 @@
 
 namespace dmocbench {
 
+/// How steps are chosen: all equal, or by a `StepRule`.
+enum class StepPolicy : std::uint8_t { uniform, variational, imposed, from_left };
+/// What σ reads.
+enum class SigmaReads : std::uint8_t { nothing, distance, acceleration, thrust };
+
+/// "uniform", "variational", "imposed" or "from_left".
+[[nodiscard]] std::string_view name_of(StepPolicy policy);
+/// "nothing", "distance", "acceleration" or "thrust".
+[[nodiscard]] std::string_view name_of(SigmaReads sigma);
+
 /// How DMOC chooses its steps along a Kepler ellipse.
 struct StepChoice {
-  std::string rule;   ///< "uniform", "variational", "imposed" or "from_left" (`StepRule`)
-  std::string sigma;  ///< what σ reads: "nothing", "distance", "acceleration" or "thrust"
-  int stages = 1;     ///< of the Gauss tableau
+  StepPolicy rule = StepPolicy::uniform;
+  SigmaReads sigma = SigmaReads::nothing;
+  int stages = 1;  ///< of the Gauss tableau
+
+  [[nodiscard]] std::string_view rule_name() const { return name_of(rule); }
+  [[nodiscard]] std::string_view sigma_name() const { return name_of(sigma); }
 };
 
-/// σ of that name: 1, |q|^exponent, |q̈|^(-1/2) of the unforced motion, (1 + (u/0.05)²)^(-1/2). All of them are
+/// σ: 1, |q|^exponent, |q̈|^(-1/2) of the unforced motion, (1 + (u/0.05)²)^(-1/2). All of them are
 /// invariant under rotations.
-[[nodiscard]] StepFunction step_function(const std::string& name, double exponent);
+[[nodiscard]] StepFunction step_function(SigmaReads sigma, double exponent);
 
 /// DMOC from the pericentre of an ellipse by a choice of steps, so many in a period of the unforced motion.
 class ControlledSteps {
  public:
-  /// Throws `Error` if there is no such choice, or σ is not positive along the ellipse.
+  /// Throws `Error` if σ is not positive along the ellipse.
   ControlledSteps(double eccentricity, const StepChoice& choice, int steps_per_period, double exponent);
 
   /// The defect of symplecticity of the extended map (q, t, p, -E) ↦ (q, t, p, -E), largest over the steps of a period,

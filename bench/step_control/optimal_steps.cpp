@@ -31,21 +31,20 @@ SteppedTransfer::SteppedTransfer(double eccentricity, const SolverOptions& optio
   motion_ = smooth_motion(optimum_->trajectory());
 }
 
-OptimalSteps SteppedTransfer::solve(const std::string& rule, const StepFunction& sigma, int stages,
-                                    long long intervals) const {
-  const Tableau tableau = gauss_tableau(stages);
-  if (rule == "variational") {
-    StepControlProgram program(*problem_, tableau, sigma, static_cast<std::size_t>(intervals));
+OptimalSteps SteppedTransfer::solve(StepPolicy rule, const StepFunction& sigma, int stages, long long intervals) const {
+  if (rule == StepPolicy::variational) {
+    StepControlProgram program(*problem_, gauss_tableau(stages), sigma, static_cast<std::size_t>(intervals));
     const Solution solution = solver_->solve(program, program.start(motion_));
     return judged(solution, program.variable_count(), [&] { return program.read(solution.primal); });
   }
-  if (rule != "uniform" && rule != "imposed") throw Error("there is no choice of steps \"" + rule + "\"");
-  const Grid grid = rule == "uniform" ? Grid::uniform(intervals)
-                                      : Grid::from_nodes(step_times(sigma, motion_, intervals).times / motion_.horizon);
-  Transcription program(*problem_, *make_element("dmoc"), tableau, grid);
-  const Solution solution = solver_->solve(program, sample(program, motion_));
-  return judged(solution, program.variable_count(),
-                [&] { return read_trajectory(program, solution.primal, solution.multipliers); });
+  const Grid grid = rule == StepPolicy::uniform
+                        ? Grid::uniform(intervals)
+                        : Grid::from_nodes(step_times(sigma, motion_, intervals).times / motion_.horizon);
+  const auto program =
+      Case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .stages = stages, .grid = grid}.transcribe();
+  const Solution solution = solver_->solve(*program, sample(*program, motion_));
+  return judged(solution, program->variable_count(),
+                [&] { return read_trajectory(*program, solution.primal, solution.multipliers); });
 }
 
 OptimalSteps SteppedTransfer::judged(const Solution& solution, std::size_t variables,

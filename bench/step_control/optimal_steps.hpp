@@ -38,10 +38,9 @@ class SteppedTransfer {
   [[nodiscard]] double cost() const { return optimum_->cost(); }
   [[nodiscard]] double digits() const { return optimum_->certified_digits(); }
 
-  /// DMOC by a Gauss tableau with so many stages and intervals from the optimum: "uniform" steps, steps proportional to
-  /// σ along the optimum ("imposed"), or as part of the principle ("variational").
-  [[nodiscard]] OptimalSteps solve(const std::string& rule, const StepFunction& sigma, int stages,
-                                   long long intervals) const;
+  /// DMOC by a Gauss tableau with so many stages and intervals from the optimum: uniform steps, steps proportional to
+  /// σ along the optimum (imposed), or as part of the principle (variational).
+  [[nodiscard]] OptimalSteps solve(StepPolicy rule, const StepFunction& sigma, int stages, long long intervals) const;
 
  private:
   [[nodiscard]] OptimalSteps judged(const Solution& solution, std::size_t variables,

@@ -84,7 +84,7 @@ struct FittedQuantity {
   FittedOrder fit;
 };
 
-const Columns<FittedQuantity> slope_columns =
+const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
     Columns<FittedQuantity>{{"quantity", "", "what shrinks with the step", &FittedQuantity::quantity}} +
     fitted_order_columns(&FittedQuantity::fit);
@@ -228,7 +228,7 @@ ModifiedEnergyTables modified_energy_tables() {
       curves.fit_into(fits, scheme);
     }
   }
-  return {.drifts = table_of(drift_columns, drifts), .slopes = table_of(slope_columns, fits)};
+  return {.drifts = table_of(drift_columns, drifts), .orders = table_of(fitted_columns, fits)};
 }
 
 EnergyWorkTables energy_work_tables(const SolverOptions& options) {
@@ -240,7 +240,7 @@ EnergyWorkTables energy_work_tables(const SolverOptions& options) {
   }
   return {.plain = table_of(plain_columns, rows.plain),
           .modified = table_of(gap_columns, rows.modified),
-          .slopes = table_of(slope_columns, rows.fits)};
+          .orders = table_of(fitted_columns, rows.fits)};
 }
 
 }  // namespace dmocbench

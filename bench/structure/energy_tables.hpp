@@ -9,7 +9,7 @@ namespace dmocbench {
 /// Truncated modified energies along unforced motions by the midpoint rule in every family of elements.
 struct ModifiedEnergyTables {
   Table drifts;  ///< a row per system, method, step and order of truncation; columns are declared in the source
-  Table slopes;  ///< fitted orders of the drift
+  Table orders;  ///< fitted orders of the drift
 };
 [[nodiscard]] ModifiedEnergyTables modified_energy_tables();
 
@@ -18,7 +18,7 @@ struct ModifiedEnergyTables {
 struct EnergyWorkTables {
   Table plain;     ///< the energy itself, a row per problem, method and grid
   Table modified;  ///< the truncated modified energies, a row per order of truncation too
-  Table slopes;    ///< fitted orders of the gaps of both
+  Table orders;    ///< fitted orders of the gaps of both
 };
 /// Throws `Error` if a motion is not solved on the common branch.
 [[nodiscard]] EnergyWorkTables energy_work_tables(const SolverOptions& options);

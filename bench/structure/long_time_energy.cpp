@@ -62,28 +62,28 @@ auto explicit_midpoint() {
 }
 
 Stepper stepper_of(const LongTimeMethod& method, const Problem& problem, double h) {
-  if (method.name == "dmoc") {
+  if (method.kind == LongTimeMethod::Kind::dmoc) {
     return implicit_method(problem, "dmoc", make_tableau(method.tableau, method.stages), h);
   }
-  if (method.name == "radau") {
+  if (method.kind == LongTimeMethod::Kind::radau) {
     // Radau IIA is collocation of the equations of motion: its stages, with the end of the step among them.
     const long double root = std::sqrt(6.0L);
     const std::vector<long double> nodes{(4.0L - root) / 10.0L, (4.0L + root) / 10.0L, 1.0L};
     return implicit_method(problem, "tangent", collocation_tableau("radau", nodes, method.order), h);
   }
-  if (method.name == "explicit_midpoint") return explicit_method(problem, explicit_midpoint(), h);
-  if (method.name == "runge_kutta_4") return explicit_method(problem, odeint::runge_kutta4<PhaseVector>(), h);
-  throw Error("there is no integrator \"" + method.name + "\"");
+  if (method.kind == LongTimeMethod::Kind::explicit_midpoint) return explicit_method(problem, explicit_midpoint(), h);
+  return explicit_method(problem, odeint::runge_kutta4<PhaseVector>(), h);
 }
 
 }  // namespace
 
 std::vector<LongTimeMethod> long_time_methods() {
-  return {{.name = "dmoc", .tableau = "gauss", .stages = 1, .order = 2},
-          {.name = "dmoc", .tableau = "gauss", .stages = 2, .order = 4},
-          {.name = "radau", .tableau = "radau", .stages = 3, .order = 5},
-          {.name = "explicit_midpoint", .tableau = "", .stages = 2, .order = 2},
-          {.name = "runge_kutta_4", .tableau = "", .stages = 4, .order = 4}};
+  using Kind = LongTimeMethod::Kind;
+  return {{.kind = Kind::dmoc, .name = "dmoc", .tableau = "gauss", .stages = 1, .order = 2},
+          {.kind = Kind::dmoc, .name = "dmoc", .tableau = "gauss", .stages = 2, .order = 4},
+          {.kind = Kind::radau, .name = "radau", .tableau = "radau", .stages = 3, .order = 5},
+          {.kind = Kind::explicit_midpoint, .name = "explicit_midpoint", .tableau = "", .stages = 2, .order = 2},
+          {.kind = Kind::runge_kutta_4, .name = "runge_kutta_4", .tableau = "", .stages = 4, .order = 4}};
 }
 
 std::vector<PeriodEnergy> long_time_energy(const LongTimeMethod& method, int steps_per_period, long long periods) {

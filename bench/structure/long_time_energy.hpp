@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,7 +11,9 @@ namespace dmocbench {
 
 /// An integrator of the unforced Kepler ellipse that is followed for many periods.
 struct LongTimeMethod {
-  std::string name;     ///< "dmoc", "radau", "explicit_midpoint", "runge_kutta_4"
+  enum class Kind : std::uint8_t { dmoc, radau, explicit_midpoint, runge_kutta_4 };
+  Kind kind = Kind::dmoc;
+  std::string name;     ///< that of the kind
   std::string tableau;  ///< of the implicit ones; empty for the others
   int stages = 0;
   int order = 0;

@@ -54,7 +54,7 @@ KeptMomentum measured(const Case& the_case, const Trajectory& motion) {
 }  // namespace
 
 Table orthogonal_forces_table(const SolverOptions& options) {
-  StartProvider starts({.kind = "guess"}, options);
+  StartProvider starts({.start = "guess"}, options);
   const std::unique_ptr<Solver> solver = make_solver("ipopt", options);
   std::vector<KeptMomentum> rows;
   const std::vector<std::shared_ptr<const Problem>> problems{std::make_shared<RadialThrust>(),

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "bench/summary/column_meanings.hpp"
 #include "bench/summary/ratio_interval.hpp"
 #include "bench/summary/ratios.hpp"
 
@@ -63,9 +62,7 @@ Selection comparable_rows(const Selection& table) {
 }  // namespace
 
 Table advantage_ratios(const Selection& advantage) {
-  Table table({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
-               "ratio_at_equal_intervals", "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
-  explain(table, meanings_in_ratios());
+  std::vector<ComparedCost> costs;
   const Selection rows = comparable_rows(advantage);
   for (const Selection& line : rows.group_by(line_columns)) {
     const Selection dmoc = rows.where("method", "dmoc")
@@ -74,16 +71,18 @@ Table advantage_ratios(const Selection& advantage) {
     for (const Quantity& quantity : quantities) {
       const Cost cost = [&](const Row& row) { return quantity.cost(row); };
       for (const Row& row : line.where([&](const Row& solved) { return cost(solved).has_value(); })) {
-        Row result = fields_of(row, line_columns);
-        result.set("intervals", row.text("intervals"));
-        result.set("quantity", quantity.name);
-        set_cost_ratios(result, row, dmoc, cost, "objective_error", same_error);
-        set_rounds(result, quantity.ratios(row, dmoc.matching(row, {"intervals"}).front()));
-        table.append(std::move(result));
+        const Row& on_same_grid = dmoc.matching(row, {"intervals"}).front();
+        costs.push_back({.head = row,
+                         .name = quantity.name,
+                         .ratios = cost_ratios(row, dmoc, cost, "objective_error", same_error),
+                         .rounds = MedianOfRounds(quantity.ratios(row, on_same_grid))});
       }
     }
   }
-  return table;
+  return table_of(
+      compared_cost_columns({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals"},
+                            "quantity", "what is compared"),
+      costs);
 }
 
 }  // namespace dmocbench

@@ -4,10 +4,7 @@
 
 namespace dmocbench {
 
-/// What collocation costs beside DMOC, solver by solver, from a table of structure_advantage:
-/// problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals,
-/// ratio_at_equal_accuracy,ratio_lower,ratio_upper,round_ratios; the last three of quantities that are measured in
-/// rounds.
+/// What collocation costs beside DMOC, solver by solver, from a table of structure_advantage.
 ///
 /// Quantities are "seconds" of a solve, "seconds_per_iteration", the same without evaluations of the program
 /// ("linear_algebra_per_iteration"), "seconds_per_linear_system" (without finding its structure; interior_point alone

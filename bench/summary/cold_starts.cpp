@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/summary/column_meanings.hpp"
+#include "bench/experiment/column.hpp"
 #include "bench/summary/share_interval.hpp"
 #include "methods/numerics/quantile.hpp"
 
@@ -16,9 +16,6 @@ namespace {
 const ColumnNames grid_columns{"problem", "tableau", "stages", "intervals"};
 const ColumnNames columns_of_competitors{"method", "tableau", "stages", "solver", "derivatives", "intervals"};
 const ColumnNames cell_columns{"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"};
-
-/// Every row of the tables says so itself.
-constexpr const char* start_kind = "cold";
 
 bool was_confirmed(const Row& row) { return row.text("status") == "solved"; }
 bool was_too_coarse(const Row& row) { return row.text("status") == "too coarse"; }
@@ -49,37 +46,77 @@ std::vector<double> sorted_numbers(const Selection& rows, const std::string& col
   return numbers;
 }
 
-/// A column of the shares, and the column of the solves that it summarises.
+/// A column of the shares, the column of the solves that it summarises, and what that means.
 struct Effort {
   const char* name;
   const char* column;
+  const char* unit;
+  const char* meaning;
 };
-constexpr std::array efforts{Effort{"iterations", "major_iterations"}, Effort{"evaluations", "evaluations"},
-                             Effort{"seconds", "seconds"}};
+constexpr std::array efforts{Effort{"iterations", "major_iterations", "", "major iterations of the best answers"},
+                             Effort{"evaluations", "evaluations", "", "evaluations of derivatives by the best answers"},
+                             Effort{"seconds", "seconds", "s", "time of the best answers"}};
 constexpr std::array quartiles{std::pair{"_lower_quartile", 0.25}, std::pair{"_median", 0.5},
                                std::pair{"_upper_quartile", 0.75}};
-constexpr std::array counted{"solved", "confirmed", "best"};
 
-ColumnNames share_columns() {
-  ColumnNames columns = cell_columns;
-  columns.insert(columns.end(), {"start_kind", "starts"});
-  for (const std::string what : counted) {
-    columns.insert(columns.end(), {what, what + "_share", what + "_lower", what + "_upper"});
-  }
-  columns.insert(columns.end(), {"elsewhere", "too_coarse", "lost", "failures", "below_reference",
-                                 "certified_objective", "reference_objective", "reference_kind"});
-  for (const Effort& effort : efforts) {
-    for (const auto& [suffix, share] : quartiles) columns.push_back(std::string(effort.name) + suffix);
-  }
-  return columns;
+/// How the starts of a cell ended.
+struct EndsOfCell {
+  Row head;
+  ShareCount solved;
+  ShareCount confirmed;
+  ShareCount best;
+  std::size_t lost = 0;
+  std::string failures;
+  std::size_t below_reference = 0;
+  BestCost reference;
+  std::array<std::vector<double>, efforts.size()> taken = {};  ///< by the best answers, sorted
+};
+
+/// NAME, NAME_share, NAME_lower and NAME_upper.
+Columns<EndsOfCell> share_columns(const std::string& name, const std::string& meaning, ShareCount EndsOfCell::*count) {
+  return {{name, "", meaning, from(count, &ShareCount::hits)},
+          {name + "_share", "", "of all starts", from(count, &ShareCount::share)},
+          {name + "_lower", "", "Wilson's interval of 95 % of the share",
+           from(count, wilson_interval, &ShareInterval::lower)},
+          {name + "_upper", "", "of the same interval", from(count, wilson_interval, &ShareInterval::upper)}};
 }
 
-void set_share(Row& row, const std::string& what, const ShareCount& count) {
-  const ShareInterval interval = wilson_interval(count);
-  row.set(what, count.hits);
-  row.set(what + "_share", count.share());
-  row.set(what + "_lower", interval.lower);
-  row.set(what + "_upper", interval.upper);
+/// Every row of the tables says so itself.
+template <class Record>
+Column<Record> start_kind_column() {
+  return {"start_kind", "", "what solves start from", [](const Record& /*record*/) { return "cold"; }};
+}
+
+Columns<EndsOfCell> columns_of_ends() {
+  using Ends = EndsOfCell;
+  Columns<Ends> columns =
+      head_columns<Ends>(cell_columns) +
+      Columns<Ends>{start_kind_column<Ends>(),
+                    {"starts", "", "number of starts", from(&Ends::solved, &ShareCount::trials)}} +
+      share_columns("solved", "how many ended at a confirmed optimum of the discrete program", &Ends::solved) +
+      share_columns("confirmed", "how many were solved and whose intervals, replayed alone, join", &Ends::confirmed) +
+      share_columns("best", "how many were confirmed and cost no more than the reference, to the tolerance",
+                    &Ends::best) +
+      Columns<Ends>{
+          {"elsewhere", "", "how many were confirmed and cost more than the reference",
+           [](const Ends& ends) { return ends.confirmed.hits - ends.best.hits; }},
+          {"too_coarse", "", "how many were solved, but are no motions on this grid",
+           [](const Ends& ends) { return ends.solved.hits - ends.confirmed.hits; }},
+          {"lost", "", "how many were not solved", &Ends::lost},
+          {"failures", "", "the statuses of those that were not solved, each with its number", &Ends::failures},
+          {"below_reference", "", "how many of the best cost less than the reference", &Ends::below_reference},
+          {"certified_objective", "cost", "the certified optimum of the problem, where there is one",
+           [](const Ends& ends) { return ends.head.number("reference_objective"); }},
+          {"reference_objective", "cost", "that answers are compared with", from(&Ends::reference, &BestCost::cost)},
+          {"reference_kind", "", "certified, or the lowest confirmed cost on the grid",
+           from(&Ends::reference, &BestCost::kind)}};
+  for (std::size_t i = 0; i < efforts.size(); ++i) {
+    for (const auto& [suffix, share] : quartiles) {
+      columns.push_back({std::string(efforts[i].name) + suffix, efforts[i].unit, efforts[i].meaning,
+                         [i, at = share](const Ends& ends) { return quantile(ends.taken[i], at); }});
+    }
+  }
+  return columns;
 }
 
 /// "iteration limit 12, step failed 3".
@@ -92,31 +129,22 @@ std::string failures_in_words(const Selection& lost) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-Row shares_of(const Selection& cell, const BestCost& reference, double tolerance) {
+EndsOfCell ends_of(const Selection& cell, const BestCost& reference, double tolerance) {
   const std::size_t starts = cell.size();
   const Selection confirmed = cell.where(was_confirmed);
   const Selection best = confirmed.where([&](const Row& row) { return reference.excess(row) <= tolerance; });
   const Selection below = best.where([&](const Row& row) { return reference.excess(row) < -tolerance; });
   const Selection lost = cell.where([](const Row& row) { return !was_confirmed(row) && !was_too_coarse(row); });
-  Row row = fields_of(cell.front(), cell_columns);
-  row.set("start_kind", start_kind);
-  row.set("starts", starts);
-  set_share(row, "solved", {.hits = starts - lost.size(), .trials = starts});
-  set_share(row, "confirmed", {.hits = confirmed.size(), .trials = starts});
-  set_share(row, "best", {.hits = best.size(), .trials = starts});
-  row.set("elsewhere", confirmed.size() - best.size());
-  row.set("too_coarse", starts - lost.size() - confirmed.size());
-  row.set("lost", lost.size());
-  row.set("failures", failures_in_words(lost));
-  row.set("below_reference", below.size());
-  row.set("certified_objective", cell.front().number("reference_objective"));
-  row.set("reference_objective", reference.cost);
-  row.set("reference_kind", reference.kind);
-  for (const Effort& effort : efforts) {
-    const std::vector<double> taken = sorted_numbers(best, effort.column);
-    for (const auto& [suffix, share] : quartiles) row.set(std::string(effort.name) + suffix, quantile(taken, share));
-  }
-  return row;
+  EndsOfCell ends{.head = cell.front(),
+                  .solved = {.hits = starts - lost.size(), .trials = starts},
+                  .confirmed = {.hits = confirmed.size(), .trials = starts},
+                  .best = {.hits = best.size(), .trials = starts},
+                  .lost = lost.size(),
+                  .failures = failures_in_words(lost),
+                  .below_reference = below.size(),
+                  .reference = reference};
+  for (std::size_t i = 0; i < efforts.size(); ++i) ends.taken[i] = sorted_numbers(best, efforts[i].column);
+  return ends;
 }
 
 /// The efforts of the confirmed answers of a cell, sorted, and how many starts it had.
@@ -156,28 +184,36 @@ std::vector<double> budgets_of(const std::vector<Curve>& curves) {
   return budgets;
 }
 
-void append_profile(Table& table, const Row& cell, const std::string& measure, double budget, double share) {
-  Row row = cell;
-  row.set("start_kind", start_kind);
-  row.set("measure", measure);
-  row.set("budget", budget);
-  row.set("share", share);
-  table.append(std::move(row));
+/// A point of a profile of budgets.
+struct BudgetPoint {
+  Row head;
+  std::string measure;
+  double budget = 0.0;
+  double share = 0.0;
+};
+
+Columns<BudgetPoint> profile_columns() {
+  return head_columns<BudgetPoint>(cell_columns) +
+         Columns<BudgetPoint>{
+             start_kind_column<BudgetPoint>(),
+             {"measure", "", "what the budget is counted in", &BudgetPoint::measure},
+             {"budget", "", "largest number of evaluations, or of seconds, that a solve may take",
+              &BudgetPoint::budget},
+             {"share", "", "of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};
 }
 
-void append_profiles_of_problems(Table& table, const Selection& rows, const std::string& measure) {
+void append_profiles_of_problems(std::vector<BudgetPoint>& points, const Selection& rows, const std::string& measure) {
   for (const Selection& of_solver : rows.group_by({"problem", "solver"})) {
     const std::vector<Curve> curves = curves_of(of_solver, measure);
     const std::vector<double> budgets = budgets_of(curves);
     for (const Curve& curve : curves) {
-      for (const double budget : budgets)
-        append_profile(table, curve.cell, measure, budget, curve.share_within(budget));
+      for (const double budget : budgets) points.push_back({curve.cell, measure, budget, curve.share_within(budget)});
     }
   }
 }
 
 /// The means over the problems, of solvers that worked on several.
-void append_profiles_of_all(Table& table, const Selection& rows, const std::string& measure) {
+void append_profiles_of_all(std::vector<BudgetPoint>& points, const Selection& rows, const std::string& measure) {
   for (const Selection& of_solver : rows.group_by({"solver"})) {
     if (of_solver.distinct("problem").size() < 2) continue;
     const std::vector<double> budgets = budgets_of(curves_of(of_solver, measure));
@@ -188,7 +224,7 @@ void append_profiles_of_all(Table& table, const Selection& rows, const std::stri
       for (const double budget : budgets) {
         double sum = 0.0;
         for (const Curve& curve : curves) sum += curve.share_within(budget);
-        append_profile(table, cell, measure, budget, sum / static_cast<double>(curves.size()));
+        points.push_back({cell, measure, budget, sum / static_cast<double>(curves.size())});
       }
     }
   }
@@ -197,25 +233,21 @@ void append_profiles_of_all(Table& table, const Selection& rows, const std::stri
 }  // namespace
 
 Table cold_start_shares(const Selection& rows, double tolerance) {
-  Table table(share_columns());
-  explain(table, meanings_in_cold_starts());
+  std::vector<EndsOfCell> all;
   for (const Selection& grid : rows.group_by(grid_columns)) {
     const BestCost reference(grid, tolerance);
-    for (const Selection& cell : grid.group_by(cell_columns)) table.append(shares_of(cell, reference, tolerance));
+    for (const Selection& cell : grid.group_by(cell_columns)) all.push_back(ends_of(cell, reference, tolerance));
   }
-  return table;
+  return table_of(columns_of_ends(), all);
 }
 
 Table cold_start_profiles(const Selection& rows) {
-  ColumnNames columns = cell_columns;
-  columns.insert(columns.end(), {"start_kind", "measure", "budget", "share"});
-  Table table(columns);
-  explain(table, meanings_in_cold_starts());
+  std::vector<BudgetPoint> points;
   for (const std::string measure : {"evaluations", "seconds"}) {
-    append_profiles_of_problems(table, rows, measure);
-    append_profiles_of_all(table, rows, measure);
+    append_profiles_of_problems(points, rows, measure);
+    append_profiles_of_all(points, rows, measure);
   }
-  return table;
+  return table_of(profile_columns(), points);
 }
 
 }  // namespace dmocbench

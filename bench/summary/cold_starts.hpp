@@ -19,9 +19,8 @@ namespace dmocbench {
 [[nodiscard]] Table cold_start_shares(const Selection& rows, double tolerance);
 
 /// Data profiles after Moré and Wild: the share of all starts that are solved and confirmed within a budget of
-/// `evaluations` or `seconds`: the columns of `cold_start_shares` up to the intervals, then start_kind, measure,
-/// budget, share. Curves are steps; those of one problem and solver end at one budget. The problem `every_problem` is
-/// the mean of the problems' shares, where there are several.
+/// `evaluations` or `seconds`. Curves are steps; those of one problem and solver end at one budget. The problem
+/// `every_problem` is the mean of the problems' shares, where there are several.
 [[nodiscard]] Table cold_start_profiles(const Selection& rows);
 
 /// In the column `problem`: the mean over all problems.

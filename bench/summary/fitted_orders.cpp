@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "bench/summary/column_meanings.hpp"
+#include "bench/experiment/column.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/numerics/median.hpp"
 
@@ -33,8 +33,7 @@ constexpr std::array fitted_quantities{"state",
                                        "stage_costate_q",
                                        "stage_costate_p"};
 
-const ColumnNames table_columns{"problem",        "method", "tableau",  "stages", "quantity", "slope",
-                                "standard_error", "finest", "coarsest", "points", "floor",    "verdict"};
+const ColumnNames scheme_names{"problem", "method", "tableau", "stages"};
 /// Rows that agree in these differ in their grid only.
 const ColumnNames curve_columns{"problem", "method", "tableau", "stages", "solver", "derivatives"};
 
@@ -118,23 +117,45 @@ Fit in_range(const Selection& curve, const std::string& column, const FitRange& 
   })};
 }
 
-/// Appends the row of a fit, unless there is nothing to say.
-void append_fit(Table& table, const std::string& quantity, const std::string& column, const Fit& fit, const Row& head) {
-  const bool is_floor = fit.verdict == "floor";
-  const auto order = is_floor ? std::nullopt : fit_order(errors_of(fit.grids, column));
-  if (!order && !is_floor) return;
-  Row row = fields_of(head, {"problem", "method", "tableau", "stages"});
-  row.set("quantity", quantity);
-  if (order) {
-    row.set("slope", order->order);
-    if (order->points > 2) row.set("standard_error", order->standard_error);
-    row.set("finest", fit.grids.back().text("intervals"));
-    row.set("coarsest", fit.grids.front().text("intervals"));
-  }
-  row.set("points", fit.grids.size());
-  row.set("floor", fit.floor);
-  row.set("verdict", fit.verdict);
-  table.append(std::move(row));
+long long intervals_of(const Row& grid) { return static_cast<long long>(grid.number("intervals", 0.0)); }
+long long finest_of(const Selection& grids) { return intervals_of(grids.back()); }
+long long coarsest_of(const Selection& grids) { return intervals_of(grids.front()); }
+
+/// A curve with the order of one of its quantities; none at the floor.
+struct FittedCurve {
+  Row head;
+  std::string quantity;
+  Fit fit;
+  std::optional<FittedOrder> order = std::nullopt;
+
+  /// The grids, if an order was fitted to them.
+  [[nodiscard]] const Selection* fitted_grids() const { return order ? &fit.grids : nullptr; }
+};
+
+Columns<FittedCurve> order_columns() {
+  using Curve = FittedCurve;
+  return head_columns<Curve>(scheme_names) +
+         Columns<Curve>{
+             {"quantity", "", "the error whose order is fitted: the column of that name with _error behind it",
+              &Curve::quantity},
+             {"slope", "", "fitted order; empty where the verdict is not \"slope\"",
+              from(&Curve::order, &FittedOrder::order)},
+             {"standard_error", "", "of the order; empty with two points", from(&Curve::order, standard_error_of)},
+             {"finest", "", "largest number of intervals used", from(&Curve::fitted_grids, finest_of)},
+             {"coarsest", "", "smallest number of intervals used", from(&Curve::fitted_grids, coarsest_of)},
+             {"points", "", "number of grids used", from(&Curve::fit, &Fit::grids, &Selection::size)},
+             {"floor", "", "error at which rounding begins; empty where none was measured",
+              from(&Curve::fit, &Fit::floor)},
+             {"verdict", "", "slope, floor (rounding leaves too few grids) or few grids",
+              from(&Curve::fit, &Fit::verdict)}};
+}
+
+/// Appends a fit, unless there is nothing to say.
+void append_fit(std::vector<FittedCurve>& curves, const std::string& quantity, const std::string& column,
+                const Fit& fit, const Row& head) {
+  FittedCurve curve{.head = head, .quantity = quantity, .fit = fit};
+  if (fit.verdict != "floor") curve.order = fit_order(errors_of(fit.grids, column));
+  if (curve.order || fit.verdict == "floor") curves.push_back(std::move(curve));
 }
 
 /// The range against a finer grid, with a note where it goes too far.
@@ -164,78 +185,100 @@ void note_missing_orders(const Selection& curve, const FitRange& range, std::vec
       range.finest));
 }
 
+/// The orders of a curve's largest jump and of its state error on the same grids.
+struct TwoOrders {
+  FittedOrder jump;
+  FittedOrder error;
+  Selection grids;
+};
+
+struct JumpsOfCurve {
+  Row head;
+  std::optional<TwoOrders> orders;
+  std::size_t points = 0;
+  std::string verdict;
+};
+
+constexpr const char* jump_column = "largest_jump";
+constexpr const char* error_column = "state_error";
+
+double error_of_jumps(const Row& grid) {
+  return grid.number(error_column, 0.0) / (grid.number("intervals", 0.0) * grid.number(jump_column, 0.0));
+}
+
+Columns<JumpsOfCurve> jump_columns() {
+  constexpr auto orders = &JumpsOfCurve::orders;
+  return head_columns<JumpsOfCurve>(scheme_names) +
+         Columns<JumpsOfCurve>{
+             {"jump_slope", "", "fitted order of the largest jump of an interval that is replayed alone",
+              from(orders, &TwoOrders::jump, &FittedOrder::order)},
+             {"jump_standard_error", "", "of that order", from(orders, &TwoOrders::jump, standard_error_of)},
+             {"error_slope", "", "fitted order of the state error on the same grids",
+              from(orders, &TwoOrders::error, &FittedOrder::order)},
+             {"error_standard_error", "", "of that order", from(orders, &TwoOrders::error, standard_error_of)},
+             {"orders_apart", "", "jump_slope minus error_slope",
+              from(orders, [](const TwoOrders& both) { return both.jump.order - both.error.order; })},
+             {"error_of_jumps_coarsest", "", "state error by N times the jump on the coarsest grid",
+              from(orders, &TwoOrders::grids, &Selection::front, error_of_jumps)},
+             {"error_of_jumps_finest", "", "the same on the finest grid",
+              from(orders, &TwoOrders::grids, &Selection::back, error_of_jumps)},
+             {"coarsest", "", "smallest number of intervals used", from(orders, &TwoOrders::grids, coarsest_of)},
+             {"finest", "", "largest number of intervals used", from(orders, &TwoOrders::grids, finest_of)},
+             {"points", "", "number of grids used", &JumpsOfCurve::points},
+             {"verdict", "", "slope, floor (rounding leaves too few grids) or few grids", &JumpsOfCurve::verdict}};
+}
+
 }  // namespace
 
 FittedOrders fit_orders(const Selection& convergence, const std::optional<FitRange>& range, long long reference) {
-  FittedOrders result{.table = Table(table_columns), .notes = {}};
-  explain(result.table, meanings_in_orders());
+  std::vector<FittedCurve> curves;
+  std::vector<std::string> notes;
   const bool is_exact = reference == exact_reference;
   for (const Selection& curve : convergence.group_by(curve_columns)) {
     const Row& head = curve.front();
     const auto of_the_method = convergence.matching(head, {"problem", "method"}).group_by(curve_columns);
-    const FitRange fitted =
-        is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, result.notes);
-    const std::size_t fits_before = result.table.rows().size();
+    const FitRange fitted = is_exact ? range.value_or(FitRange()) : range_against_grid(curve, range, reference, notes);
+    const std::size_t fits_before = curves.size();
     for (const std::string quantity : fitted_quantities) {
       const std::string column = quantity + "_error";
       const Fit fit = is_exact && !range ? above_the_floor(curve, column, smallest_floor(of_the_method, column))
                                          : in_range(curve, column, fitted);
-      append_fit(result.table, quantity, column, fit, head);
+      append_fit(curves, quantity, column, fit, head);
     }
     const bool has_range = !is_exact || range.has_value();
-    if (has_range && result.table.rows().size() == fits_before) note_missing_orders(curve, fitted, result.notes);
+    if (has_range && curves.size() == fits_before) note_missing_orders(curve, fitted, notes);
   }
-  return result;
+  return {.table = table_of(order_columns(), curves), .notes = std::move(notes)};
 }
 
 Table fit_jumps(const Selection& convergence) {
-  const std::string jump = "largest_jump";
-  const std::string error = "state_error";
-  Table table({"problem", "method", "tableau", "stages", "jump_slope", "jump_standard_error", "error_slope",
-               "error_standard_error", "orders_apart", "error_of_jumps_coarsest", "error_of_jumps_finest", "coarsest",
-               "finest", "points", "verdict"});
-  explain(table, meanings_in_orders());
+  std::vector<JumpsOfCurve> curves;
   for (const Selection& curve : convergence.group_by(curve_columns)) {
     const auto of_the_method = convergence.matching(curve.front(), {"problem", "method"}).group_by(curve_columns);
-    const Fit jumps = above_the_floor(curve, jump, smallest_floor(of_the_method, jump));
+    const Fit jumps = above_the_floor(curve, jump_column, smallest_floor(of_the_method, jump_column));
     if (jumps.grids.empty()) continue;
-    const Fit both = above_the_floor(jumps.grids, error, smallest_floor(of_the_method, error));
-    Row row = fields_of(curve.front(), {"problem", "method", "tableau", "stages"});
-    row.set("points", both.grids.size());
-    row.set("verdict", both.grids.size() < fewest_grids && jumps.verdict != "slope" ? jumps.verdict : both.verdict);
-    const auto jump_order = fit_order(errors_of(both.grids, jump));
-    const auto error_order = fit_order(errors_of(both.grids, error));
-    if (jump_order && error_order) {
-      const auto error_of_jumps = [&](const Row& grid) {
-        return grid.number(error, 0.0) / (grid.number("intervals", 0.0) * grid.number(jump, 0.0));
-      };
-      row.set("jump_slope", jump_order->order);
-      row.set("error_slope", error_order->order);
-      if (jump_order->points > 2) {
-        row.set("jump_standard_error", jump_order->standard_error);
-        row.set("error_standard_error", error_order->standard_error);
-      }
-      row.set("orders_apart", jump_order->order - error_order->order);
-      row.set("error_of_jumps_coarsest", error_of_jumps(both.grids.front()));
-      row.set("error_of_jumps_finest", error_of_jumps(both.grids.back()));
-      row.set("coarsest", both.grids.front().text("intervals"));
-      row.set("finest", both.grids.back().text("intervals"));
-    }
-    table.append(std::move(row));
+    const Fit both = above_the_floor(jumps.grids, error_column, smallest_floor(of_the_method, error_column));
+    const bool are_few_jumps = both.grids.size() < fewest_grids && jumps.verdict != "slope";
+    JumpsOfCurve& fitted = curves.emplace_back(JumpsOfCurve{.head = curve.front(),
+                                                            .orders = std::nullopt,
+                                                            .points = both.grids.size(),
+                                                            .verdict = are_few_jumps ? jumps.verdict : both.verdict});
+    const auto jump_order = fit_order(errors_of(both.grids, jump_column));
+    const auto error_order = fit_order(errors_of(both.grids, error_column));
+    if (jump_order && error_order) fitted.orders = {*jump_order, *error_order, both.grids};
   }
-  return table;
+  return table_of(jump_columns(), curves);
 }
 
 Table fit_differences(const Selection& equivalence, const std::string& column) {
-  Table table(table_columns);
-  explain(table, meanings_in_orders());
+  std::vector<FittedCurve> curves;
   for (const Selection& curve : equivalence.where("method", "tangent").group_by(curve_columns)) {
     const Selection hamiltonian = equivalence.matching(curve.front(), {"problem"}).where("method", "hamiltonian");
     const Selection rounded = hamiltonian.usable().with_number(column);
     if (rounded.empty()) continue;
-    append_fit(table, column, column, above_the_floor(curve, column, rounded.max(column)), curve.front());
+    append_fit(curves, column, column, above_the_floor(curve, column, rounded.max(column)), curve.front());
   }
-  return table;
+  return table_of(order_columns(), curves);
 }
 
 }  // namespace dmocbench

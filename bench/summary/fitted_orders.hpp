@@ -19,10 +19,8 @@ constexpr long long exact_reference = -1;
 
 /// Fitted orders of convergence, with notes for the reader.
 struct FittedOrders {
-  /// problem,method,tableau,stages,quantity,slope,standard_error,finest,coarsest,points,floor,verdict; finest and
-  /// coarsest are numbers of intervals, quantities are the columns of errors without "_error". `verdict` is "slope",
-  /// "floor" where too few grids lie above the floor (such a row has no order), or "few grids" where there are too few
-  /// of them anyway. `floor` is empty where none was measured.
+  /// `verdict` is "slope", "floor" where too few grids lie above the floor (such a row has no order), or "few grids"
+  /// where there are too few of them anyway.
   Table table;
   std::vector<std::string> notes;
 };
@@ -43,13 +41,11 @@ struct FittedOrders {
                                       long long reference);
 
 /// How the worst interval (`accuracy`, which needs no other solution) tells the true error: a row per curve of a
-/// convergence table against an exact reference,
-/// problem,method,tableau,stages,jump_slope,jump_standard_error,error_slope,error_standard_error,orders_apart,
-/// error_of_jumps_coarsest,error_of_jumps_finest,coarsest,finest,points,verdict.
+/// convergence table against an exact reference.
 ///
 /// Both slopes, of `largest_jump` and of the state error, are fitted on the same grids: those where both are above
 /// their floors by the rules of `fit_orders`.
-/// `orders_apart` is the first slope minus the second. `error_of_jumps` is the state error divided by N times the jump:
+/// `error_of_jumps` is the state error divided by N times the jump:
 /// it does not depend on N where the slopes are one order apart, because an error is the sum of N jumps that the motion
 /// carries on. With one stage they are. With s > 1 the order of the error is 2s and that of the jumps lies between
 /// s + 2, of the stage controls, and 2s + 1.

@@ -15,14 +15,10 @@ namespace dmocbench {
 /// whole horizon ends near the final state for some answer. Rows that were not solved are in no minimum.
 [[nodiscard]] Table distinct_minima(const Selection& rows, double separation);
 
-/// How often each method found the best minimum: problem,method,tableau,stages,solver,derivatives,intervals,starts,
-/// solved,unsolved,unconfirmed,best,share,share_lower,share_upper. `unconfirmed` counts answers in minima that are no
-/// motion. The interval is Wilson's, 95 %.
+/// How often each method found the best minimum.
 [[nodiscard]] Table best_minimum_shares(const Selection& rows, double separation);
 
-/// What each start of a plane of them ended in:
-/// problem,method,tableau,stages,solver,derivatives,intervals,bulge_1,bulge_2 of the row, its status, and where it was
-/// solved the number and the lowest objective of its minimum in `distinct_minima`, and whether that is a motion.
+/// What each start of a plane of them ended in: of the minima in `distinct_minima`.
 [[nodiscard]] Table basins(const Selection& rows, double separation);
 
 /// The largest error of a replay of the whole horizon that ends near the final state.

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/summary/column_meanings.hpp"
+#include "bench/experiment/column.hpp"
 #include "methods/numerics/median.hpp"
 
 namespace dmocbench {
@@ -44,24 +44,96 @@ Contest contest_of(const Selection& rows, const std::string& measure) {
 /// x / y where both may be 0, as counts can.
 double effort_ratio(double x, double y) { return x == y ? 1.0 : x / std::max(y, smallest_effort); }
 
+/// A step of a competitor's profile.
+struct ProfilePoint {
+  Row head;
+  std::string measure;
+  double ratio = 1.0;
+  double share = 0.0;
+};
+
+Columns<ProfilePoint> point_columns() {
+  using Point = ProfilePoint;
+  return Columns<Point>{{"measure", "", "what the profile is drawn of", &Point::measure}} +
+         head_columns<Point>(competitor_columns) +
+         Columns<Point>{
+             {"ratio", "", "what a competitor takes by what the best one takes on the same instance", &Point::ratio},
+             {"share", "", "of all instances on which the competitor stays within the ratio", &Point::share}};
+}
+
+/// What a competitor takes by one measure.
+struct MeanEffort {
+  std::optional<double> mean;  ///< infinite where the solver does not tell the measure
+  std::ptrdiff_t wins = 0;
+};
+
+struct Standing {
+  Row head;
+  std::size_t instances = 0;
+  std::ptrdiff_t successes = 0;
+  std::size_t common = 0;
+  std::map<std::string, MeanEffort> efforts = {};  ///< by measures
+};
+
+Columns<Standing> standing_columns() {
+  Columns<Standing> columns =
+      head_columns<Standing>(competitor_columns) +
+      Columns<Standing>{{"instances", "", "problems, each on every number of intervals", &Standing::instances},
+                        {"successes", "", "instances that were solved to the reference", &Standing::successes},
+                        {"common", "", "instances on which all competitors succeed", &Standing::common}};
+  for (const std::string& measure : profile_measures()) {
+    const auto effort = [measure](const Standing& standing) { return standing.efforts.at(measure); };
+    const bool is_time = measure == "seconds";
+    columns.push_back({measure, is_time ? "s" : "", "shifted geometric mean over the common instances",
+                       from(effort, &MeanEffort::mean)});
+    columns.push_back({"wins_" + measure, "",
+                       is_time ? "instances on which it is the fastest or as fast"
+                               : "instances on which it takes the fewest or as few",
+                       from(effort, &MeanEffort::wins)});
+  }
+  return columns;
+}
+
 /// Sets means over the common instances, and wins, by one measure.
 void set_measure(const Contest& contest, const std::string& measure, const std::vector<std::size_t>& common,
-                 std::vector<Row>& summary) {
+                 std::vector<Standing>& standings) {
   std::vector<double> told;
   for (const std::size_t i : common) {
     std::ranges::copy_if(contest.taken[i], std::back_inserter(told), [](double taken) { return taken < never; });
   }
   const double shift = median(told);
-  for (std::size_t who = 0; who < summary.size(); ++who) {
+  for (std::size_t who = 0; who < standings.size(); ++who) {
     double sum = 0.0;
     for (const std::size_t i : common) sum += std::log(contest.taken[i][who] + shift);
-    const double mean = std::exp(sum / static_cast<double>(common.size())) - shift;
-    if (std::isfinite(mean)) summary[who].set(measure, mean);  // infinite where the solver does not tell the measure
-    const long long wins = std::ranges::count_if(contest.taken, [&](const std::vector<double>& taken) {
-      return taken[who] < never && taken[who] == std::ranges::min(taken);
-    });
-    summary[who].set("wins_" + measure, wins);
+    standings[who].efforts[measure] = {
+        .mean = std::exp(sum / static_cast<double>(common.size())) - shift,
+        .wins = std::ranges::count_if(contest.taken, [&](const std::vector<double>& taken) {
+          return taken[who] < never && taken[who] == std::ranges::min(taken);
+        })};
   }
+}
+
+/// A solve of the table of the library.
+struct LibraryAnswer {
+  Row head;
+  [[nodiscard]] std::optional<double> relative_difference() const {
+    const auto reference = head.number("reference_objective");
+    const auto objective = head.number("objective");
+    if (!reference || !objective) return std::nullopt;
+    return (*objective - *reference) / std::abs(*reference);
+  }
+};
+
+Columns<LibraryAnswer> library_columns() {
+  using Answer = LibraryAnswer;
+  return head_columns<Answer>({"problem", "reference_objective"}) +
+         Columns<Answer>{{"reference_digits", "", "certain digits of the reference",
+                          [](const Answer& answer) { return answer.head.number("reference_digits"); }}} +
+         head_columns<Answer>({"reference_kind", "method", "tableau", "stages", "solver", "derivatives", "intervals",
+                               "status", "objective"}) +
+         Columns<Answer>{{"relative_difference", "", "of the objective from the reference, with its sign",
+                          &Answer::relative_difference}} +
+         head_columns<Answer>({"success", "replay_error", "message"});
 }
 
 /// "0.5545708783346 (13 digits)".
@@ -91,8 +163,7 @@ const std::vector<std::string>& profile_measures() {
 }
 
 Table performance_profiles(const Selection& rows) {
-  Table table({"measure", "method", "tableau", "stages", "solver", "derivatives", "ratio", "share"});
-  explain(table, meanings_in_profiles());
+  std::vector<ProfilePoint> profile;
   for (const std::string& measure : profile_measures()) {
     const Contest contest = contest_of(rows, measure);
     std::vector<std::vector<double>> ratios(contest.competitors.size());
@@ -111,41 +182,33 @@ Table performance_profiles(const Selection& rows) {
       std::ranges::copy_if(steps, std::back_inserter(points), [](double step) { return step > 1.0; });
       points.push_back(largest);
       for (const double point : points) {
-        const auto within = std::ranges::upper_bound(steps, point) - steps.begin();
-        Row row = contest.competitors[who];
-        row.set("measure", measure);
-        row.set("ratio", point);
-        row.set("share", static_cast<double>(within) / static_cast<double>(contest.taken.size()));
-        table.append(std::move(row));
+        const auto within = static_cast<double>(std::ranges::upper_bound(steps, point) - steps.begin());
+        profile.push_back(
+            {contest.competitors[who], measure, point, within / static_cast<double>(contest.taken.size())});
       }
     }
   }
-  return table;
+  return table_of(point_columns(), profile);
 }
 
 Table profile_summary(const Selection& rows) {
-  ColumnNames columns = competitor_columns;
-  columns.insert(columns.end(), {"instances", "successes", "common"});
-  for (const std::string& measure : profile_measures()) columns.insert(columns.end(), {measure, "wins_" + measure});
-  Table table(columns);
-  explain(table, meanings_in_profiles());
   // Who succeeded where does not depend on what is measured; every solved row has an objective.
   const Contest successes = contest_of(rows, "objective");
   std::vector<std::size_t> common;
   for (std::size_t i = 0; i < successes.taken.size(); ++i) {
     if (std::ranges::max(successes.taken[i]) < never) common.push_back(i);
   }
-  std::vector<Row> summary = successes.competitors;
-  for (std::size_t who = 0; who < summary.size(); ++who) {
+  std::vector<Standing> standings;
+  for (std::size_t who = 0; who < successes.competitors.size(); ++who) {
     const auto has_solved = [who](const std::vector<double>& taken) { return taken[who] < never; };
-    summary[who].set("instances", successes.taken.size());
-    summary[who].set("successes", std::ranges::count_if(successes.taken, has_solved));
-    summary[who].set("common", common.size());
+    standings.push_back({.head = successes.competitors[who],
+                         .instances = successes.taken.size(),
+                         .successes = std::ranges::count_if(successes.taken, has_solved),
+                         .common = common.size()});
   }
   for (const std::string& measure : profile_measures())
-    set_measure(contest_of(rows, measure), measure, common, summary);
-  for (Row& row : summary) table.append(std::move(row));
-  return table;
+    set_measure(contest_of(rows, measure), measure, common, standings);
+  return table_of(standing_columns(), standings);
 }
 
 Table with_best_found_references(const Table& rows, double tolerance) {
@@ -172,20 +235,12 @@ Table with_best_found_references(const Table& rows, double tolerance) {
 }
 
 Table library_table(const Selection& rows) {
-  Table library({"problem", "reference_objective", "reference_digits", "reference_kind", "method", "tableau", "stages",
-                 "solver", "derivatives", "intervals", "status", "objective", "relative_difference", "success",
-                 "replay_error", "message"});
-  explain(library, meanings_in_profiles());
+  std::vector<LibraryAnswer> answers;
   for (const Selection& curve : rows.group_by({"problem", "method", "tableau", "stages", "solver", "derivatives"})) {
-    for (const Row& row : curve.where("intervals", curve.sorted_by("intervals").back().text("intervals"))) {
-      Row line = fields_of(row, library.columns());
-      const auto reference = row.number("reference_objective");
-      const auto objective = row.number("objective");
-      if (reference && objective) line.set("relative_difference", (*objective - *reference) / std::abs(*reference));
-      library.append(std::move(line));
-    }
+    const std::string& finest = curve.sorted_by("intervals").back().text("intervals");
+    for (const Row& row : curve.where("intervals", finest)) answers.push_back({row});
   }
-  return library;
+  return table_of(library_columns(), answers);
 }
 
 std::string library_table_in_markdown(const Selection& library) {

@@ -10,7 +10,7 @@ namespace dmocbench {
 /// The measures that profiles are drawn of: columns of the rows.
 [[nodiscard]] const std::vector<std::string>& profile_measures();
 
-/// Performance profiles of Dolan and Moré (2002): measure,method,tableau,stages,solver,derivatives,ratio,share.
+/// Performance profiles of Dolan and Moré (2002).
 ///
 /// An instance is a problem on a number of intervals, a competitor a method with its tableau, solver and derivatives.
 /// `share` is the share of all instances on which the competitor takes at most `ratio` times what the best one takes. A
@@ -19,10 +19,10 @@ namespace dmocbench {
 /// as well.
 [[nodiscard]] Table performance_profiles(const Selection& rows);
 
-/// What a competitor takes over all instances: method,tableau,stages,solver,derivatives,instances,successes, then per
-/// measure its shifted geometric mean exp(mean log(x + shift)) - shift over the `common` instances, those that all
-/// competitors solved (the shift is the median of the measure over those; empty where a solver does not tell the
-/// measure), and `wins_` per measure: on how many instances it is the best or as good.
+/// What a competitor takes over all instances: per measure its shifted geometric mean exp(mean log(x + shift)) - shift
+/// over the `common` instances, those that all competitors solved (the shift is the median of the measure over those;
+/// empty where a solver does not tell the measure), and `wins_` per measure: on how many instances it is the best or as
+/// good.
 [[nodiscard]] Table profile_summary(const Selection& rows);
 
 /// Where the cost of a reference comes from, as the column `reference_kind` tells.
@@ -34,9 +34,7 @@ inline constexpr const char* best_found_reference = "best found by any method he
 /// is a solve within `tolerance` of it, relative. Problems that nothing solves stay as they are.
 [[nodiscard]] Table with_best_found_references(const Table& rows, double tolerance);
 
-/// What every method reaches on every problem, at the finest grid of the rows:
-/// problem,reference_objective,reference_digits,reference_kind,method,tableau,stages,solver,derivatives,intervals,status,objective,
-/// relative_difference,success,replay_error,message, in the order of the rows.
+/// What every method reaches on every problem, at the finest grid of the rows, in their order.
 ///
 /// `relative_difference` is (objective - reference_objective) / |reference_objective|, with its sign: a minimum is
 /// approached from either side, and one that lies lower by more than its discretisation can is a better one. A solve

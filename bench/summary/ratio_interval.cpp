@@ -65,12 +65,12 @@ RatioInterval ratio_of_runs(std::span<const double> times, std::span<const doubl
   return interval;
 }
 
-void set_rounds(Row& result, std::span<const double> ratios) {
-  if (ratios.empty()) return;
-  const RatioInterval interval = ratio_interval(ratios);
-  result.set("ratio_lower", interval.lower);
-  result.set("ratio_upper", interval.upper);
-  result.set("round_ratios", joined_numbers(ratios));
+MedianOfRounds::MedianOfRounds(std::span<const double> of_rounds) : rounds(joined_numbers(of_rounds)) {
+  if (of_rounds.empty()) return;
+  const RatioInterval interval = ratio_interval(of_rounds);
+  median = interval.ratio;
+  lower = interval.lower;
+  upper = interval.upper;
 }
 
 std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "methods/tables/table.hpp"
+#include "bench/experiment/column.hpp"
 
 namespace dmocbench {
 
@@ -36,8 +38,29 @@ struct RatioInterval {
 /// finite number above zero.
 [[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
 
-/// Sets ratio_lower and ratio_upper, the interval, and round_ratios, from which it comes; nothing without rounds.
-void set_rounds(Row& result, std::span<const double> ratios);
+/// What was measured round by round, as tables tell it: the median with its interval, and the rounds; empty without
+/// them.
+struct MedianOfRounds {
+  MedianOfRounds() = default;
+  /// Throws `Error` as `ratio_interval` does.
+  explicit MedianOfRounds(std::span<const double> of_rounds);
+
+  std::optional<double> median;
+  std::optional<double> lower;
+  std::optional<double> upper;
+  std::string rounds;
+};
+
+/// ratio_lower, ratio_upper and round_ratios, from which the interval comes; `ratios` is a member of the record, or
+/// what `from` takes after one.
+template <class Record, class... Members>
+[[nodiscard]] Columns<Record> round_columns(Members... ratios) {
+  return {{"ratio_lower", "", "of the interval of 99 % of the median ratio, where rounds were timed",
+           from(ratios..., &MedianOfRounds::lower)},
+          {"ratio_upper", "", "of the same interval", from(ratios..., &MedianOfRounds::upper)},
+          {"round_ratios", "", "the ratio in each round, with spaces between them",
+           from(ratios..., &MedianOfRounds::rounds)}};
+}
 
 /// The quotients of two lists of times, round by round, as far as both reach.
 [[nodiscard]] std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others);

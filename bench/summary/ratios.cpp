@@ -5,9 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/summary/column_meanings.hpp"
-#include "bench/summary/ratio_interval.hpp"
-
 namespace dmocbench {
 
 namespace {
@@ -36,32 +33,55 @@ constexpr std::array currencies{
 
 constexpr double steps_per_decade = 2.0;
 
-/// What a method pays for an accuracy: the column in the table of equal accuracy, and the column of a solve that it is
-/// read from.
-constexpr std::array costs{std::pair{"intervals", "intervals"}, std::pair{"variables", "free_variables"},
-                           std::pair{"seconds", "seconds"}};
+/// What a method pays for an accuracy.
+struct AccuracyCost {
+  Row head;
+  std::string quantity;
+  double error = 0.0;
+  std::optional<double> intervals = std::nullopt;
+  std::optional<double> variables = std::nullopt;
+  std::optional<double> seconds = std::nullopt;
+  std::optional<double> variables_ratio = std::nullopt;
+  std::optional<double> seconds_ratio = std::nullopt;
+};
 
-/// A row for every method if all of them reach the error.
-void append_equal_accuracy(Table& table, const std::vector<Selection>& methods, const std::string& quantity,
-                           double error) {
-  Table rows;
+Columns<AccuracyCost> accuracy_cost_columns() {
+  using Paid = AccuracyCost;
+  return head_columns<Paid>({"problem", "tableau", "stages"}) +
+         Columns<Paid>{{"quantity", "", "what is compared", &Paid::quantity},
+                       {"error", "", "that all methods of a problem and tableau reach", &Paid::error}} +
+         head_columns<Paid>({"method"}) +
+         Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
+                        &Paid::intervals},
+                       {"variables", "", "number of free variables", &Paid::variables},
+                       {"seconds", "s", "time of a solve", &Paid::seconds},
+                       {"variables_ratio", "", "variables by those of dmoc at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "seconds by those of dmoc at this error", &Paid::seconds_ratio}};
+}
+
+/// What every method pays if all of them reach the error.
+void append_equal_accuracy(std::vector<AccuracyCost>& table, const std::vector<Selection>& methods,
+                           const std::string& quantity, double error) {
+  std::vector<AccuracyCost> all;
   for (const Selection& method : methods) {
-    Row row = fields_of(method.front(), {"problem", "tableau", "stages", "method"});
-    row.set("quantity", quantity);
-    row.set("error", error);
-    for (const auto& [column, source] : costs) {
-      const auto cost = cost_at_error(error_cost_points(method, quantity + "_error", cost_in(source)), error);
-      if (!cost) return;
-      row.set(column, cost);
-    }
-    rows.append(std::move(row));
+    const auto paid = [&](const char* column) {
+      return cost_at_error(error_cost_points(method, quantity + "_error", cost_in(column)), error);
+    };
+    all.push_back({.head = method.front(),
+                   .quantity = quantity,
+                   .error = error,
+                   .intervals = paid("intervals"),
+                   .variables = paid("free_variables"),
+                   .seconds = paid("seconds")});
+    if (!all.back().intervals || !all.back().variables || !all.back().seconds) return;
   }
-  const Row& dmoc = Selection(rows).where("method", "dmoc").front();
-  for (Row row : rows.rows()) {
-    for (const std::string cost : {"variables", "seconds"}) {
-      row.set(cost + "_ratio", ratio(row.number(cost), dmoc.number(cost)));
+  const auto dmoc = std::ranges::find(all, "dmoc", [](const AccuracyCost& cost) { return cost.head.text("method"); });
+  for (AccuracyCost cost : all) {
+    if (dmoc != all.end()) {
+      cost.variables_ratio = ratio(cost.variables, dmoc->variables);
+      cost.seconds_ratio = ratio(cost.seconds, dmoc->seconds);
     }
-    table.append(std::move(row));
+    table.push_back(std::move(cost));
   }
 }
 
@@ -97,20 +117,31 @@ std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, d
   return std::nullopt;
 }
 
-void set_cost_ratios(Row& result, const Row& row, const Selection& others, const Cost& cost,
-                     const std::string& error_column, double same_log_error) {
-  const Row& on_same_grid = others.matching(row, {"intervals"}).front();
-  result.set("ratio_at_equal_intervals", ratio(cost(row), cost(on_same_grid)));
+CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost, const std::string& error_column,
+                       double same_log_error) {
+  CostRatios ratios{.at_equal_intervals = ratio(cost(row), cost(others.matching(row, {"intervals"}).front())),
+                    .at_equal_accuracy = std::nullopt};
   const double error = row.number(error_column, 0.0);
-  if (!(error > 0.0)) return;
-  const auto at_same_error = cost_at_error(error_cost_points(others, error_column, cost), error, same_log_error);
-  result.set("ratio_at_equal_accuracy", ratio(cost(row), at_same_error));
+  if (error > 0.0) {
+    const auto points = error_cost_points(others, error_column, cost);
+    ratios.at_equal_accuracy = ratio(cost(row), cost_at_error(points, error, same_log_error));
+  }
+  return ratios;
+}
+
+Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const std::string& name,
+                                            const std::string& meaning) {
+  return head_columns<ComparedCost>(of_head) +
+         Columns<ComparedCost>{{name, "", meaning, &ComparedCost::name},
+                               {"ratio_at_equal_intervals", "", "of the method to dmoc on the same number of intervals",
+                                from(&ComparedCost::ratios, &CostRatios::at_equal_intervals)},
+                               {"ratio_at_equal_accuracy", "", "of the method to dmoc where their errors are the same",
+                                from(&ComparedCost::ratios, &CostRatios::at_equal_accuracy)}} +
+         round_columns<ComparedCost>(&ComparedCost::rounds);
 }
 
 Table equal_accuracy(const Selection& convergence) {
-  Table table({"problem", "tableau", "stages", "quantity", "error", "method", "intervals", "variables", "seconds",
-               "variables_ratio", "seconds_ratio"});
-  explain(table, meanings_in_ratios());
+  std::vector<AccuracyCost> table;
   for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
     for (const std::string quantity : {"state", "control", "replay"}) {
       const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
@@ -123,34 +154,36 @@ Table equal_accuracy(const Selection& convergence) {
       }
     }
   }
-  return table;
+  return table_of(accuracy_cost_columns(), table);
 }
 
 Table currency_ratios(const Selection& iterations) {
-  Table table({"problem", "method", "tableau", "stages", "intervals", "currency", "ratio_at_equal_intervals",
-               "ratio_at_equal_accuracy", "ratio_lower", "ratio_upper", "round_ratios"});
-  explain(table, meanings_in_ratios());
+  std::vector<ComparedCost> costs;
   for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
     const Selection dmoc = compared.where("method", "dmoc").usable();
     for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
       if (collocation.front().text("method") == "dmoc" || compared.where("method", "dmoc").empty()) continue;
       for (const Currency& currency : currencies) {
         if (collocation.front().text("solver") != currency.solver) continue;
+        const Selection others = dmoc.where("crash", currency.crash);
         for (const Row& row : collocation.usable().where("crash", currency.crash)) {
-          Row result = fields_of(row, {"problem", "method", "tableau", "stages", "intervals"});
-          result.set("currency", currency.name);
-          const Selection others = dmoc.where("crash", currency.crash);
-          set_cost_ratios(result, row, others, cost_in(currency.column), "replay_error");
+          ComparedCost& cost = costs.emplace_back(
+              ComparedCost{.head = row,
+                           .name = currency.name,
+                           .ratios = cost_ratios(row, others, cost_in(currency.column), "replay_error"),
+                           .rounds = {}});
           if (currency.column == std::string_view("seconds")) {
             const Row& on_same_grid = others.matching(row, {"intervals"}).front();
-            set_rounds(result, round_ratios(row.numbers("round_seconds"), on_same_grid.numbers("round_seconds")));
+            cost.rounds =
+                MedianOfRounds(round_ratios(row.numbers("round_seconds"), on_same_grid.numbers("round_seconds")));
           }
-          table.append(std::move(result));
         }
       }
     }
   }
-  return table;
+  return table_of(compared_cost_columns({"problem", "method", "tableau", "stages", "intervals"}, "currency",
+                                        "what a solve is paid in"),
+                  costs);
 }
 
 }  // namespace dmocbench

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/summary/ratio_interval.hpp"
 #include "bench/summary/selection.hpp"
 
 namespace dmocbench {
@@ -29,22 +30,34 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 [[nodiscard]] std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error,
                                                   double same_log_error = 0.0);
 
-/// Sets ratio_at_equal_intervals and ratio_at_equal_accuracy of `result`: the cost of `row` to that of `others` on the
-/// same number of intervals, and where their error is the same.
-void set_cost_ratios(Row& result, const Row& row, const Selection& others, const Cost& cost,
-                     const std::string& error_column, double same_log_error = 0.0);
+/// The cost of a row to that of others on the same number of intervals, and where their error is the same.
+struct CostRatios {
+  std::optional<double> at_equal_intervals;
+  std::optional<double> at_equal_accuracy;
+};
+[[nodiscard]] CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost,
+                                     const std::string& error_column, double same_log_error = 0.0);
 
-/// What the same accuracy costs each method, from a convergence table:
-/// problem,tableau,stages,quantity,error,method,intervals,variables,seconds,variables_ratio,seconds_ratio.
+/// A cost of a solve beside DMOC's, as tables tell it.
+struct ComparedCost {
+  Row head;
+  std::string name;  ///< of what is compared
+  CostRatios ratios;
+  MedianOfRounds rounds;  ///< of the ratio at equal intervals
+};
+
+/// The columns of a table of compared costs: those of the head, `name`, and the ratios.
+[[nodiscard]] Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const std::string& name,
+                                                          const std::string& meaning);
+
+/// What the same accuracy costs each method, from a convergence table.
 ///
 /// Quantities are the errors of state and control, and the replay error. For errors 10^-k/2 that every method of a
 /// problem and tableau reaches within its grids, the number of intervals, of free variables and the seconds of a solve
 /// are read off the method's curve (straight lines in logarithms between grids). Ratios are to dmoc, where it is there.
 [[nodiscard]] Table equal_accuracy(const Selection& convergence);
 
-/// What collocation costs beside DMOC in every currency of an iterations table:
-/// problem,method,tableau,stages,intervals,currency,ratio_at_equal_intervals,ratio_at_equal_accuracy,ratio_lower,
-/// ratio_upper,round_ratios; the last three of seconds that were measured in rounds.
+/// What collocation costs beside DMOC in every currency of an iterations table.
 ///
 /// A currency is a column of the rows of one solver and one kind of start. Accuracy is the replay error. Rows that were
 /// not solved, or lie on another branch, are left out.

@@ -30,8 +30,8 @@ std::optional<FittedOrder> fit_order(const std::vector<GridError>& points) {
   const double squares = (y - order.order * x).square().sum();
   if (count > 2) order.standard_error = std::sqrt(squares / static_cast<double>(count - 2) / xx);
   const auto [finest, coarsest] = std::ranges::minmax_element(usable, {}, &GridError::step);
-  order.finest = finest->step;
-  order.coarsest = coarsest->step;
+  order.first_abscissa = finest->step;
+  order.last_abscissa = coarsest->step;
   return order;
 }
 

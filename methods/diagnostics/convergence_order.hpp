@@ -15,8 +15,8 @@ struct GridError {
 struct FittedOrder {
   double order = 0.0;           ///< the exponent of h
   double standard_error = 0.0;  ///< of the order; 0 with two points
-  double finest = 0.0;          ///< smallest step used
-  double coarsest = 0.0;        ///< largest step used
+  double first_abscissa = 0.0;  ///< the smallest step used
+  double last_abscissa = 0.0;   ///< the largest step used
   int points = 0;               ///< how many it was fitted through
 };
 

@@ -10,6 +10,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/tables/table_file.hpp"
+#include "methods/tables/text_file.hpp"
 
 namespace dmocbench {
 
@@ -202,10 +203,20 @@ bool is_file_of_motion(const std::filesystem::path& file, const std::string& nod
          std::filesystem::equivalent(file, name + "_stages.csv", none);
 }
 
-Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
+MotionTexts read_motion_texts(const std::filesystem::path& nodes_file) {
   const std::filesystem::path stages_file = stages_file_of(nodes_file);
-  const Table nodes = read_table(nodes_file);
-  const Table stages = read_table(stages_file);
+  std::string nodes = read_file(nodes_file);
+  return {.nodes = std::move(nodes), .stages = read_file(stages_file)};
+}
+
+Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file) {
+  return motion_in_texts(problem, read_motion_texts(nodes_file), nodes_file);
+}
+
+Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts, const std::filesystem::path& nodes_file) {
+  const std::filesystem::path stages_file = stages_file_of(nodes_file);
+  const Table nodes = table_in(texts.nodes, nodes_file);
+  const Table stages = table_in(texts.stages, stages_file);
 
   // One control per stage time, joined linearly: the trajectory of a one-stage method.
   Trajectory trajectory;

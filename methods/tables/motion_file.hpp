@@ -44,8 +44,19 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 /// problem's, or less than a tenth of it.
 [[nodiscard]] Motion read_motion(const Problem& problem, const std::filesystem::path& nodes_file);
 
+/// The texts of the two files of a motion.
+struct MotionTexts {
+  std::string nodes;
+  std::string stages;
+};
+/// Reads them. Throws `Error` that names the file that cannot be read.
+[[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& nodes_file);
+
 /// The tables of such a motion as a trajectory: the nodes with their costates, where the file has a number for every
 /// one of them, and the controls; no other stage table, whatever method wrote it. Throws as `read_motion`.
 [[nodiscard]] Trajectory read_motion_tables(const Problem& problem, const std::filesystem::path& nodes_file);
+/// The same of files that were read before.
+[[nodiscard]] Trajectory motion_in_texts(const Problem& problem, const MotionTexts& texts,
+                                         const std::filesystem::path& nodes_file);
 
 }  // namespace dmocbench

@@ -9,13 +9,14 @@
 
 namespace dmocbench {
 
-Table read_table(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
+Table table_in(const std::string& text, const std::filesystem::path& file) {
   try {
     return Table::from_csv(text);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }
 }
+
+Table read_table(const std::filesystem::path& file) { return table_in(read_file(file), file); }
 
 }  // namespace dmocbench

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {
+
+/// The table in a text, which stands in a file of this name. Throws `Error` that names the file if it is no table.
+[[nodiscard]] Table table_in(const std::string& text, const std::filesystem::path& file);
 
 /// The table in a file that `Table::csv` wrote. Throws `Error` that names the file if it cannot be read or is no table.
 [[nodiscard]] Table read_table(const std::filesystem::path& file);

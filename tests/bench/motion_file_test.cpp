@@ -33,7 +33,7 @@ class MotionFile : public tests::InTemporaryFolder {
   [[nodiscard]] Motion read() const { return read_motion(*problem_, nodes_file()); }
   /// Asks for the start in the file as an experiment does.
   void provide() const {
-    StartProvider starts({.kind = nodes_file().string()}, {});
+    StartProvider starts({.start = nodes_file().string()}, {});
     const Case the_case{.problem = problem_, .method = "dmoc", .tableau = "gauss", .grid = Grid::uniform(8)};
     starts.check({the_case});
     EXPECT_EQ(starts.start_for(the_case).motion.at(0.5).q[0], 0.5);

@@ -41,7 +41,7 @@ TEST_F(StartProviders, LookOnceForACommonStartThatThereIsNotAndFallBackToTheGues
 }
 
 TEST_F(StartProviders, LookForNoCommonStartWhereSolvesBeginAtTheGuess) {
-  StartProvider source = provider({.kind = "guess"});
+  StartProvider source = provider({.start = "guess"});
   const Start start = source.start_for(with("dmoc"));
   EXPECT_FALSE(start.branch);
   EXPECT_TRUE(start.note.empty()) << start.note;

@@ -27,13 +27,14 @@ TEST(KeplerEllipse, FreeMotionSolvesTheEquationsOfMotion) {
 }
 
 TEST(ControlledSteps, TakeOnePeriodInTheirStepsAndAreSmallAtThePericentre) {
-  for (const char* sigma : {"distance", "acceleration"}) {
-    for (const char* rule : {"variational", "imposed", "from_left"}) {
+  for (const SigmaReads sigma : {SigmaReads::distance, SigmaReads::acceleration}) {
+    for (const StepPolicy rule : {StepPolicy::variational, StepPolicy::imposed, StepPolicy::from_left}) {
       const ControlledSteps steps(0.6, {rule, sigma, 2}, 256, exponent);
       const auto error = steps.error_of_a_period();
-      EXPECT_LT(error.state, 1e-2) << rule << " " << sigma;
-      const double ratio = std::string(sigma) == "distance" ? std::pow(4.0, exponent) : 4.0;  // r = 0.4 to 1.6
-      EXPECT_NEAR(error.largest_step / error.smallest_step, ratio, 0.03 * ratio) << rule << " " << sigma;
+      EXPECT_LT(error.state, 1e-2) << name_of(rule) << " " << name_of(sigma);
+      const double ratio = sigma == SigmaReads::distance ? std::pow(4.0, exponent) : 4.0;  // r = 0.4 to 1.6
+      EXPECT_NEAR(error.largest_step / error.smallest_step, ratio, 0.03 * ratio)
+          << name_of(rule) << " " << name_of(sigma);
     }
   }
 }
@@ -42,18 +43,14 @@ TEST(ControlledSteps, AreBetterThanUniformOnesOnAnEccentricEllipse) {
   const auto error = [](const StepChoice& choice) {
     return ControlledSteps(0.8, choice, 128, exponent).error_of_a_period().state;
   };
-  const double uniform = error({"uniform", "nothing", 1});
-  EXPECT_GT(uniform, 5.0 * error({"variational", "distance", 1}));
-  EXPECT_GT(uniform, error({"imposed", "distance", 1}));
+  const double uniform = error({});
+  EXPECT_GT(uniform, 5.0 * error({StepPolicy::variational, SigmaReads::distance}));
+  EXPECT_GT(uniform, error({StepPolicy::imposed, SigmaReads::distance}));
 }
 
-TEST(ControlledSteps, RefuseWhatThereIsNotAndAFunctionThatVanishes) {
-  const auto make = [](const StepChoice& choice, double power) {
-    return [=] { static_cast<void>(ControlledSteps(0.8, choice, 64, power)); };
-  };
-  tests::expect_error_naming({"magic"}, make({"magic", "distance", 1}, exponent));
-  tests::expect_error_naming({"magic"}, make({"variational", "magic", 1}, exponent));
-  tests::expect_error_naming({"positive"}, make({"variational", "distance", 1}, 1000.0));
+TEST(ControlledSteps, RefuseAFunctionThatVanishes) {
+  const StepChoice choice{StepPolicy::variational, SigmaReads::distance};
+  tests::expect_error_naming({"positive"}, [&] { static_cast<void>(ControlledSteps(0.8, choice, 64, 1000.0)); });
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(Rotations, AreBalancedAboutEveryAxisWhereTheyActLinearly) {
 }
 
 TEST(ModifiedEnergyTables, DriftWithTheOrderOfTheirTruncationUnlessTangentSpaceHasAMovingMass) {
-  const Table slopes = modified_energy_tables().slopes;
+  const Table slopes = modified_energy_tables().orders;
   ASSERT_FALSE(slopes.rows().empty());
   for (const Row& row : slopes.rows()) {
     const bool is_other_rule = row.text("method") == "tangent" && row.text("problem") != "pendulum";

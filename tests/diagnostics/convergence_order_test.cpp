@@ -23,8 +23,8 @@ TEST(FitOrder, IsExactOnAPower) {
     EXPECT_NEAR(fitted.order, order, 1e-13);
     EXPECT_NEAR(fitted.standard_error, 0.0, 1e-13);
     EXPECT_EQ(fitted.points, 4);
-    EXPECT_EQ(fitted.finest, 0.02);
-    EXPECT_EQ(fitted.coarsest, 0.1);
+    EXPECT_EQ(fitted.first_abscissa, 0.02);
+    EXPECT_EQ(fitted.last_abscissa, 0.1);
   }
 }
 
@@ -53,7 +53,7 @@ TEST(FitOrder, LeavesOutPointsWithoutALogarithm) {
   const auto fitted = tests::value_of(fit_order(points));
   EXPECT_NEAR(fitted.order, 2.0, 1e-13);
   EXPECT_EQ(fitted.points, 3);
-  EXPECT_EQ(fitted.coarsest, 0.1);
+  EXPECT_EQ(fitted.last_abscissa, 0.1);
 }
 
 TEST(FitOrder, HasNoStandardErrorWithTwoPointsAndNoSlopeWithFewer) {
