@@ -3,10 +3,10 @@
 
 #include "bench/coercivity/smallest_curvature.hpp"
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "methods/transcription/elements/element.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::coercivity_program {
 
@@ -27,13 +27,15 @@ const Columns<Curvature> columns =
          &Curvature::smallest}};
 
 int measure_all(CommandLine& line) {
+  ProblemOptions asked{
+      .problems = {"orbital_transfer", "two_link_manipulator", "double_integrator", "brachistochrone"}};
+  asked.add_to(line);
   TableRun run("coercivity", line);
   const SolverOptions options = TableRun::solver_options();
   StartProvider starts({}, options);
   const std::unique_ptr<Solver> solver = make_solver("ipopt", options);
   std::vector<Curvature> rows;
-  for (const char* name : {"orbital_transfer", "two_link_manipulator", "double_integrator", "brachistochrone"}) {
-    const std::shared_ptr<const Problem> problem = make_problem(name);
+  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
     for (const std::string& method : element_names()) {
       for (const long long intervals : {16, 32, 64, 128, 256, 512}) {
         const Case the_case{.problem = problem,
@@ -43,7 +45,7 @@ int measure_all(CommandLine& line) {
                             .grid = Grid::uniform(intervals)};
         run.show(the_case.label());
         const SolvedCase solved = solve_case(the_case, starts.start_for(the_case), *solver, options.tolerance, 1, true);
-        Curvature row{.scheme = {name, method, "gauss", 1},
+        Curvature row{.scheme = {problem->name(), method, "gauss", 1},
                       .status = std::string(name_of(solved.solution.status)),
                       .intervals = intervals};
         if (is_discrete_optimum(solved)) row.smallest = smallest_curvature(*solved.program, solved.solution);

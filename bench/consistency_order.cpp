@@ -11,7 +11,7 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/options.hpp"
-#include "bench/experiment/problem_libraries.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/structure/one_step_tableaus.hpp"
@@ -216,18 +216,13 @@ ExactTransform exact_transform(const Problem& problem, long long intervals) {
 }
 
 int measure_all(CommandLine& line) {
-  std::vector<std::string> problems;
-  std::vector<std::string> settings;
-  std::vector<std::string> libraries;
+  ProblemOptions asked{.problems = {"all"}};
   std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
-  line.list("--problem", problems, "problems (default: all)");
-  add_library_option(line, libraries);
-  line.option("--set", settings, "parameter=value of a problem");
+  asked.add_to(line);
   line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
   TableRun run("consistency_order", line);
-  load_problem_libraries(libraries);
   const std::vector<long long> steps = parse_intervals("--intervals", intervals);
-  const auto selected = selected_problems(problems, settings);
+  const auto selected = asked.selected();
   Results results;
   std::vector<ExactTransform> transforms;
   for (const auto& problem : selected) {

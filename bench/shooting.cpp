@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/shooting/program_condition.hpp"
 #include "methods/solvers/kkt/linearisation.hpp"
@@ -14,7 +15,6 @@
 #include "methods/transcription/single_shooting.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::shooting_program {
 
@@ -40,8 +40,8 @@ const Columns<Measured> columns =
 
 class Programs {
  public:
-  Programs(const TableRun& run, std::string problem)
-      : run_(run), name_(std::move(problem)), problem_(make_problem(name_)), motion_(guessed_motion(*problem_)) {}
+  Programs(const TableRun& run, std::shared_ptr<const Problem> problem)
+      : run_(run), problem_(std::move(problem)), motion_(guessed_motion(*problem_)) {}
 
   /// All three programs; the finest grid first, whose motion the coarser ones start from.
   void measure(long long intervals) {
@@ -67,9 +67,9 @@ class Programs {
   }
   Solution solve(const std::string& method, long long intervals, NonlinearProgram& program,
                  const Eigen::VectorXd& start) {
-    run_.show(name_ + " " + method + " N = " + std::to_string(intervals));
+    run_.show(problem_->name() + " " + method + " N = " + std::to_string(intervals));
     Solution solution = solver_->solve(program, start);
-    Measured row{.scheme = {name_, method, "gauss", 1},
+    Measured row{.scheme = {problem_->name(), method, "gauss", 1},
                  .status = std::string(name_of(solution.status)),
                  .intervals = intervals,
                  .unknowns = free_variable_count(program),
@@ -83,7 +83,6 @@ class Programs {
   }
 
   const TableRun& run_;
-  std::string name_;
   std::shared_ptr<const Problem> problem_;
   Motion motion_;
   bool is_first_ = true;
@@ -92,10 +91,12 @@ class Programs {
 };
 
 int measure_all(CommandLine& line) {
+  ProblemOptions asked{.problems = {"orbital_transfer", "two_link_manipulator", "cart_pole"}};
+  asked.add_to(line);
   TableRun run("shooting", line);
   std::vector<Measured> rows;
-  for (const char* name : {"orbital_transfer", "two_link_manipulator", "cart_pole"}) {
-    Programs programs(run, name);
+  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+    Programs programs(run, problem);
     for (const long long intervals : {64, 32, 16}) programs.measure(intervals);
     rows.insert(rows.end(), programs.rows().begin(), programs.rows().end());
   }

@@ -1,11 +1,13 @@
 # The motion found by DMOC, one figure per problem: a picture of the motion and its controls over time.
 #   gnuplot -e "results='results'" plots/motion.gp
-# Reads motion_PROBLEM_{picture,nodes,stages}.csv of every problem; pictures/PROBLEM.gp draws, or else pictures/any.gp.
+# Reads motion_PROBLEM_{picture,nodes,stages}.csv of every problem, and the same of `solve --name NAME`, whose figure is
+# NAME_motion; pictures/PROBLEM.gp draws, or else pictures/any.gp. The motions of the report's gallery are the report's.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-problems = system("cd '".results."' 2>/dev/null &&\
-    ls motion_*_nodes.csv 2>/dev/null | sed -n 's/^motion_\\([A-Za-z0-9_]*\\)_nodes.csv$/\\1/p'")
-if (strlen(problems) == 0) { print results."/motion_PROBLEM_nodes.csv is missing"; exit status 1 }
+motions = system("cd '".results."' 2>/dev/null &&\
+    for nodes in *_nodes.csv; do name=${nodes%_nodes.csv}; case $name in library_motions*|*[!A-Za-z0-9_]*) ;; *)\
+    if [ -e ${name}_picture.csv ] && [ -e ${name}_stages.csv ]; then echo $name; fi ;; esac; done")
+if (strlen(motions) == 0) { print results."/motion_PROBLEM_nodes.csv is missing"; exit status 1 }
 
 # Colours over time: light at the start, dark at the end.
 set palette defined (0 "#9ADBE8", 0.35 "#3FA0CC", 0.7 "#2A5CA8", 1 "#2B1B5E")
@@ -26,16 +28,17 @@ left_square = "set lmargin at screen 0.105; set rmargin at screen 0.525; set bma
 right_panel(low, high) = sprintf("set size noratio; set lmargin at screen 0.635; set rmargin at screen 0.98;\
     set bmargin at screen %g; set tmargin at screen %g; set xtics autofreq; set ytics autofreq", low, high)
 
-do for [problem in problems] {
-  nodes = "motion_".problem."_nodes"
-  stages = "motion_".problem."_stages"
-  picture = "motion_".problem."_picture"
+do for [motion in motions] {
+  problem = motion[1:7] eq "motion_" ? motion[8:] : motion
+  nodes = motion."_nodes"
+  stages = motion."_stages"
+  picture = motion."_picture"
   # " by DMOC, N = 128", from the row of the solve.
-  solve = exists_table("motion_".problem) ? word(system(rows_awk("-v take=drawn -v branches=any -v distinct=method,intervals",\
-      "motion_".problem)), 1) : ""
+  solve = exists_table(motion) ? word(system(rows_awk("-v take=drawn -v branches=any -v distinct=method,intervals",\
+      motion)), 1) : ""
   by_whom = strlen(solve) == 0 ? "" : " by ".method_label(entry(solve, "method")).", N = ".entry(solve, "intervals")
   drawing = plots."/pictures/".problem.".gp"
   if (system("test -f '".drawing."' && echo 1") eq "") { drawing = plots."/pictures/any.gp" }
-  incomplete = incomplete_run("motion_".problem)
+  incomplete = incomplete_run(motion)
   do for [kind in kinds] { load drawing }
 }

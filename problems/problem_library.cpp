@@ -111,6 +111,8 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
     throw;
   } catch (const std::exception& error) {
     throw Error(fmt::format("a problem of {} cannot be made: {}", path.string(), error.what()));
+  } catch (...) {
+    throw Error(fmt::format("a problem of {} cannot be made: it throws what is no std::exception", path.string()));
   }
   if (problems.names().empty()) throw Error(fmt::format("{} adds no problems", path.string()));
   registry.add_all(problems, path.string());

@@ -170,6 +170,8 @@ int run_program(const std::string& name, const std::string& description, int arg
     if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");
     const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
     return interrupt_requested() ? 130 : code;
+  } catch (...) {  // from formulas of somebody else
+    return report_error(name, "a problem throws what is no std::exception; throw dmocbench::Error with a sentence");
   }
 }
 
