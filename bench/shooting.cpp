@@ -73,7 +73,7 @@ class Programs {
                  .status = std::string(name_of(solution.status)),
                  .intervals = intervals,
                  .unknowns = free_variable_count(program),
-                 .equations = std::ranges::count(equality_rows(program), true)};
+                 .equations = std::ranges::count(equalities_of(program), true)};
     if (is_solved(solution.status)) {
       row.objective = solution.objective / problem_->cost_scale();
       row.condition = kkt_condition(program, solution);

@@ -22,7 +22,7 @@ class ShiftedKkt {
   ShiftedKkt(Transcription& program, const Solution& solution)
       : hessian_(hessian_at(program, solution.primal, solution.multipliers)),
         free_(free_variables(program)),
-        counts_(equality_rows(program)),
+        counts_(equalities_of(program)),
         weights_(weights_of(program, solution.primal)) {
     Linearisation at = values_at(program, solution.primal);
     differentiate(program, at);
@@ -58,7 +58,7 @@ class ShiftedKkt {
     const Layout& layout = program.layout();
     for (Eigen::Index i = 0; i < layout.stages(); ++i) {
       for (Eigen::Index j = 0; j < program.traced_problem().control_size(); ++j) {
-        const auto first = static_cast<Eigen::Index>(layout.control_column(i, j));
+        const auto first = static_cast<Eigen::Index>(layout.control_head(i, j));
         weights.segment(first, steps.size()) = program.cost_scale() * program.tableau().b[i] * steps;
       }
     }

@@ -53,8 +53,8 @@ DerivativeReference reference_derivatives(const Transcription& program, const Ei
                                           double objective_factor, const Eigen::VectorXd& multipliers) {
   SparseSum jacobian(program.jacobian_structure());
   SparseSum hessian(program.hessian_structure());
-  const auto add = [&](const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                       const std::vector<ColumnPlace>& rows, std::size_t intervals) {
+  const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                       const std::vector<SeriesPlace>& rows, std::size_t intervals) {
     const LocalInputs& numbers = functions.inputs;
     std::vector<long double> inputs(numbers.count());
     inputs[numbers.objective_factor()] = objective_factor;

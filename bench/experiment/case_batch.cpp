@@ -103,7 +103,7 @@ bool CaseBatch::fill(BatchedCase& one) {
     return false;
   }
   const Eigen::VectorXd& rows = program_->constraint_lower();
-  one.instance.rows = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
+  one.instance.equality_values = rows.array().isFinite().select(rows, 0.0);  // those of inequalities are not read
   if (!program_->traced_problem().open_parameters().empty()) one.instance.parameters = one.the_case->parameters;
   return true;
 }

@@ -61,7 +61,7 @@ std::optional<double> kkt_condition(NonlinearProgram& program, const Solution& s
   Linearisation at = values_at(program, solution.primal);
   differentiate(program, at);
   const std::vector<bool> free = free_variables(program);
-  const std::vector<bool> equalities = equality_rows(program);
+  const std::vector<bool> equalities = equalities_of(program);
   require_no_active_inequality(program, at, free, equalities);
   // Unit rows stand for what is left out: their eigenvalues are between the others.
   const Eigen::SparseMatrix<double> lower =

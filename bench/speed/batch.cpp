@@ -75,9 +75,9 @@ class Instances {
   [[nodiscard]] const Eigen::VectorXd& place(std::size_t index) const { return states_[index].place; }
   void fill(std::size_t index, BatchInstance& instance, const Solution* neighbour = nullptr) {
     instance.start = neighbour == nullptr ? made_.start : neighbour->primal;
-    instance.rows = made_.program->constraint_lower();
+    instance.equality_values = made_.program->constraint_lower();
     instance.multipliers = neighbour == nullptr ? multipliers_ : neighbour->multipliers;
-    ends_->write(states_[index].first, states_[index].last, instance.start, instance.rows);
+    ends_->write(states_[index].first, states_[index].last, instance.start, instance.equality_values);
   }
 
  private:
@@ -164,7 +164,7 @@ void solve_in_a_loop(Instances& instances, const BatchCase& way, Tally& tally) {
   for (std::size_t i = 0; i < way.instances; ++i) {
     instances.fill(i, instance);
     if (way.name == "fill") continue;
-    batch::InstanceProgram alone(instances.program(), instance.start, instance.rows);
+    batch::InstanceProgram alone(instances.program(), instance.start, instance.equality_values);
     tally.add(make_solver(way.name)->solve(alone, instance.start, instance.multipliers));
   }
 }

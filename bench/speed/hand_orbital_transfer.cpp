@@ -10,7 +10,7 @@ namespace dmocbench::speed {
 
 namespace {
 
-void residual(std::size_t intervals, const HandColumns& columns) {
+void residual(std::size_t intervals, const HandSeries& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
   const auto out = first<4>(columns.out);
   DMOCBENCH_INDEPENDENT_ITERATIONS
@@ -27,7 +27,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
   }
 }
 
-void jacobian(std::size_t intervals, const HandColumns& columns) {
+void jacobian(std::size_t intervals, const HandSeries& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step] = first<6>(columns.in);
   const auto out = first<18>(columns.out);
   DMOCBENCH_INDEPENDENT_ITERATIONS
@@ -55,7 +55,7 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
   }
 }
 
-void hessian(std::size_t intervals, const HandColumns& columns) {
+void hessian(std::size_t intervals, const HandSeries& columns) {
   const auto [r_left, phi_left, r_right, phi_right, u, step, time, cost_factor, lambda_left_r, lambda_left_phi,
               lambda_right_r, lambda_right_phi] = first<12>(columns.in);
   const double factor = columns.factor;

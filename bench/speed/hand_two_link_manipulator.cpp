@@ -35,7 +35,7 @@ struct Middle {
 /// g++ calls no vector sine by itself without -ffast-math, so sines and cosines come from the tape's own library, for
 /// so many intervals at a time as fit into the first-level cache; everything else is plain loops.
 template <class Function, class Formulas>
-[[gnu::always_inline]] inline void for_each_interval(std::size_t intervals, const HandColumns& columns,
+[[gnu::always_inline]] inline void for_each_interval(std::size_t intervals, const HandSeries& columns,
                                                      const Function& function, const Formulas& formulas) {
   constexpr std::size_t width = 64;
   alignas(64) std::array<double, width> theta_1{};
@@ -74,7 +74,7 @@ template <class Function, class Formulas>
 constexpr auto cosine_of = [](const Vector& angle) { return xsimd::cos(angle); };
 constexpr auto sine_of = [](const Vector& angle) { return xsimd::sin(angle); };
 
-void residual(std::size_t intervals, const HandColumns& columns) {
+void residual(std::size_t intervals, const HandSeries& columns) {
   const auto [left_1, left_2, right_1, right_2, tau_1, tau_2] = first<6>(columns.in);
   const auto out = first<4>(columns.out);
   const auto formulas = [=](std::size_t k, const Middle& middle) __attribute__((always_inline)) {
@@ -89,7 +89,7 @@ void residual(std::size_t intervals, const HandColumns& columns) {
   for_each_interval(intervals, columns, cosine_of, formulas);
 }
 
-void jacobian(std::size_t intervals, const HandColumns& columns) {
+void jacobian(std::size_t intervals, const HandSeries& columns) {
   const auto out = first<22>(columns.out);
   const auto formulas = [=](std::size_t k, const Middle& middle) __attribute__((always_inline)) {
     const auto [h, rate, w1, w2, S, K, sine_1, sine_2] = middle;
@@ -114,7 +114,7 @@ void jacobian(std::size_t intervals, const HandColumns& columns) {
   for_each_interval(intervals, columns, sine_of, formulas);
 }
 
-void hessian(std::size_t intervals, const HandColumns& columns) {
+void hessian(std::size_t intervals, const HandSeries& columns) {
   const auto [left_1, left_2, right_1, right_2, tau_1, tau_2, step, time, cost_factor, lambda_left_1, lambda_left_2,
               lambda_right_1, lambda_right_2] = first<13>(columns.in);
   const auto out = first<12>(columns.out);

@@ -53,9 +53,9 @@ std::string label_of(const IntervalBenchmark& benchmark) {
 ///
 /// Columns begin with a cache line, but not a power of two apart: otherwise they would compete for the same few lines
 /// of the first-level cache. (In a program they stand where the pattern has them.)
-class IntervalColumns {
+class AlignedSeries {
  public:
-  explicit IntervalColumns(std::size_t count) : lines_(count * stride) {
+  explicit AlignedSeries(std::size_t count) : lines_(count * stride) {
     for (std::size_t j = 0; j < count; ++j) columns_.push_back(lines_[j * stride].numbers.data());
   }
 
@@ -129,7 +129,7 @@ ColumnWriter by_tape(const BenchmarkedFormulas& point, const Schedule& schedule,
 
 Evaluation checked_evaluation(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
                               const ColumnWriter& write, double tolerance) {
-  const auto outputs = std::make_shared<IntervalColumns>(schedule.outputs().size());
+  const auto outputs = std::make_shared<AlignedSeries>(schedule.outputs().size());
   const auto evaluate = [write, outputs] { write(outputs->columns()); };
   evaluate();
   require_agreement(
@@ -153,7 +153,7 @@ void register_quantities(IntervalBenchmark benchmark, const BenchmarkedFormulas&
 
 void require_agreement(const BenchmarkedFormulas& point, const Schedule& schedule, const std::string& name,
                        const std::function<std::vector<double>(std::size_t interval)>& values, double tolerance) {
-  IntervalColumns outputs(schedule.outputs().size());
+  AlignedSeries outputs(schedule.outputs().size());
   by_tape(point, schedule, preferred_instruction_set(), NativeCodeUse::never)(outputs.columns());
   for (std::size_t k = 0; k < BenchmarkedFormulas::intervals; ++k) {
     const std::vector<double> expected = outputs.row(k);

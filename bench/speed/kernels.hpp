@@ -12,7 +12,7 @@
 namespace dmocbench::speed {
 
 /// Where a function written by hand reads and writes; entry k of a column belongs to interval k.
-struct HandColumns {
+struct HandSeries {
   // One column per input, numbered as in `LocalInputs`: left q, right q, u, the step h, the time (not read), the
   // factor of the cost (not read: `factor` below), multipliers of the left and of the right constraints.
   const double* const* in;
@@ -21,7 +21,7 @@ struct HandColumns {
 };
 
 /// Treats intervals 0 .. `intervals` - 1.
-using HandKernel = void (*)(std::size_t intervals, const HandColumns& columns);
+using HandKernel = void (*)(std::size_t intervals, const HandSeries& columns);
 
 /// Residual, Jacobian and Hessian of ℓ by DMOC with the midpoint rule for one problem with its default data, as an
 /// engineer would write them: loops over the intervals that g++ vectorises.

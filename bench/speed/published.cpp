@@ -54,8 +54,12 @@ class TimedRival {
     if (solve_.is_straight) made_.start = sample(*made_.program, straight);
   }
 
+  /// A short solve is timed the second time: the first finds caches and memory as longer solves have left them.
   void solve() {
-    solution_ = make_solver("interior_point")->solve(*made_.program, made_.start);
+    constexpr double short_solve = 0.1;  // s
+    const auto solver = make_solver("interior_point");
+    solution_ = solver->solve(*made_.program, made_.start);
+    if (solution_.seconds < short_solve) solution_ = solver->solve(*made_.program, made_.start);
     seconds_.push_back(solution_.seconds);
   }
 
@@ -135,8 +139,10 @@ std::vector<Row> published_rows(const std::filesystem::path& file, const std::ve
 constexpr const char* words_of_page =
     "Rows that name a source were measured elsewhere, on other machines, by other discretisations and to other "
     "tolerances; they are divided by nothing. Ours: `interior_point`, tolerance 1e-10, medians with their 99 % "
-    "intervals (bootstrap), the time of the solver without making the program, which has a column. `cost off`: from "
-    "the problem's reference, as a share of it.\n\n";
+    "intervals (bootstrap), the time of the solver without making the program, which has a column; a solve of less "
+    "than "
+    "0.1 s is timed the second time in a row, with its memory in the caches. `cost off`: from the problem's reference, "
+    "as a share of it.\n\n";
 
 /// The rows of others and of us, those of one problem and number of intervals beside each other.
 Table times_beside_ours(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {

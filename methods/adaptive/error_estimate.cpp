@@ -187,16 +187,16 @@ NodeErrors errors_at_nodes(const Transcription& program, const IntervalCondition
                                                               perturbation.jumps.unknowns.row(last).segment(right, n));
   };
   const Eigen::MatrixXd q =
-      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.configuration_column(i); });
+      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.configuration_head(i); });
   if (family == NodeState::configuration) {
     return {
         {q, with_last(-change.rows.leftCols(n), change.rows.row(last).segment(n, n) + misses.in_momenta.p.row(last)),
          costate(0, n),
-         node_columns(step.multipliers, nodes, n, [&](Eigen::Index i) { return layout.node_row_column(i); })},
+         node_columns(step.multipliers, nodes, n, [&](Eigen::Index i) { return layout.node_row_head(i); })},
         {}};
   }
   const Eigen::MatrixXd second =
-      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.second_column(i); });
+      node_columns(step.primal, nodes, n, [&](Eigen::Index i) { return layout.second_head(i); });
   const Eigen::MatrixXd first_costate = costate(0, 2 * n);
   const Eigen::MatrixXd second_costate = costate(n, 3 * n);
   if (family == NodeState::momentum) return {{q, second, first_costate, second_costate}, {}};

@@ -56,8 +56,10 @@ struct TracedFlow {
   }
   /// True if H is quadratic in u: one step of Newton's method finds the control.
   [[nodiscard]] bool is_quadratic() const {
-    const ExpressionMatrix slopes = jacobian(ExpressionVector(curvature().reshaped()), at.u);
-    return std::ranges::all_of(std::span(slopes.data(), static_cast<std::size_t>(slopes.size())), &Expression::is_zero);
+    const ExpressionMatrix gradients_of_curvature = jacobian(ExpressionVector(curvature().reshaped()), at.u);
+    return std::ranges::all_of(
+        std::span(gradients_of_curvature.data(), static_cast<std::size_t>(gradients_of_curvature.size())),
+        &Expression::is_zero);
   }
   [[nodiscard]] Schedule rates() const {
     ExpressionVector outputs(4 * at.q.size() + 1);

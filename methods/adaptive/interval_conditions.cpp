@@ -7,11 +7,11 @@ namespace dmocbench {
 
 namespace {
 
-Eigen::Index at(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index interval) {
+Eigen::Index at(const std::vector<SeriesPlace>& places, Eigen::Index local, Eigen::Index interval) {
   return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(interval)));
 }
 
-Eigen::MatrixXd gathered(const std::vector<ColumnPlace>& places, Eigen::Index intervals, const Eigen::VectorXd& from) {
+Eigen::MatrixXd gathered(const std::vector<SeriesPlace>& places, Eigen::Index intervals, const Eigen::VectorXd& from) {
   Eigen::MatrixXd table(intervals, static_cast<Eigen::Index>(places.size()));
   for (Eigen::Index j = 0; j < table.cols(); ++j) {
     for (Eigen::Index k = 0; k < intervals; ++k) table(k, j) = from[at(places, j, k)];
@@ -19,7 +19,7 @@ Eigen::MatrixXd gathered(const std::vector<ColumnPlace>& places, Eigen::Index in
   return table;
 }
 
-void scatter(const std::vector<ColumnPlace>& places, const Eigen::MatrixXd& table, Eigen::VectorXd& to) {
+void scatter(const std::vector<SeriesPlace>& places, const Eigen::MatrixXd& table, Eigen::VectorXd& to) {
   for (Eigen::Index j = 0; j < table.cols(); ++j) {
     for (Eigen::Index k = 0; k < table.rows(); ++k) to[at(places, j, k)] += table(k, j);
   }

@@ -28,8 +28,8 @@ struct PlacedFormulas {
 };
 
 /// Step, time and open parameters become numbers, so that what depends on them alone is computed here.
-PlacedFormulas placed(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                      const std::vector<ColumnPlace>& rows, const Transcription& program, std::size_t interval) {
+PlacedFormulas placed(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                      const std::vector<SeriesPlace>& rows, const Transcription& program, std::size_t interval) {
   const LocalInputs& numbers = functions.inputs;
   const Eigen::VectorXd& parameters = program.traced_problem().open_values();
   PlacedFormulas result;
@@ -117,7 +117,7 @@ class AmplWriter {
  private:
   void find_objective_variables() {
     std::vector<char> is_read(variables_);
-    const auto note = [&](const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+    const auto note = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                           std::size_t intervals) {
       for (const std::size_t a : functions.gradient.places) {
         for (std::size_t k = 0; k < intervals; ++k) is_read[unknowns[a].at(k)] = 1;

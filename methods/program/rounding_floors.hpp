@@ -14,17 +14,17 @@ struct RoundingFloors {
   double smallest = 0.0;  ///< of all constraints and variables
   double largest = 0.0;   ///< of all constraints and variables
   /// Of every constraint; empty where all floors are equal.
-  Eigen::VectorXd rows;
+  Eigen::VectorXd constraints;
   /// Of every variable, for its entry of (∂a/∂ξ)ᵀλ with |λ| = 1; empty where all floors are equal.
   Eigen::VectorXd variables;
 
   /// True if one floor holds for all.
-  [[nodiscard]] bool are_equal() const noexcept { return rows.size() == 0; }
+  [[nodiscard]] bool are_equal() const noexcept { return constraints.size() == 0; }
   /// The floor of constraint i.
-  [[nodiscard]] double of_row(Eigen::Index i) const { return are_equal() ? largest : rows[i]; }
+  [[nodiscard]] double of_constraint(Eigen::Index i) const { return are_equal() ? largest : constraints[i]; }
   /// The Euclidean norm of those of all constraints, of which there are `count`.
-  [[nodiscard]] double norm_of_rows(Eigen::Index count) const {
-    return are_equal() ? largest * std::sqrt(static_cast<double>(count)) : rows.norm();
+  [[nodiscard]] double norm_of_constraints(Eigen::Index count) const {
+    return are_equal() ? largest * std::sqrt(static_cast<double>(count)) : constraints.norm();
   }
   /// The floor of variable j.
   [[nodiscard]] double of_variable(Eigen::Index j) const { return are_equal() ? largest : variables[j]; }

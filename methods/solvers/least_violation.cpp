@@ -134,8 +134,8 @@ bool ViolationDescent::compute_step(bool with_curvature) {
     if (!is_free_[static_cast<std::size_t>(i)]) right_hand_side[i] = 0.0;
   }
   step_ = factorisation_.solve(std::move(right_hand_side)).head(barrier.size());
-  slope_ = excess_.dot(at_.jacobian * step_) + barrier.dot(step_);
-  return step_.allFinite() && slope_ < 0.0;
+  directional_derivative_ = excess_.dot(at_.jacobian * step_) + barrier.dot(step_);
+  return step_.allFinite() && directional_derivative_ < 0.0;
 }
 
 /// Backtracks along the step until the merit falls enough.
@@ -152,7 +152,8 @@ bool ViolationDescent::search() {
     if (length < shortest * longest) return false;
     trial = values_at(program_, at_.point + length * step_);
     length *= 0.5;
-  } while (!trial.has_finite_values() || !(merit(trial) <= before + 2.0 * length * sufficient * slope_));
+  } while (!trial.has_finite_values() ||
+           !(merit(trial) <= before + 2.0 * length * sufficient * directional_derivative_));
   length *= 2.0;
 
   const Eigen::VectorXd change = trial.point - at_.point;

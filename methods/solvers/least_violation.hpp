@@ -58,7 +58,7 @@ class ViolationDescent {
   Eigen::ArrayXd z_lower_;  // multipliers of the bounds
   Eigen::ArrayXd z_upper_;
   Eigen::VectorXd step_;
-  double slope_ = 0.0;  // of the merit along the step
+  double directional_derivative_ = 0.0;  // of the merit along the step
   double mu_ = 0.0;
   double damping_ = 1e-3;  // what a step of the size of each unknown costs, as a share of |r|²
   double left_ = 0.0;      // share of |r|² that the last step left

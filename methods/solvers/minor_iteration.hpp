@@ -7,18 +7,18 @@
 
 namespace dmocbench {
 
+/// What a minor iteration reduces.
+enum class MinorPhase : std::uint8_t {
+  feasibility = 1,  ///< lowers the sum of infeasibilities
+  optimality = 2,   ///< lowers the quadratic objective
+};
+
 /// One minor iteration of the SQP method: one step of the active-set method on a quadratic program in variables d_j and
 /// slacks s_i of its constraints. It prices (only when the point is stationary on the present sets), takes a direction,
 /// tests how far it may go, and updates the sets. A step of length zero is a minor iteration too.
 struct MinorIteration {
-  /// What a minor iteration reduces.
-  enum class Phase : std::uint8_t {
-    feasibility = 1,  ///< lowers the sum of infeasibilities
-    optimality = 2,   ///< lowers the quadratic objective
-  };
-
-  int major = 0;                     ///< the quadratic program it belongs to, from 1
-  Phase phase = Phase::feasibility;  ///< of the quadratic program
+  int major = 0;                               ///< the quadratic program it belongs to, from 1
+  MinorPhase phase = MinorPhase::feasibility;  ///< of the quadratic program
   /// Columns: variable j is j, the slack of constraint i is (number of variables) + i.
   std::optional<Eigen::Index> entering;    ///< nonbasic so far, may move now; none if the step goes on as before
   std::optional<Eigen::Index> leaving;     ///< reached a bound and stays there; none after a whole step

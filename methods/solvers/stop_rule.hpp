@@ -24,7 +24,7 @@ class StopRule {
   /// For the violation of any constraint or bound: the least that is allowed.
   [[nodiscard]] double violation() const { return std::max(tolerance_, floors_.smallest); }
   /// For that of one constraint.
-  [[nodiscard]] double violation(Eigen::Index row) const { return std::max(tolerance_, floors_.of_row(row)); }
+  [[nodiscard]] double violation(Eigen::Index row) const { return std::max(tolerance_, floors_.of_constraint(row)); }
 
   /// For any entry of ∇_x of the Lagrangian: the least that is allowed. `mean_multiplier`, `largest_multiplier`:
   /// magnitudes; the mean excuses large residuals as s_d of Wächter and Biegler (2006), (6), does.

@@ -11,7 +11,7 @@ namespace {
 /// The multipliers of the local rows of interval k, in the order of `Layout::row_places`, for the true cost.
 Eigen::VectorXd local_multipliers(const Transcription& transcription, const Eigen::VectorXd& multipliers,
                                   Eigen::Index k) {
-  const std::vector<ColumnPlace>& places = transcription.layout().row_places();
+  const std::vector<SeriesPlace>& places = transcription.layout().row_places();
   Eigen::VectorXd local(static_cast<Eigen::Index>(places.size()));
   for (std::size_t r = 0; r < places.size(); ++r) {
     local[static_cast<Eigen::Index>(r)] =
@@ -72,7 +72,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   Costates result{at_nodes.leftCols(n), Eigen::MatrixXd(intervals + 1, n)};
   if (!has_second) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto head = static_cast<Eigen::Index>(layout.node_row_column(i));
+      const auto head = static_cast<Eigen::Index>(layout.node_row_head(i));
       result.psi_p.col(i) = multipliers.segment(head, intervals + 1) / transcription.cost_scale();
     }
     return result;
@@ -84,7 +84,7 @@ Costates costates(Transcription& transcription, const Eigen::VectorXd& primal, c
   for (Eigen::Index k = 0; k <= intervals; ++k) {
     Eigen::VectorXd q(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      q[i] = primal[static_cast<Eigen::Index>(layout.configuration_column(i)) + k];
+      q[i] = primal[static_cast<Eigen::Index>(layout.configuration_head(i)) + k];
     }
     const Eigen::VectorXd velocity = v.row(k).transpose();
     const double t = times[k];

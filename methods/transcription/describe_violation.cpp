@@ -50,13 +50,13 @@ class ConstraintWords {
   [[nodiscard]] std::string unknown(std::size_t unknown) const {
     const LayoutShape& shape = layout_->shape();
     const Place place = layout_->structure().unknowns[unknown];
-    if (unknown < layout_->configuration_column(n_)) {
+    if (unknown < layout_->configuration_head(n_)) {
       const auto i = static_cast<Eigen::Index>(unknown / (layout_->intervals() + 1));
       return "bounds().q: " + coordinate(i) + where(place);
     }
     for (Eigen::Index stage = 0; stage < shape.stages; ++stage) {
       for (Eigen::Index i = 0; i < shape.control_size; ++i) {
-        const std::size_t column = layout_->control_column(stage, i);
+        const std::size_t column = layout_->control_head(stage, i);
         if (unknown >= column && unknown - column < layout_->intervals()) {
           return "bounds().u: " + named('u', i, problem_->control_names()) + in_interval(unknown - column);
         }
@@ -178,7 +178,7 @@ std::string held_controls(const Problem& problem, const Transcription& transcrip
   for (Eigen::Index i = 0; i < layout.shape().control_size; ++i) {
     Eigen::Index held = 0;
     for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
-      const auto head = static_cast<Eigen::Index>(layout.control_column(stage, i));
+      const auto head = static_cast<Eigen::Index>(layout.control_head(stage, i));
       for (Eigen::Index k = head; k < head + intervals; ++k) {
         if (is_held(x[k], transcription.variable_lower()[k]) || is_held(x[k], transcription.variable_upper()[k]))
           ++held;

@@ -59,9 +59,9 @@ bool reads_given_only(const Schedule& formula, const std::vector<bool>& are_give
 
 /// What numbers known to twelve digits leave unknown of a formula: Σ |∂h/∂x_i x_i| 1e-12.
 double uncertainty(const Expression& h, const ExpressionVector& inputs, std::span<const double> values) {
-  const std::vector<double> slopes = replay<double>(Schedule(gradient(h, inputs)), values);
+  const std::vector<double> derivatives = replay<double>(Schedule(gradient(h, inputs)), values);
   double sum = 1.0;
-  for (std::size_t i = 0; i < values.size(); ++i) sum += std::abs(slopes[i] * values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) sum += std::abs(derivatives[i] * values[i]);
   return 1e-12 * sum;
 }
 

@@ -109,7 +109,7 @@ class BackwardRecursion {
   [[nodiscard]] double stiffness(Eigen::Index variable) const {
     return is_fixed(program_, variable) ? 0.0 : conditions_.diagonal[variable];
   }
-  [[nodiscard]] static Eigen::Index place(const std::vector<ColumnPlace>& places, Eigen::Index local, Eigen::Index k) {
+  [[nodiscard]] static Eigen::Index place(const std::vector<SeriesPlace>& places, Eigen::Index local, Eigen::Index k) {
     return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(k)));
   }
   [[nodiscard]] Eigen::MatrixXd matrix_of_interval(Eigen::Index k) const;
@@ -237,7 +237,7 @@ Deviations BackwardRecursion::at_end() {
   if (is_dmoc_) equations.add(tie, n_, unit(n_));  // δp_N
   equations.add(0, states, unit(node, -1.0));
   for (Eigen::Index j = 0; j < node + velocity; ++j) {
-    const auto variable = static_cast<Eigen::Index>(j < node ? layout_.configuration_column(j) + layout_.intervals()
+    const auto variable = static_cast<Eigen::Index>(j < node ? layout_.configuration_head(j) + layout_.intervals()
                                                              : layout_.last_velocity(j - node));
     const Eigen::Index column = j < node ? j : 2 * states + j - node;
     if (is_fixed(program_, variable)) {

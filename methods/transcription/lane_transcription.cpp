@@ -24,14 +24,14 @@ Eigen::Map<const Eigen::VectorXd> map(const double* first, Eigen::Index size) {
   return {first, size * static_cast<Eigen::Index>(instance_lanes)};
 }
 
-std::vector<ColumnPlace> interleaved(std::vector<ColumnPlace> places) {
-  for (ColumnPlace& place : places) place.first *= instance_lanes;
+std::vector<SeriesPlace> interleaved(std::vector<SeriesPlace> places) {
+  for (SeriesPlace& place : places) place.first *= instance_lanes;
   return places;
 }
 
 /// Where the local entries of interval 0 stand in the program's matrix.
-std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalEntries& entries) {
-  std::vector<ColumnPlace> places;
+std::vector<SeriesPlace> places_in(const BlockPattern& pattern, const LocalEntries& entries) {
+  std::vector<SeriesPlace> places;
   for (std::size_t e = 0; e < entries.rows.size(); ++e) {
     const auto found = pattern.find(entries.rows[e].first, entries.columns[e].first);
     if (!found) throw Error("an entry of an interval is not in the program's matrix");
@@ -42,7 +42,7 @@ std::vector<ColumnPlace> places_in(const BlockPattern& pattern, const LocalEntri
 
 /// The places of a part in interleaved vectors: eight times as many intervals, all else eight times as far apart.
 PartPlaces interleaved_places(const Transcription& program, const LocalFunctions& functions,
-                              const std::vector<ColumnPlace>& unknowns, const std::vector<ColumnPlace>& rows,
+                              const std::vector<SeriesPlace>& unknowns, const std::vector<SeriesPlace>& rows,
                               bool has_ends_only) {
   const std::size_t intervals = has_ends_only ? 1 : program.layout().intervals();
   const BlockPattern& jacobian = program.jacobian_structure();
@@ -80,8 +80,8 @@ LaneTranscription::LaneTranscription(const Transcription& program)
       times_(each_for_all_lanes(program.time_inputs())) {
   if (program.has_free_horizon()) throw Error("a batch needs a given horizon; that of this problem is free");
   const Layout& layout = program.layout();
-  const auto add = [&](const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                       const std::vector<ColumnPlace>& rows, bool has_ends_only) {
+  const auto add = [&](const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                       const std::vector<SeriesPlace>& rows, bool has_ends_only) {
     parts_.push_back(std::make_unique<Part>(*this, functions,
                                             interleaved_places(program, functions, unknowns, rows, has_ends_only)));
   };
@@ -193,30 +193,30 @@ ClampedEnds::ClampedEnds(const Transcription& program) : program_(program), lege
 }
 
 void ClampedEnds::write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
-                        Eigen::VectorXd& rows) {
+                        Eigen::VectorXd& equality_values) {
   const Eigen::VectorXd& times = program_.grid().relative_times();
   for (Eigen::Index i = 0; i < first.q.size(); ++i) {
-    auto nodes = x.segment(static_cast<Eigen::Index>(program_.layout().configuration_column(i)), times.size());
+    auto nodes = x.segment(static_cast<Eigen::Index>(program_.layout().configuration_head(i)), times.size());
     const double at_first = first.q[i] - nodes[0];
     const double at_last = last.q[i] - nodes[times.size() - 1];
     nodes.array() += at_first + (at_last - at_first) * times.array();
   }
-  write_end(first, 0, 0.0, -1.0, x, rows);
-  write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, rows);
+  write_end(first, 0, 0.0, -1.0, x, equality_values);
+  write_end(last, program_.layout().intervals(), program_.guessed_horizon(), 1.0, x, equality_values);
 }
 
 void ClampedEnds::write_end(const BoundaryState& end, std::size_t node, double time, double sign, Eigen::VectorXd& x,
-                            Eigen::VectorXd& rows) {
+                            Eigen::VectorXd& equality_values) {
   const Layout& layout = program_.layout();
   const auto entry = [&](std::size_t head) { return static_cast<Eigen::Index>(head + node); };
   const bool is_velocity = layout.node_state() == NodeState::velocity;
   const Eigen::VectorXd second = is_velocity ? end.v : legendre_.momentum(end.q, end.v, time);
   for (Eigen::Index i = 0; i < end.q.size(); ++i) {
-    x[entry(layout.configuration_column(i))] = end.q[i];
+    x[entry(layout.configuration_head(i))] = end.q[i];
     if (layout.node_state() == NodeState::configuration) {
-      rows[entry(layout.node_row_column(i))] = sign * second[i];
+      equality_values[entry(layout.node_row_head(i))] = sign * second[i];
     } else {
-      x[entry(layout.second_column(i))] = second[i];
+      x[entry(layout.second_head(i))] = second[i];
     }
   }
 }

@@ -68,14 +68,15 @@ class ClampedEnds {
   /// are clamped.
   explicit ClampedEnds(const Transcription& program);
 
-  /// `x`: the unknowns of a start, variable_count() entries; `rows`: the values that equalities have,
+  /// `x`: the unknowns of a start, variable_count() entries; `equality_values`: the values that equalities have,
   /// constraint_count() entries, of which those of the ends are written. The configurations between are moved with the
   /// ends, linearly in time: q_k += (1 - t_k/T) δq_0 + (t_k/T) δq_N, as the default guess of a problem would be.
-  void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x, Eigen::VectorXd& rows);
+  void write(const BoundaryState& first, const BoundaryState& last, Eigen::VectorXd& x,
+             Eigen::VectorXd& equality_values);
 
  private:
   void write_end(const BoundaryState& end, std::size_t node, double time, double sign, Eigen::VectorXd& x,
-                 Eigen::VectorXd& rows);
+                 Eigen::VectorXd& equality_values);
 
   const Transcription& program_;
   LegendreTransform legendre_;

@@ -29,7 +29,7 @@ void Layout::append_unknowns() {
   rates_ = append(unknowns, interval, interior_stages() * node_columns());
   controls_ = append(unknowns, node, shape_.shares_controls ? m : 0);
   inner_controls_ = append(unknowns, interval, (shape_.shares_controls ? shape_.stages - 2 : shape_.stages) * m);
-  cost_column_ = append(unknowns, node, shape_.mayer ? 1 : 0);
+  cost_head_ = append(unknowns, node, shape_.mayer ? 1 : 0);
   single_unknowns_ = unknowns.size();
   if (shape_.first_has_velocity) append_singles(unknowns, 0);
   if (shape_.last_has_velocity) append_singles(unknowns, shape_.intervals);
@@ -51,41 +51,41 @@ void Layout::append_rows() {
 void Layout::place_interval() {
   const Eigen::Index m = shape_.control_size;
   for (const std::size_t right : {0U, 1U}) {
-    for (Eigen::Index i = 0; i < node_columns(); ++i) unknown_places_.emplace_back(configuration_column(i) + right);
-    for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_column(i) + right);
+    for (Eigen::Index i = 0; i < node_columns(); ++i) unknown_places_.emplace_back(configuration_head(i) + right);
+    for (Eigen::Index i = 0; i < shape_.node_rows; ++i) row_places_.emplace_back(node_row_head(i) + right);
   }
   for (Eigen::Index i = 0; i < interior_stages() * node_columns(); ++i) {
-    unknown_places_.emplace_back(rate_column(0, i));
+    unknown_places_.emplace_back(rate_head(0, i));
   }
   for (Eigen::Index stage = 0; stage < shape_.stages; ++stage) {
-    for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_column(stage, i));
+    for (Eigen::Index i = 0; i < m; ++i) unknown_places_.emplace_back(control_head(stage, i));
   }
   if (shape_.mayer) {
-    unknown_places_.emplace_back(cost_column_);
-    unknown_places_.emplace_back(cost_column_ + 1);
+    unknown_places_.emplace_back(cost_head_);
+    unknown_places_.emplace_back(cost_head_ + 1);
   }
   if (shape_.free_horizon) unknown_places_.emplace_back(horizon(), true);
-  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(interval_row_column(i));
+  for (Eigen::Index i = 0; i < shape_.interval_rows(); ++i) row_places_.emplace_back(interval_row_head(i));
 }
 
 void Layout::place_ends() {
   const Eigen::Index n = shape_.configuration_size;
   const auto place_end = [&](std::size_t node, bool has_velocity, std::size_t velocity) {
     for (Eigen::Index i = 0; i < node_columns(); ++i) {
-      end_unknown_places_.emplace_back(configuration_column(i) + node);
+      end_unknown_places_.emplace_back(configuration_head(i) + node);
     }
     if (!has_velocity) return;
     for (Eigen::Index i = 0; i < n; ++i) end_unknown_places_.emplace_back(velocity + static_cast<std::size_t>(i));
   };
   place_end(0, shape_.first_has_velocity, first_velocity(0));
   place_end(shape_.intervals, shape_.last_has_velocity, last_velocity(0));
-  if (shape_.mayer) end_unknown_places_.emplace_back(cost_column_ + shape_.intervals);
+  if (shape_.mayer) end_unknown_places_.emplace_back(cost_head_ + shape_.intervals);
   if (shape_.free_horizon) end_unknown_places_.emplace_back(horizon());
 
   std::size_t own_row = single_rows_;
   const auto place_tie = [&](std::size_t node) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      end_row_places_.emplace_back(shape_.node_state == NodeState::momentum ? own_row++ : node_row_column(i) + node);
+      end_row_places_.emplace_back(shape_.node_state == NodeState::momentum ? own_row++ : node_row_head(i) + node);
     }
   };
   if (shape_.first_has_velocity) place_tie(0);
@@ -93,12 +93,12 @@ void Layout::place_ends() {
   for (Eigen::Index i = 0; i < shape_.conditions; ++i) end_row_places_.emplace_back(own_row++);
 }
 
-std::size_t Layout::control_column(Eigen::Index stage, Eigen::Index i) const noexcept {
+std::size_t Layout::control_head(Eigen::Index stage, Eigen::Index i) const noexcept {
   const Eigen::Index m = shape_.control_size;
-  if (!shape_.shares_controls) return interval_column(inner_controls_, stage * m + i);
+  if (!shape_.shares_controls) return interval_head(inner_controls_, stage * m + i);
   if (stage == 0) return controls_ + static_cast<std::size_t>(i) * (shape_.intervals + 1);
-  if (stage == shape_.stages - 1) return control_column(0, i) + 1;
-  return interval_column(inner_controls_, (stage - 1) * m + i);
+  if (stage == shape_.stages - 1) return control_head(0, i) + 1;
+  return interval_head(inner_controls_, (stage - 1) * m + i);
 }
 
 }  // namespace dmocbench

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "methods/program/interval_structure.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 
@@ -39,7 +39,7 @@ struct LayoutShape {
 /// Vectors are stored column by column: q_1 of all nodes, q_2 of all nodes, ..., then p or v, interior rates, controls,
 /// z; at last v_0, v_N and T where they are unknowns. Every local quantity of an element is therefore contiguous over
 /// the intervals: that of interval k stands at `first` + k. For a quantity of the left node `first` is the head of its
-/// column, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then
+/// series, for the same quantity of the right node one more. Rows: those of the nodes, those of the intervals, then
 /// p = L_v(q, v) of the ends (Hamiltonian only) and the boundary conditions.
 class Layout {
  public:
@@ -50,42 +50,42 @@ class Layout {
   [[nodiscard]] std::size_t intervals() const noexcept { return shape_.intervals; }
   /// How many unknowns there are.
   [[nodiscard]] std::size_t variable_count() const noexcept { return structure_.unknowns.size(); }
-  /// How many rows there are.
-  [[nodiscard]] std::size_t row_count() const noexcept { return structure_.rows.size(); }
+  /// How many constraints there are.
+  [[nodiscard]] std::size_t constraint_count() const noexcept { return structure_.rows.size(); }
 
   /// Place of every local unknown of an interval, in the order of `IntervalFunctions`.
-  [[nodiscard]] const std::vector<ColumnPlace>& unknown_places() const noexcept { return unknown_places_; }
+  [[nodiscard]] const std::vector<SeriesPlace>& unknown_places() const noexcept { return unknown_places_; }
   /// Place of every local row of an interval.
-  [[nodiscard]] const std::vector<ColumnPlace>& row_places() const noexcept { return row_places_; }
+  [[nodiscard]] const std::vector<SeriesPlace>& row_places() const noexcept { return row_places_; }
   /// Place of every unknown and row of the ends, in the order of `EndFunctions`.
-  [[nodiscard]] const std::vector<ColumnPlace>& end_unknown_places() const noexcept { return end_unknown_places_; }
+  [[nodiscard]] const std::vector<SeriesPlace>& end_unknown_places() const noexcept { return end_unknown_places_; }
   /// Where the rows of the ends lie.
-  [[nodiscard]] const std::vector<ColumnPlace>& end_row_places() const noexcept { return end_row_places_; }
+  [[nodiscard]] const std::vector<SeriesPlace>& end_row_places() const noexcept { return end_row_places_; }
 
-  // Heads of columns. A node column has N + 1 entries, an interval column N.
-  /// The column of q_i of a node.
-  [[nodiscard]] std::size_t configuration_column(Eigen::Index i) const noexcept {
+  // Heads of series. That of a quantity of the nodes has N + 1 entries, that of one of the intervals N.
+  /// Of q_i of the nodes.
+  [[nodiscard]] std::size_t configuration_head(Eigen::Index i) const noexcept {
     return static_cast<std::size_t>(i) * (shape_.intervals + 1);
   }
-  [[nodiscard]] std::size_t second_column(Eigen::Index i) const noexcept {  ///< of p_i or v_i
-    return configuration_column(shape_.configuration_size + i);
+  [[nodiscard]] std::size_t second_head(Eigen::Index i) const noexcept {  ///< of p_i or v_i
+    return configuration_head(shape_.configuration_size + i);
   }
-  /// The column of component i of the stage rate Q̇_stage.
-  [[nodiscard]] std::size_t rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-    return interval_column(rates_, stage * shape_.configuration_size + i);
+  /// Of component i of the stage rate Q̇_stage.
+  [[nodiscard]] std::size_t rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
+    return interval_head(rates_, stage * shape_.configuration_size + i);
   }
-  /// The column of component i of Ṗ_stage or V̇_stage.
-  [[nodiscard]] std::size_t second_rate_column(Eigen::Index stage, Eigen::Index i) const noexcept {
-    return rate_column(interior_stages() + stage, i);
+  /// Of component i of Ṗ_stage or V̇_stage.
+  [[nodiscard]] std::size_t second_rate_head(Eigen::Index stage, Eigen::Index i) const noexcept {
+    return rate_head(interior_stages() + stage, i);
   }
-  /// The column of component i of U_stage.
-  [[nodiscard]] std::size_t control_column(Eigen::Index stage, Eigen::Index i) const noexcept;
-  [[nodiscard]] std::size_t cost_column() const noexcept { return cost_column_; }  ///< of z, in Mayer form
-  /// The column of the i-th equation of a node.
-  [[nodiscard]] std::size_t node_row_column(Eigen::Index i) const noexcept { return configuration_column(i); }
-  /// The column of the i-th equation of an interval.
-  [[nodiscard]] std::size_t interval_row_column(Eigen::Index i) const noexcept {
-    return interval_column(interval_rows_, i);
+  /// Of component i of U_stage.
+  [[nodiscard]] std::size_t control_head(Eigen::Index stage, Eigen::Index i) const noexcept;
+  [[nodiscard]] std::size_t cost_head() const noexcept { return cost_head_; }  ///< of z, in Mayer form
+  /// Of the i-th equation of the nodes.
+  [[nodiscard]] std::size_t node_row_head(Eigen::Index i) const noexcept { return configuration_head(i); }
+  /// Of the i-th equation of the intervals.
+  [[nodiscard]] std::size_t interval_row_head(Eigen::Index i) const noexcept {
+    return interval_head(interval_rows_, i);
   }
 
   // Single unknowns, in programs that have them.
@@ -117,8 +117,8 @@ class Layout {
   [[nodiscard]] Eigen::Index node_columns() const noexcept {
     return (node_state() == NodeState::configuration ? 1 : 2) * shape_.configuration_size;
   }
-  /// The head of interval column i behind `first`.
-  [[nodiscard]] std::size_t interval_column(std::size_t first, Eigen::Index i) const noexcept {
+  /// The head of series i of the intervals behind `first`.
+  [[nodiscard]] std::size_t interval_head(std::size_t first, Eigen::Index i) const noexcept {
     return first + static_cast<std::size_t>(i) * shape_.intervals;
   }
   /// `count` runs of one kind. Returns the head of the first.
@@ -134,15 +134,15 @@ class Layout {
   std::size_t rates_ = 0;           // head of the interior rates
   std::size_t controls_ = 0;        // of the controls
   std::size_t inner_controls_ = 0;  // of those that no other interval shares
-  std::size_t cost_column_ = 0;
+  std::size_t cost_head_ = 0;
   std::size_t interval_rows_ = 0;
   std::size_t single_unknowns_ = 0;  // where v_0, v_N, T begin
   std::size_t single_rows_ = 0;      // where the rows of the ends begin
   IntervalStructure structure_;
-  std::vector<ColumnPlace> unknown_places_;
-  std::vector<ColumnPlace> row_places_;
-  std::vector<ColumnPlace> end_unknown_places_;
-  std::vector<ColumnPlace> end_row_places_;
+  std::vector<SeriesPlace> unknown_places_;
+  std::vector<SeriesPlace> row_places_;
+  std::vector<SeriesPlace> end_unknown_places_;
+  std::vector<SeriesPlace> end_row_places_;
 };
 
 }  // namespace dmocbench

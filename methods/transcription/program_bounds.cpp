@@ -104,7 +104,7 @@ void set(Bounds& bounds, std::size_t first, std::size_t count, double lower, dou
 void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (Eigen::Index i = 0; i < u.lower.size(); ++i) {
-      set(variables, layout.control_column(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
+      set(variables, layout.control_head(stage, i), layout.intervals(), u.lower[i], u.upper[i]);
     }
   }
 }
@@ -113,7 +113,7 @@ void bound_controls(Bounds& variables, const Bounds& u, const Layout& layout) {
 void bound_path_rows(Bounds& rows, const ProblemBounds& bounds, Eigen::Index path_constraints, const Layout& layout) {
   Eigen::Index row = layout.shape().stage_equations;
   const auto bound_next = [&](double lower, double upper) {
-    set(rows, layout.interval_row_column(row++), layout.intervals(), lower, upper);
+    set(rows, layout.interval_row_head(row++), layout.intervals(), lower, upper);
   };
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (const Eigen::Index i : bounds.bounded_velocities()) bound_next(bounds.v.lower[i], bounds.v.upper[i]);
@@ -172,7 +172,7 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
     }
     return true;
   };
-  if (same(before.variables, now.variables) && same(before.rows, now.rows)) return;
+  if (same(before.variables, now.variables) && same(before.constraints, now.constraints)) return;
   throw Error(problem.name() +
               ": with these values a bound appears, vanishes, or joins or leaves its opposite; that is another "
               "transcription");
@@ -181,7 +181,7 @@ void require_same_structure(const Problem& problem, const ProgramBounds& before,
 ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced, const ProblemBounds& bounds,
                              double horizon, const EndRules& ends, const Layout& layout) {
   ProgramBounds result{Bounds::none(static_cast<Eigen::Index>(layout.variable_count())),
-                       Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.row_count())))};
+                       Bounds::fixed(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.constraint_count())))};
   auto& [variables, rows] = result;
   require_path_constraints_at_ends(problem, traced, bounds, horizon);
   const std::size_t last_node = layout.intervals();
@@ -195,28 +195,28 @@ ProgramBounds program_bounds(const Problem& problem, const TracedProblem& traced
       set_entry(variables, head, first, i);
       set_entry(variables, head + last_node, last, i);
     };
-    set(variables, layout.configuration_column(i), last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
-    set_ends(layout.configuration_column(i), bounds.first.q, bounds.last.q);
+    set(variables, layout.configuration_head(i), last_node + 1, bounds.q.lower[i], bounds.q.upper[i]);
+    set_ends(layout.configuration_head(i), bounds.first.q, bounds.last.q);
     switch (layout.node_state()) {
       case NodeState::configuration: {
-        const std::size_t row = layout.node_row_column(i);
+        const std::size_t row = layout.node_row_head(i);
         // (eq:gDLOCP3) and (rem:inifinalvel)
         if (ends.first_clamped) set(rows, row, 1, -first_momentum.lower[i], -first_momentum.lower[i]);
         if (ends.last_clamped) set_entry(rows, row + last_node, last_momentum, i);
         break;
       }
       case NodeState::momentum:
-        set_ends(layout.second_column(i), first_momentum, last_momentum);
+        set_ends(layout.second_head(i), first_momentum, last_momentum);
         break;
       case NodeState::velocity:
-        set_ends(layout.second_column(i), bounds.first.v, bounds.last.v);
+        set_ends(layout.second_head(i), bounds.first.v, bounds.last.v);
         break;
     }
     if (ends.first_has_velocity()) set_entry(variables, layout.first_velocity(i), bounds.first.v, i);
     if (ends.last_has_velocity()) set_entry(variables, layout.last_velocity(i), bounds.last.v, i);
   }
   bound_controls(variables, bounds.u, layout);
-  if (layout.shape().mayer) set(variables, layout.cost_column(), 1, 0.0, 0.0);
+  if (layout.shape().mayer) set(variables, layout.cost_head(), 1, 0.0, 0.0);
   if (bounds.horizon.is_free()) set(variables, layout.horizon(), 1, bounds.horizon.lower, bounds.horizon.upper);
   bound_path_rows(rows, bounds, traced.path_constraint_count(), layout);
   return result;

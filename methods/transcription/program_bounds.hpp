@@ -21,8 +21,8 @@ namespace dmocbench {
 
 /// The bounds of a program, one entry per variable or constraint (row).
 struct ProgramBounds {
-  Bounds variables;  ///< of the unknowns
-  Bounds rows;       ///< of the rows
+  Bounds variables;    ///< of the unknowns
+  Bounds constraints;  ///< of the constraints
 };
 
 /// Bounds of all unknowns and constraints. A clamped end fixes q and, where nodes carry it, p = L_v(q, v) or v. For

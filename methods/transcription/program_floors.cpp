@@ -33,9 +33,9 @@ RoundingFloors rounding_floors_of(const GuessMagnitudes& survey, const Eigen::Ve
   // λ is multiplied by L_vv/h, which does not vanish with q; where L_vv depends on q, it grows with it.
   const double products = std::max(of_entries, terms);
   RoundingFloors floors{
-      .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .rows = {}, .variables = {}};
+      .smallest = terms / steps.maxCoeff(), .largest = products / steps.minCoeff(), .constraints = {}, .variables = {}};
   if (floors.smallest == floors.largest) return floors;
-  floors.rows = floors_at(layout.structure().rows, terms * steps.cwiseInverse(), floors.smallest);
+  floors.constraints = floors_at(layout.structure().rows, terms * steps.cwiseInverse(), floors.smallest);
   floors.variables = floors_at(layout.structure().unknowns, products * steps.cwiseInverse(), floors.largest);
   return floors;
 }

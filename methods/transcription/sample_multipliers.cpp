@@ -93,15 +93,15 @@ class MultiplierWriter {
       : layout_(layout), n_(n), multipliers_(multipliers) {}
 
   void write_node(Eigen::Index k, const Eigen::VectorXd& psi_p) {
-    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.node_row_column(i), k) = psi_p[i];
+    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.node_row_head(i), k) = psi_p[i];
   }
   /// The `block`-th n rows of interval k.
   void write_interval(Eigen::Index block, Eigen::Index k, const Eigen::VectorXd& values) {
-    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.interval_row_column(block * n_ + i), k) = values[i];
+    for (Eigen::Index i = 0; i < n_; ++i) at(layout_.interval_row_head(block * n_ + i), k) = values[i];
   }
   /// z_{k+1} - z_k - cost = 0 carries the cost from node to node.
   void write_costs(double value) {
-    const auto head = static_cast<Eigen::Index>(layout_.interval_row_column(layout_.shape().interval_rows() - 1));
+    const auto head = static_cast<Eigen::Index>(layout_.interval_row_head(layout_.shape().interval_rows() - 1));
     multipliers_.segment(head, static_cast<Eigen::Index>(layout_.intervals())).setConstant(value);
   }
   /// The rows p - L_v(q, v) of the ends that have them: stationarity in p.

@@ -77,12 +77,12 @@ void SingleShooting::sort_unknowns() {
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
   for (Eigen::Index k = 1; k <= intervals; ++k) {
     for (Eigen::Index c = 0; c < 2 * n; ++c) {
-      simulated_.push_back(static_cast<Eigen::Index>(layout.configuration_column(c)) + k);
+      simulated_.push_back(static_cast<Eigen::Index>(layout.configuration_head(c)) + k);
     }
   }
   for (Eigen::Index k = 0; k < intervals; ++k) {
     for (Eigen::Index c = 0; c < 2 * n; ++c) {
-      equations_.push_back(static_cast<Eigen::Index>(layout.interval_row_column(c)) + k);
+      equations_.push_back(static_cast<Eigen::Index>(layout.interval_row_head(c)) + k);
     }
   }
   const auto is_simulated = positions(simulated_, program_.variable_count());

@@ -27,17 +27,17 @@ Eigen::VectorXd unknowns_of(const Transcription& transcription, const Trajectory
   const bool has_second = layout.node_state() != NodeState::configuration;
   const Eigen::MatrixXd& second = layout.node_state() == NodeState::momentum ? motion.p : motion.v;
   for (Eigen::Index c = 0; c < motion.q.cols(); ++c) {
-    set(layout.configuration_column(c), motion.q.col(c));
-    if (has_second) set(layout.second_column(c), second.col(c));
+    set(layout.configuration_head(c), motion.q.col(c));
+    if (has_second) set(layout.second_head(c), second.col(c));
     for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      set(layout.rate_column(i, c), motion.stage_v(rows_of(i), c));
-      if (has_second) set(layout.second_rate_column(i, c), second_rates(rows_of(i), c));
+      set(layout.rate_head(i, c), motion.stage_v(rows_of(i), c));
+      if (has_second) set(layout.second_rate_head(i, c), second_rates(rows_of(i), c));
     }
   }
   for (Eigen::Index c = 0; c < motion.stage_u.cols(); ++c) {
     // Where neighbours share a control, that of the first stage is taken.
     for (Eigen::Index i = layout.stages() - 1; i >= 0; --i) {
-      set(layout.control_column(i, c), motion.stage_u(rows_of(i), c));
+      set(layout.control_head(i, c), motion.stage_u(rows_of(i), c));
     }
   }
   if (layout.shape().first_has_velocity) set(layout.first_velocity(0), motion.v.row(0).transpose());
@@ -85,10 +85,10 @@ Trajectory tables_of(const Transcription& transcription, const Motion& motion, d
 /// Sets interior rates of p or v to the mean rates of their intervals, of which there is one per entry of `widths`.
 void set_mean_rates(const Layout& layout, Eigen::Index n, const Eigen::VectorXd& widths, Eigen::VectorXd& x) {
   for (Eigen::Index c = 0; c < n; ++c) {
-    const auto nodes = x.segment(static_cast<Eigen::Index>(layout.second_column(c)), widths.size() + 1);
+    const auto nodes = x.segment(static_cast<Eigen::Index>(layout.second_head(c)), widths.size() + 1);
     const Eigen::VectorXd rates = (nodes.tail(widths.size()) - nodes.head(widths.size())).cwiseQuotient(widths);
     for (Eigen::Index i = 0; i < layout.interior_stages(); ++i) {
-      x.segment(static_cast<Eigen::Index>(layout.second_rate_column(i, c)), widths.size()) = rates;
+      x.segment(static_cast<Eigen::Index>(layout.second_rate_head(i, c)), widths.size()) = rates;
     }
   }
 }
@@ -98,8 +98,8 @@ void sum_costs(Transcription& transcription, Eigen::VectorXd& x) {
   const Layout& layout = transcription.layout();
   Eigen::VectorXd constraints(static_cast<Eigen::Index>(transcription.constraint_count()));
   transcription.constraints(x, constraints);  // z_{k+1} - z_k - cost, with every z = 0
-  const auto row = static_cast<Eigen::Index>(layout.interval_row_column(layout.shape().interval_rows() - 1));
-  const auto column = static_cast<Eigen::Index>(layout.cost_column());
+  const auto row = static_cast<Eigen::Index>(layout.interval_row_head(layout.shape().interval_rows() - 1));
+  const auto column = static_cast<Eigen::Index>(layout.cost_head());
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(layout.intervals()); ++k) {
     x[column + k + 1] = x[column + k] - constraints[row + k];
   }

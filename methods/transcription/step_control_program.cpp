@@ -78,7 +78,7 @@ struct StepControlProgram::TracedUnknowns {
   ExpressionVector left_t, right_t;  // one entry each
   Expression multiplier;             // of the rule of the step
   Expression pace;
-  std::vector<ColumnPlace> places;  // in the program's vector
+  std::vector<SeriesPlace> places;  // in the program's vector
 };
 
 StepControlProgram::TracedUnknowns StepControlProgram::take_unknowns() const {
@@ -114,8 +114,8 @@ StepControlProgram::TracedUnknowns StepControlProgram::take_unknowns() const {
 }
 
 /// In the order of the formulas: those of both nodes, of the stage rates, of the step.
-std::vector<ColumnPlace> StepControlProgram::places_of_local_rows() const {
-  std::vector<ColumnPlace> rows;
+std::vector<SeriesPlace> StepControlProgram::places_of_local_rows() const {
+  std::vector<SeriesPlace> rows;
   const auto add = [&](std::size_t column, Eigen::Index length, std::size_t right_node, Eigen::Index count) {
     for (Eigen::Index i = 0; i < count; ++i) {
       rows.emplace_back(static_cast<std::size_t>(head(column, i, length)) + right_node);
@@ -155,8 +155,8 @@ void StepControlProgram::trace() {
   reading_ = Schedule(stacked(read));
 }
 
-void StepControlProgram::assemble(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                                  const std::vector<ColumnPlace>& rows) {
+void StepControlProgram::assemble(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                                  const std::vector<SeriesPlace>& rows) {
   jacobian_ = assemble_pattern(jacobian_entries(functions, rows, unknowns, structure_.intervals));
   hessian_ = assemble_pattern(hessian_entries(functions, unknowns, structure_.intervals));
   const ProgramArrays arrays{.variables = variable_count(),

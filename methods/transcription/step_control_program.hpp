@@ -56,7 +56,7 @@ class StepControlProgram final : public NonlinearProgram {
   [[nodiscard]] Eigen::VectorXd multipliers_of_steps(const Eigen::VectorXd& x) const;
 
  private:
-  /// Heads of columns, as in `Layout`.
+  /// Heads of series, as in `Layout`.
   struct Columns {
     std::size_t q = 0, t = 0, rates = 0, controls = 0, multiplier = 0, pace = 0;
     std::size_t momentum_rows = 0, energy_rows = 0, rate_rows = 0, step_rows = 0;
@@ -68,9 +68,9 @@ class StepControlProgram final : public NonlinearProgram {
   void trace();
   void fix_ends();
   [[nodiscard]] TracedUnknowns take_unknowns() const;
-  [[nodiscard]] std::vector<ColumnPlace> places_of_local_rows() const;
-  void assemble(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                const std::vector<ColumnPlace>& rows);
+  [[nodiscard]] std::vector<SeriesPlace> places_of_local_rows() const;
+  void assemble(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                const std::vector<SeriesPlace>& rows);
   [[nodiscard]] static Eigen::Index head(std::size_t column, Eigen::Index i, Eigen::Index length) {
     return static_cast<Eigen::Index>(column) + i * length;
   }

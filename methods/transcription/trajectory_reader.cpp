@@ -36,7 +36,7 @@ void read_stages(Transcription& transcription, const Eigen::VectorXd& primal, Tr
     trajectory.stage_v(rows, Eigen::all) = stage.middleCols(n, n);
     trajectory.stage_times(rows) = stage.col(2 * n);
     for (Eigen::Index c = 0; c < trajectory.stage_u.cols(); ++c) {
-      trajectory.stage_u(rows, c) = primal.segment(static_cast<Eigen::Index>(layout.control_column(i, c)), intervals);
+      trajectory.stage_u(rows, c) = primal.segment(static_cast<Eigen::Index>(layout.control_head(i, c)), intervals);
     }
   }
 }
@@ -56,7 +56,7 @@ Trajectory read_trajectory(Transcription& transcription, const Eigen::VectorXd& 
   trajectory.q.resize(trajectory.node_times.size(), n);
   for (Eigen::Index i = 0; i < n; ++i) {
     trajectory.q.col(i) =
-        primal.segment(static_cast<Eigen::Index>(layout.configuration_column(i)), trajectory.node_times.size());
+        primal.segment(static_cast<Eigen::Index>(layout.configuration_head(i)), trajectory.node_times.size());
   }
   trajectory.p = read_momenta(transcription, primal, n);
   read_stages(transcription, primal, trajectory);

@@ -83,10 +83,10 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
       hessian_pattern_(assemble_pattern(hessian_entries(functions_, layout_.unknown_places(), grid.intervals()))) {
   require_enough_intervals(problem, element);
   // The ends extend the patterns, which must be complete before the arrays of the intervals are allocated.
-  std::vector<ColumnPlace> end_jacobian;
-  std::vector<ColumnPlace> end_hessian;
-  const std::vector<ColumnPlace>& end_unknowns = layout_.end_unknown_places();
-  const std::vector<ColumnPlace>& end_rows = layout_.end_row_places();
+  std::vector<SeriesPlace> end_jacobian;
+  std::vector<SeriesPlace> end_hessian;
+  const std::vector<SeriesPlace>& end_unknowns = layout_.end_unknown_places();
+  const std::vector<SeriesPlace>& end_rows = layout_.end_row_places();
   if (end_functions_) {
     end_jacobian =
         extend_pattern(jacobian_pattern_.pattern, jacobian_entries(*end_functions_, end_rows, end_unknowns, 1));
@@ -97,12 +97,12 @@ Transcription::Transcription(const Problem& problem, const Element& element, Tab
   if (end_functions_) add_part(*end_functions_, end_unknowns, end_rows, end_jacobian, end_hessian, derivatives);
 }
 
-void Transcription::add_part(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                             const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
-                             const std::vector<ColumnPlace>& hessian, std::string_view derivatives) {
+void Transcription::add_part(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                             const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
+                             const std::vector<SeriesPlace>& hessian, std::string_view derivatives) {
   const bool has_ends_only = !parts_.empty();
   const ProgramArrays arrays{.variables = layout_.variable_count(),
-                             .constraints = layout_.row_count(),
+                             .constraints = layout_.constraint_count(),
                              .jacobian = jacobian_pattern_.pattern.size(),
                              .hessian = hessian_pattern_.pattern.size()};
   PartPlaces places =
@@ -123,7 +123,7 @@ void Transcription::require_enough_intervals(const Problem& problem, const Eleme
     const auto inequalities = static_cast<long long>(intervals) * shape.path_rows;
     const auto more = static_cast<long long>(intervals) - static_cast<long long>(layout_.intervals());
     return static_cast<long long>(layout.variable_count()) - fixed - more * fixed_in_interval -
-           (static_cast<long long>(layout.row_count()) - inequalities);
+           (static_cast<long long>(layout.constraint_count()) - inequalities);
   };
   const std::size_t intervals = layout_.intervals();
   if (surplus(intervals) >= 0) return;

@@ -93,11 +93,11 @@ class Transcription final : public NonlinearProgram {
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
 
   [[nodiscard]] std::size_t variable_count() const override { return layout_.variable_count(); }
-  [[nodiscard]] std::size_t constraint_count() const override { return layout_.row_count(); }
+  [[nodiscard]] std::size_t constraint_count() const override { return layout_.constraint_count(); }
   [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return bounds_.variables.lower; }
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return bounds_.variables.upper; }
-  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return bounds_.rows.lower; }
-  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return bounds_.rows.upper; }
+  [[nodiscard]] const Eigen::VectorXd& constraint_lower() const override { return bounds_.constraints.lower; }
+  [[nodiscard]] const Eigen::VectorXd& constraint_upper() const override { return bounds_.constraints.upper; }
   [[nodiscard]] const BlockPattern& jacobian_structure() const override { return jacobian_pattern_.pattern; }
   [[nodiscard]] const BlockPattern& hessian_structure() const override { return hessian_pattern_.pattern; }
   [[nodiscard]] double objective(const VectorIn& x) override;
@@ -170,9 +170,9 @@ class Transcription final : public NonlinearProgram {
   void require_enough_intervals(const Problem& problem, const Element& element) const;
   [[nodiscard]] long long fixed_variables_of_an_interval() const;
   /// Sets up the intervals at the first call, the ends at the second; the patterns must be complete.
-  void add_part(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
-                const std::vector<ColumnPlace>& hessian, std::string_view derivatives);
+  void add_part(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
+                const std::vector<SeriesPlace>& hessian, std::string_view derivatives);
 
   const Problem* problem_;
   Eigen::VectorXd parameters_;

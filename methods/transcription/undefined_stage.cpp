@@ -15,7 +15,7 @@ std::string undefined_stage(const Problem& problem, Transcription& transcription
       const auto stage = stages.row(k).segment(i * (2 * n + 1), 2 * n + 1);
       MotionPoint point{.q = stage.head(n), .v = stage.segment(n, n), .u = Eigen::VectorXd(problem.control_size())};
       for (Eigen::Index c = 0; c < point.u.size(); ++c) {
-        point.u[c] = x[static_cast<Eigen::Index>(layout.control_column(i, c)) + k];
+        point.u[c] = x[static_cast<Eigen::Index>(layout.control_head(i, c)) + k];
       }
       const std::string quantity = check.undefined_at(point, stage[2 * n]);
       if (!quantity.empty())

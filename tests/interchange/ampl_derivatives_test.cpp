@@ -49,8 +49,8 @@ struct ProgramPoint {
 
 /// The sums of a part: of the terms of our formulas, and over all paths through the undifferentiated ones, whose sum
 /// every way of differentiating computes.
-void add_part(const Transcription& program, const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-              const std::vector<ColumnPlace>& rows, std::size_t k, const ProgramPoint& point, Magnitudes& sums) {
+void add_part(const Transcription& program, const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+              const std::vector<SeriesPlace>& rows, std::size_t k, const ProgramPoint& point, Magnitudes& sums) {
   const LocalInputs& numbers = functions.inputs;
   const auto interval = static_cast<Eigen::Index>(k);
   const auto unknown = [&](std::size_t a) { return static_cast<Eigen::Index>(unknowns[a].at(k)); };

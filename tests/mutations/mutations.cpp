@@ -62,9 +62,9 @@ class LosesAMergedEntry final : public DerivativeBackEnd {
   LosesAMergedEntry(std::string_view name, const LocalFunctions& functions, DerivativePlaces places)
       : size_(static_cast<Eigen::Index>(places.hessian.size)) {
     // The entry is written behind the others instead, where nobody reads it.
-    std::vector<ColumnPlace>& entries = places.hessian.places;
-    for (ColumnPlace& place : entries) {
-      if (place.shared || std::count(entries.begin(), entries.end(), ColumnPlace(place.first + 1)) == 0) continue;
+    std::vector<SeriesPlace>& entries = places.hessian.places;
+    for (SeriesPlace& place : entries) {
+      if (place.is_global || std::count(entries.begin(), entries.end(), SeriesPlace(place.first + 1)) == 0) continue;
       place = places.hessian.size;
       places.hessian.size += places.hessian.intervals;
       break;
@@ -117,7 +117,7 @@ void mutable_construct_transcription(Transcription* self, const Problem& problem
   for (const Eigen::VectorXd* bounds : {&self->constraint_lower(), &self->constraint_upper()}) {
     auto& rows = const_cast<Eigen::VectorXd&>(*bounds);  // NOLINT: nobody asked the class for a hook
     for (Eigen::Index i = 0; i < problem.configuration_size(); ++i) {
-      const auto head = static_cast<Eigen::Index>(self->layout().node_row_column(i));
+      const auto head = static_cast<Eigen::Index>(self->layout().node_row_head(i));
       double& last = rows[head + static_cast<Eigen::Index>(self->layout().intervals())];
       rows[head] = -std::exchange(last, -rows[head]);
     }

@@ -25,8 +25,8 @@ inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motio
   const Eigen::MatrixXd& second = layout.node_state() == NodeState::momentum ? motion.p : motion.v;
   for (Eigen::Index k = 0; k <= motion.intervals(); ++k) {
     for (Eigen::Index i = 0; i < n; ++i) {
-      set(layout.configuration_column(i), k, motion.q(k, i));
-      if (has_second) set(layout.second_column(i), k, second(k, i));
+      set(layout.configuration_head(i), k, motion.q(k, i));
+      if (has_second) set(layout.second_head(i), k, second(k, i));
     }
   }
   Eigen::VectorXd rate(n);
@@ -34,14 +34,14 @@ inline Eigen::VectorXd pack(const Transcription& target, const Trajectory& motio
     for (Eigen::Index j = 0; j < s; ++j) {
       const Eigen::Index row = k * s + j;
       for (Eigen::Index i = 0; i < problem.control_size(); ++i) {
-        set(layout.control_column(j, i), k, motion.stage_u(row, i));
+        set(layout.control_head(j, i), k, motion.stage_u(row, i));
       }
       if (j + 1 == s) continue;
       force.evaluate(motion.stage_q.row(row).transpose(), motion.stage_v.row(row).transpose(),
                      motion.stage_u.row(row).transpose(), motion.stage_times[row], rate);
       for (Eigen::Index i = 0; i < n; ++i) {
-        set(layout.rate_column(j, i), k, motion.stage_v(row, i));
-        if (has_second) set(layout.second_rate_column(j, i), k, rate[i]);
+        set(layout.rate_head(j, i), k, motion.stage_v(row, i));
+        if (has_second) set(layout.second_rate_head(j, i), k, rate[i]);
       }
     }
   }

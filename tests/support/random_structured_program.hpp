@@ -100,7 +100,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
  private:
   /// An unknown or a row as an interval sees it.
   struct Local {
-    ColumnPlace place;
+    SeriesPlace place;
     std::size_t pivot;  ///< rows: the unknown, as a number of `local_unknowns_`, whose increment it determines
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -135,8 +135,8 @@ class RandomStructuredProgram final : public NonlinearProgram {
     const auto column = [&](Place::Kind kind, std::size_t length) { return places.append(kind, 0, length); };
     for (std::size_t i = 0; shape_.rows_at_nodes && i < node; ++i) {
       node_rows_.push_back(column(Place::Kind::node, N + 1));
-      local_rows_.push_back({ColumnPlace(node_rows_.back()), i + node});
-      local_rows_.push_back({ColumnPlace(node_rows_.back() + 1), i});
+      local_rows_.push_back({SeriesPlace(node_rows_.back()), i + node});
+      local_rows_.push_back({SeriesPlace(node_rows_.back() + 1), i});
     }
     for (std::size_t i = 0; !shape_.rows_at_nodes && i < node; ++i) append_own_row(i + node, column);
     for (std::size_t i = 0; i < size(shape_.rates); ++i) append_own_row(2 * node + i, column);
@@ -153,7 +153,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
 
   template <class Column>
   void append_own_row(std::size_t pivot, const Column& column) {
-    local_rows_.push_back({ColumnPlace(column(Place::Kind::interval, shape_.intervals)), pivot});
+    local_rows_.push_back({SeriesPlace(column(Place::Kind::interval, shape_.intervals)), pivot});
   }
 
   void append_jacobian() {
@@ -173,7 +173,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     }
     const AssembledPattern assembled = assemble_pattern(entries);
     jacobian_pattern_ = assembled.pattern;
-    const std::vector<ColumnPlace> end_places = extend_pattern(jacobian_pattern_, end_rows());
+    const std::vector<SeriesPlace> end_places = extend_pattern(jacobian_pattern_, end_rows());
     jacobian_entries_ = jacobian_pattern_.expand();
     jacobian_.setZero(static_cast<Eigen::Index>(jacobian_pattern_.size()));
     for (std::size_t e = 0; e < increment.size(); ++e) {
@@ -183,7 +183,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
         jacobian_[static_cast<Eigen::Index>(at)] += base + shape_.roughness * random_.number();
       }
     }
-    for (const ColumnPlace& place : end_places) jacobian_[static_cast<Eigen::Index>(place.first)] += random_.number();
+    for (const SeriesPlace& place : end_places) jacobian_[static_cast<Eigen::Index>(place.first)] += random_.number();
     if (shape_.nearly_dependent) make_nearly_dependent();
   }
 
@@ -262,7 +262,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
     const AssembledPattern assembled = assemble_pattern(entries);
     hessian_pattern_ = assembled.pattern;
     const LocalEntries ends = end_pairs();
-    const std::vector<ColumnPlace> end_places = extend_pattern(hessian_pattern_, ends);
+    const std::vector<SeriesPlace> end_places = extend_pattern(hessian_pattern_, ends);
     hessian_.setZero(static_cast<Eigen::Index>(hessian_pattern_.size()));
     const Eigen::MatrixXd base = random_matrix(static_cast<Eigen::Index>(local_unknowns_.size()));
     for (std::size_t k = 0; k < N; ++k) {
@@ -362,7 +362,7 @@ class RandomStructuredProgram final : public NonlinearProgram {
   std::vector<std::size_t> inner_;
   std::vector<std::size_t> node_rows_;
   std::array<std::vector<std::size_t>, 2> ends_;  // unknowns of the first and of the last node, further ones behind
-  std::vector<ColumnPlace> local_unknowns_;
+  std::vector<SeriesPlace> local_unknowns_;
   std::vector<Local> local_rows_;
   std::size_t first_inequality_ = 0;
   std::size_t single_rows_ = 0;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/transcription/derivatives/assembled_pattern.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/sentence_of_error.hpp"
 
@@ -86,8 +86,8 @@ TEST(AssemblePattern, PutsEveryLocalEntryWhereItBelongsAndNothingTwice) {
   for (const std::size_t intervals : {1UL, 2UL, 3UL, 64UL, 65UL}) {
     const std::size_t nodes = intervals + 1;
     const std::vector<std::size_t> heads{0, 1, nodes, nodes + 1, 2 * nodes, 2 * nodes + intervals};
-    std::vector<ColumnPlace> rows;
-    std::vector<ColumnPlace> columns;
+    std::vector<SeriesPlace> rows;
+    std::vector<SeriesPlace> columns;
     for (const std::size_t row : heads) {
       for (const std::size_t column : heads) {
         rows.emplace_back(row);
@@ -118,7 +118,7 @@ TEST(AssemblePattern, PutsEveryLocalEntryWhereItBelongsAndNothingTwice) {
 TEST(AssemblePattern, KeepsRowsAndColumnsOfAQuantityOfTheWholeHorizon) {
   // Rows of intervals and of nodes against one shared unknown, and that unknown against itself.
   constexpr std::size_t intervals = 5;
-  const ColumnPlace horizon(20, true);
+  const SeriesPlace horizon(20, true);
   const AssembledPattern assembled =
       assemble_pattern({{0, 1, 10, horizon}, {horizon, horizon, horizon, horizon}, intervals});
   EXPECT_EQ(assembled.pattern.size(), (intervals + 1) + intervals + 1);
@@ -131,15 +131,15 @@ TEST(AssemblePattern, KeepsRowsAndColumnsOfAQuantityOfTheWholeHorizon) {
     EXPECT_EQ(pattern.columns[right], 20);
     EXPECT_EQ(pattern.rows[assembled.places[2].at(k)], static_cast<int>(10 + k));
   }
-  EXPECT_TRUE(assembled.places[3].shared);
+  EXPECT_TRUE(assembled.places[3].is_global);
   EXPECT_EQ(pattern.rows[assembled.places[3].first], 20);
 }
 
 TEST(ExtendPattern, FindsWhatIsThereAndAppendsTheRest) {
   BlockPattern pattern;
   pattern.append({.row_step = 1, .column_step = 1, .length = 3});
-  const std::vector<ColumnPlace> places = extend_pattern(pattern, {{1, 7, 2, 7}, {1, 0, 2, 0}, 1});
-  EXPECT_EQ(places, (std::vector<ColumnPlace>{1, 3, 2, 3}));
+  const std::vector<SeriesPlace> places = extend_pattern(pattern, {{1, 7, 2, 7}, {1, 0, 2, 0}, 1});
+  EXPECT_EQ(places, (std::vector<SeriesPlace>{1, 3, 2, 3}));
   const SparsityPattern entries = pattern.expand();
   EXPECT_EQ(entries.rows, (std::vector<int>{0, 1, 2, 7}));
   EXPECT_EQ(entries.columns, (std::vector<int>{0, 1, 2, 0}));

@@ -27,9 +27,9 @@ Eigen::VectorXd without_momenta(const Layout& from, const Layout& to, const Eige
   const auto copy = [&](std::size_t source, std::size_t target, std::size_t end) {
     result.segment(at(target), at(end) - at(target)) = x.segment(at(source), at(end) - at(target));
   };
-  copy(from.configuration_column(0), to.configuration_column(0), to.configuration_column(n));
-  copy(from.rate_column(0, 0), to.rate_column(0, 0), to.rate_column(to.interior_stages(), 0));
-  copy(from.control_column(0, 0), to.control_column(0, 0), to.variable_count());
+  copy(from.configuration_head(0), to.configuration_head(0), to.configuration_head(n));
+  copy(from.rate_head(0, 0), to.rate_head(0, 0), to.rate_head(to.interior_stages(), 0));
+  copy(from.control_head(0, 0), to.control_head(0, 0), to.variable_count());
   return result;
 }
 
@@ -60,7 +60,7 @@ class CombinedRows {
   [[nodiscard]] Eigen::Index last() const { return tableau_.stages() - 1; }
   [[nodiscard]] Eigen::VectorXd row(Eigen::Index k, Eigen::Index number) const {
     const Eigen::Index n = layout_.shape().configuration_size;
-    return entries_at(rows_, n, k, [&](Eigen::Index i) { return layout_.interval_row_column(number * n + i); });
+    return entries_at(rows_, n, k, [&](Eigen::Index i) { return layout_.interval_row_head(number * n + i); });
   }
   [[nodiscard]] Eigen::VectorXd momentum_row(Eigen::Index k, Eigen::Index stage) const { return row(k, 2 * stage); }
   [[nodiscard]] Eigen::VectorXd force_rows(Eigen::Index k, const Eigen::RowVectorXd& weights) const {
@@ -90,20 +90,20 @@ void expect_dmocs_rows(const Problem& problem, const std::string& family, int st
     dmoc->constraints(without_momenta(hamiltonian->layout(), layout, x), rows);
     const CombinedRows combined(*hamiltonian, x);
     const auto momentum = [&](Eigen::Index k) {
-      return entries_at(x, n, k, [&](Eigen::Index i) { return hamiltonian->layout().second_column(i); });
+      return entries_at(x, n, k, [&](Eigen::Index i) { return hamiltonian->layout().second_head(i); });
     };
     const double rounding = 1e-12 * rows.lpNorm<Eigen::Infinity>();
     for (Eigen::Index k = 0; k <= intervals; ++k) {
       Eigen::VectorXd expected = Eigen::VectorXd::Zero(n);
       if (k < intervals) expected += combined.left(k) - momentum(k);
       if (k > 0) expected += combined.right(k - 1) + momentum(k);
-      const Eigen::VectorXd found = entries_at(rows, n, k, [&](Eigen::Index i) { return layout.node_row_column(i); });
+      const Eigen::VectorXd found = entries_at(rows, n, k, [&](Eigen::Index i) { return layout.node_row_head(i); });
       EXPECT_LT((found - expected).lpNorm<Eigen::Infinity>(), rounding);
     }
     for (Eigen::Index k = 0; k < intervals; ++k) {
       for (Eigen::Index j = 0; j + 1 < stages; ++j) {
         const Eigen::VectorXd found =
-            entries_at(rows, n, k, [&](Eigen::Index i) { return layout.interval_row_column(j * n + i); });
+            entries_at(rows, n, k, [&](Eigen::Index i) { return layout.interval_row_head(j * n + i); });
         EXPECT_LT((found - combined.stage_equation(k, j)).lpNorm<Eigen::Infinity>(), rounding);
       }
     }

@@ -98,13 +98,13 @@ class DiscretePrinciple {
         }
         return entries;
       };
-      const auto q_column = [&](Eigen::Index i) { return layout.configuration_column(i); };
+      const auto q_column = [&](Eigen::Index i) { return layout.configuration_head(i); };
       const LongVector left = read(q_column, n_, k);
       const LongVector right = read(q_column, n_, k + 1);
       std::vector<LongVector> slopes;
       LongVector last = (right - left) / h;
       for (Eigen::Index j = 0; j + 1 < s; ++j) {
-        slopes.push_back(read([&](Eigen::Index i) { return layout.rate_column(j, i); }, n_, k));
+        slopes.push_back(read([&](Eigen::Index i) { return layout.rate_head(j, i); }, n_, k));
         last -= Long(tableau.b[j]) * slopes.back();
       }
       slopes.emplace_back(last / Long(tableau.b[s - 1]));
@@ -113,7 +113,7 @@ class DiscretePrinciple {
         for (Eigen::Index j = 0; j < s; ++j) {
           q += h * Long(tableau.a(i, j)) * slopes[static_cast<std::size_t>(j)];
         }
-        const LongVector u = read([&](Eigen::Index c) { return layout.control_column(i, c); }, m, k);
+        const LongVector u = read([&](Eigen::Index c) { return layout.control_head(i, c); }, m, k);
         visitor(h * Long(tableau.b[i]), q, slopes[static_cast<std::size_t>(i)], u,
                 Long(program_.time_inputs()[k]) + Long(tableau.c[i]) * h);
       }
@@ -158,15 +158,15 @@ TEST(DmocElement, RowsAreTheVariationOfTheDiscreteActionPlusVirtualWork) {
       for (std::size_t i = 0; i < n; ++i) {
         const auto component = static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k <= intervals; ++k) {  // (DEL), boundary nodes included
-          const auto row = static_cast<Eigen::Index>(layout.node_row_column(component) + k);
-          EXPECT_NEAR(rows[row], variation(layout.configuration_column(component) + k), tolerance);
+          const auto row = static_cast<Eigen::Index>(layout.node_row_head(component) + k);
+          EXPECT_NEAR(rows[row], variation(layout.configuration_head(component) + k), tolerance);
         }
         for (Eigen::Index j = 0; j + 1 < s; ++j) {
           for (std::size_t k = 0; k < intervals; ++k) {
             const double unit = program->steps(x)[static_cast<Eigen::Index>(k)] * program->tableau().b[j];
             const auto row =
                 static_cast<Eigen::Index>(layout.row_places()[2 * n + static_cast<std::size_t>(j) * n + i].at(k));
-            EXPECT_NEAR(rows[row], variation(layout.rate_column(j, component) + k) / unit, tolerance);
+            EXPECT_NEAR(rows[row], variation(layout.rate_head(j, component) + k) / unit, tolerance);
           }
         }
       }
@@ -192,11 +192,11 @@ class MidpointByHand : public testing::Test {
   }
   [[nodiscard]] Eigen::Vector2d node(Eigen::Index k) const { return {x_[entry(0, k)], x_[entry(1, k)]}; }
   [[nodiscard]] Ends interval(Eigen::Index k) const {
-    const auto column = static_cast<Eigen::Index>(program_->layout().control_column(0, 0));
+    const auto column = static_cast<Eigen::Index>(program_->layout().control_head(0, 0));
     return ends(node(k), node(k + 1), x_[column + k], program_->steps(x_)[k]);
   }
   [[nodiscard]] Eigen::Index entry(Eigen::Index i, Eigen::Index k) const {
-    return static_cast<Eigen::Index>(program_->layout().configuration_column(i)) + k;
+    return static_cast<Eigen::Index>(program_->layout().configuration_head(i)) + k;
   }
 
   static constexpr Eigen::Index intervals = 6;

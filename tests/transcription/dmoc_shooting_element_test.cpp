@@ -132,7 +132,7 @@ TEST(ShootingByDmocElement, IsNotANumberWhereItsStepIsNotSolved) {
   program->constraints(x, rows);
   EXPECT_TRUE(rows.allFinite());
   for (const Eigen::Index i : {0, 1}) {
-    x.segment(static_cast<Eigen::Index>(program->layout().second_column(i)), 17).setConstant(i == 0 ? 300.0 : -200.0);
+    x.segment(static_cast<Eigen::Index>(program->layout().second_head(i)), 17).setConstant(i == 0 ? 300.0 : -200.0);
   }
   program->constraints(x, rows);
   EXPECT_TRUE(rows.hasNaN());

@@ -89,15 +89,15 @@ TEST(Layout, ColumnsAreDisjointAndCoverEveryUnknownOnce) {
       for (std::size_t k = 0; k < length; ++k) covered.insert(head + k);
     };
     for (Eigen::Index i = 0; i < n; ++i) {
-      cover(layout.configuration_column(i), intervals + 1);
-      if (second) cover(layout.second_column(i), intervals + 1);
+      cover(layout.configuration_head(i), intervals + 1);
+      if (second) cover(layout.second_head(i), intervals + 1);
       for (Eigen::Index j = 0; j + 1 < s; ++j) {
-        cover(layout.rate_column(j, i), intervals);
-        if (second) cover(layout.second_rate_column(j, i), intervals);
+        cover(layout.rate_head(j, i), intervals);
+        if (second) cover(layout.second_rate_head(j, i), intervals);
       }
     }
     for (Eigen::Index j = 0; j < s; ++j) {
-      for (Eigen::Index i = 0; i < m; ++i) cover(layout.control_column(j, i), intervals);
+      for (Eigen::Index i = 0; i < m; ++i) cover(layout.control_head(j, i), intervals);
     }
     ASSERT_EQ(covered.size(), layout.variable_count());
     EXPECT_EQ(std::set<std::size_t>(covered.begin(), covered.end()).size(), covered.size());
@@ -129,10 +129,10 @@ TEST(Layout, SharedControlsOfNeighboursAreTheSameUnknown) {
   std::set<std::size_t> covered;
   for (Eigen::Index i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k + 1 < intervals; ++k) {
-      EXPECT_EQ(layout.control_column(2, i) + k, layout.control_column(0, i) + k + 1);
+      EXPECT_EQ(layout.control_head(2, i) + k, layout.control_head(0, i) + k + 1);
     }
     for (std::size_t k = 0; k < intervals; ++k) {
-      for (const Eigen::Index stage : {0, 1, 2}) covered.insert(layout.control_column(stage, i) + k);
+      for (const Eigen::Index stage : {0, 1, 2}) covered.insert(layout.control_head(stage, i) + k);
     }
   }
   EXPECT_EQ(covered.size(), 2 * (intervals + 1 + intervals));

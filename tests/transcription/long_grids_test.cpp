@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/runtime/parallel.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/registry.hpp"
@@ -118,8 +118,8 @@ TEST(LongGrids, AreAddedUpByPartsWithoutGap) {
   constexpr std::size_t intervals = 3 * 65536 + 37;
   constexpr std::size_t gap = 2 * 65536 + 5;  // entries that no column reaches
   constexpr std::size_t size = gap + intervals + 2;
-  const std::vector<ColumnPlace> places{gap, gap + 1, gap + 2, gap + 1};
-  ColumnAssembly assembly({places, size, intervals});
+  const std::vector<SeriesPlace> places{gap, gap + 1, gap + 2, gap + 1};
+  SeriesAssembly assembly({places, size, intervals});
   std::array<Eigen::VectorXd, 4> columns;
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size));
   tests::RandomPoints random;

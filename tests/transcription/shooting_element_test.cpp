@@ -68,8 +68,8 @@ TEST_P(ShootingRows, AreTheRatesThatAnIntegrationByHandMisses) {
   const auto node = [&](Eigen::Index k) {
     Eigen::VectorXd state(2 * n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      state[i] = x[static_cast<Eigen::Index>(layout.configuration_column(i)) + k];
-      state[n + i] = x[static_cast<Eigen::Index>(layout.second_column(i)) + k];
+      state[i] = x[static_cast<Eigen::Index>(layout.configuration_head(i)) + k];
+      state[n + i] = x[static_cast<Eigen::Index>(layout.second_head(i)) + k];
     }
     return state;
   };
@@ -79,13 +79,13 @@ TEST_P(ShootingRows, AreTheRatesThatAnIntegrationByHandMisses) {
     Eigen::MatrixXd controls(stages, problem->control_size());
     for (Eigen::Index s = 0; s < stages; ++s) {
       for (Eigen::Index i = 0; i < controls.cols(); ++i) {
-        controls(s, i) = x[static_cast<Eigen::Index>(layout.control_column(s, i)) + k];
+        controls(s, i) = x[static_cast<Eigen::Index>(layout.control_head(s, i)) + k];
       }
     }
     const double h = times[k + 1] - times[k];
     const Eigen::VectorXd missed = (node(k + 1) - by_hand.across(node(k), controls, times[k], h, substeps)) / h;
     for (Eigen::Index i = 0; i < 2 * n; ++i) {
-      const double row = rows[static_cast<Eigen::Index>(layout.interval_row_column(i)) + k];
+      const double row = rows[static_cast<Eigen::Index>(layout.interval_row_head(i)) + k];
       EXPECT_NEAR(row, missed[i], 1e-12 * (1.0 + missed.lpNorm<Eigen::Infinity>() + 1.0 / h));
     }
   }

@@ -97,20 +97,20 @@ TEST(Sample, PutsVelocitiesMomentaAndControlsWhereTheLayoutSays) {
       const MotionPoint node = at(t);
       const Eigen::VectorXd p = legendre.momentum(node.q, node.v, t);
       for (Eigen::Index i = 0; i < 2; ++i) {
-        EXPECT_EQ(entry(layout.configuration_column(i), k), node.q[i]);
+        EXPECT_EQ(entry(layout.configuration_head(i), k), node.q[i]);
         if (scheme.method == "hamiltonian") {
-          EXPECT_EQ(entry(layout.second_column(i), k), p[i]);
+          EXPECT_EQ(entry(layout.second_head(i), k), p[i]);
         }
         if (scheme.method == "tangent") {
-          EXPECT_EQ(entry(layout.second_column(i), k), node.v[i]);
+          EXPECT_EQ(entry(layout.second_head(i), k), node.v[i]);
         }
       }
       for (Eigen::Index j = 0; j < scheme.stages; ++j) {
         const MotionPoint stage = at(t + program->tableau().c[j] * program->steps(x)[k]);
         for (Eigen::Index i = 0; i < 2; ++i) {
-          EXPECT_EQ(entry(layout.control_column(j, i), k), stage.u[i]);
+          EXPECT_EQ(entry(layout.control_head(j, i), k), stage.u[i]);
           if (j + 1 < scheme.stages) {
-            EXPECT_EQ(entry(layout.rate_column(j, i), k), stage.v[i]);
+            EXPECT_EQ(entry(layout.rate_head(j, i), k), stage.v[i]);
           }
         }
       }

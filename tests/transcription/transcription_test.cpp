@@ -134,7 +134,7 @@ TEST(Transcription, FixesTheEndsByBoundsAndLeavesEverythingElseFree) {
       }
       if (scheme.method != "tangent") continue;
       for (Eigen::Index i = 0; i < problem->configuration_size(); ++i) {
-        const auto head = static_cast<Eigen::Index>(program->layout().second_column(i));
+        const auto head = static_cast<Eigen::Index>(program->layout().second_head(i));
         EXPECT_EQ(program->variable_lower()[head], first.v[i]);
         EXPECT_EQ(program->variable_lower()[head + 5], last.v[i]);
       }
@@ -210,7 +210,7 @@ TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
           EXPECT_NEAR(values[i++] / expected, 1.0, 1e-5) << method << " " << stages << ", place " << place.index;
         });
       };
-      expect(program->layout().structure().rows, floors.rows, floors.smallest);
+      expect(program->layout().structure().rows, floors.constraints, floors.smallest);
       expect(program->layout().structure().unknowns, floors.variables, floors.largest);
     }
   }
@@ -224,7 +224,7 @@ TEST(Transcription, RoundingFloorsOfVariablesDoNotVanishWithSmallConfigurations)
   const RoundingFloors& floors = program->rounding_floors();
   constexpr double entry = 1024.0;
   for (const double floor : floors.variables) EXPECT_GE(floor, std::numeric_limits<double>::epsilon() * entry);
-  for (const double floor : floors.rows) EXPECT_LT(floor, 0.01 * floors.largest);
+  for (const double floor : floors.constraints) EXPECT_LT(floor, 0.01 * floors.largest);
 }
 
 TEST(Element, UnknownNamesListTheKnownOnes) {

@@ -4,17 +4,18 @@
 
 namespace dmocbench::batch {
 
-/// One instance of a program as a program of its own: fixed unknowns have the values of its start, equalities those of
-/// its rows. For what is done one by one; the program that evaluates must outlive it.
+/// One instance of a program as a program of its own: fixed unknowns have the values of its start, equalities its
+/// values. For what is done one by one; the program that evaluates must outlive it.
 class InstanceProgram final : public ForwardingProgram {
  public:
-  /// `start`: variable_count() entries; `rows`: constraint_count() entries, or none for those of the program.
-  InstanceProgram(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& rows)
+  /// `start`: variable_count() entries; `equality_values`: constraint_count() entries, or none for those of the
+  /// program.
+  InstanceProgram(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& equality_values)
       : ForwardingProgram(program),
         variable_lower_(with_values(program.variable_lower(), program.variable_upper(), start)),
         variable_upper_(with_values(program.variable_upper(), program.variable_lower(), start)),
-        constraint_lower_(with_values(program.constraint_lower(), program.constraint_upper(), rows)),
-        constraint_upper_(with_values(program.constraint_upper(), program.constraint_lower(), rows)) {}
+        constraint_lower_(with_values(program.constraint_lower(), program.constraint_upper(), equality_values)),
+        constraint_upper_(with_values(program.constraint_upper(), program.constraint_lower(), equality_values)) {}
 
   [[nodiscard]] const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
   [[nodiscard]] const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }

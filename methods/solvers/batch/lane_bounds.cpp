@@ -41,13 +41,13 @@ void LaneBounds::add(Eigen::Index entry, double lower, double upper) {
 /// `visit(bound, i)`, i the place of its multiplier.
 template <class Visit>
 void LaneBounds::for_each(const Visit& visit) const {
-  for (Eigen::Index i = 0; const Bound& bound : bounds_) visit(bound, i++);
+  for (Eigen::Index i = 0; const OneSidedBound& bound : bounds_) visit(bound, i++);
 }
 
 void LaneBounds::push_inside(std::size_t lane, double push, Eigen::Index begin, Eigen::Index end,
                              LaneVector& primal) const {
   auto point = primal.of(lane);
-  for (const Bound& bound : bounds_) {
+  for (const OneSidedBound& bound : bounds_) {
     if (bound.entry < begin || bound.entry >= end) continue;
     const double room = std::min(std::max(1.0, std::abs(bound.value)), std::abs(bound.other - bound.value));
     double& value = point[bound.entry];
@@ -61,7 +61,7 @@ void LaneBounds::balance(std::size_t lane, double mu, const LaneVector& primal, 
   const auto point = primal.of(lane);
   const auto of_lane = gradient.of(lane);
   auto multipliers = z.of(lane);
-  for_each([&](const Bound& bound, Eigen::Index i) {
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) {
     const double d = bound.side * (point[bound.entry] - bound.value);
     multipliers[i] = std::max(mu / d, bound.side * of_lane[bound.entry]);
   });
@@ -89,13 +89,13 @@ OfLanes LaneBounds::barrier(const LaneVector& primal) const {
 
 OfLanes LaneBounds::barrier_derivative(const LaneVector& primal, const LaneVector& step) const {
   OfLanes sum = OfLanes::Zero();
-  for (const Bound& bound : bounds_) sum -= bound.side * step[bound.entry] / distance(bound, primal);
+  for (const OneSidedBound& bound : bounds_) sum -= bound.side * step[bound.entry] / distance(bound, primal);
   return sum;
 }
 
 void LaneBounds::add_barrier(const LaneVector& primal, const LaneVector& z, const OfLanes& mu, LaneVector& sigma,
                              LaneVector& gradient) const {
-  for_each([&](const Bound& bound, Eigen::Index i) {
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) {
     const OfLanes reciprocal = 1.0 / distance(bound, primal);
     sigma[bound.entry] += z[i] * reciprocal;
     gradient[bound.entry] -= bound.side * mu * reciprocal;
@@ -103,19 +103,19 @@ void LaneBounds::add_barrier(const LaneVector& primal, const LaneVector& z, cons
 }
 
 void LaneBounds::subtract_multipliers(const LaneVector& z, LaneVector& gradient) const {
-  for_each([&](const Bound& bound, Eigen::Index i) { gradient[bound.entry] -= bound.side * z[i]; });
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) { gradient[bound.entry] -= bound.side * z[i]; });
 }
 
 void LaneBounds::subtract_multipliers(std::size_t lane, const LaneVector& z, LaneVector& gradient) const {
   const auto multipliers = z.of(lane);
   auto of_lane = gradient.of(lane);
-  for_each([&](const Bound& bound, Eigen::Index i) { of_lane[bound.entry] -= bound.side * multipliers[i]; });
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) { of_lane[bound.entry] -= bound.side * multipliers[i]; });
 }
 
 void LaneBounds::products(const LaneVector& primal, const LaneVector& z, OfLanes& smallest, OfLanes& largest) const {
   smallest.setConstant(unbounded);
   largest.setZero();
-  for_each([&](const Bound& bound, Eigen::Index i) {
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) {
     const OfLanes product = distance(bound, primal) * z[i];
     smallest = smallest.min(product);
     largest = largest.max(product);
@@ -124,14 +124,14 @@ void LaneBounds::products(const LaneVector& primal, const LaneVector& z, OfLanes
 
 void LaneBounds::set_multiplier_step(const LaneVector& primal, const LaneVector& z, const OfLanes& mu,
                                      const LaneVector& step, LaneVector& z_step) const {
-  for_each([&](const Bound& bound, Eigen::Index i) {
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) {
     z_step[i] = (mu - bound.side * z[i] * step[bound.entry]) / distance(bound, primal) - z[i];
   });
 }
 
 OfLanes LaneBounds::fraction_to_boundary(const LaneVector& primal, const LaneVector& step, const OfLanes& tau) const {
   OfLanes largest_loss = OfLanes::Zero();
-  for (const Bound& bound : bounds_) {
+  for (const OneSidedBound& bound : bounds_) {
     largest_loss = largest_loss.max(-bound.side * step[bound.entry] / distance(bound, primal));
   }
   return boundary_fraction(largest_loss, tau);
@@ -146,7 +146,7 @@ OfLanes LaneBounds::multiplier_fraction_to_boundary(const LaneVector& z, const L
 
 void LaneBounds::update_multipliers(const LaneVector& primal, const LaneVector& z_step, const OfLanes& length,
                                     const OfLanes& mu, LaneVector& z) const {
-  for_each([&](const Bound& bound, Eigen::Index i) {
+  for_each([&](const OneSidedBound& bound, Eigen::Index i) {
     using interior_point::constants::kappa_sigma;
     const OfLanes d = distance(bound, primal);
     const OfLanes moved = (z[i] + length * z_step[i]).max((mu / kappa_sigma) / d).min((mu * kappa_sigma) / d);

@@ -54,7 +54,7 @@ class LaneBounds {
 
  private:
   /// A bound of one entry, and the place of its multiplier in z.
-  struct Bound {
+  struct OneSidedBound {
     Eigen::Index entry;
     double side;  ///< 1 of a lower bound, -1 of an upper one
     double value;
@@ -64,7 +64,7 @@ class LaneBounds {
   template <class Visit>
   void for_each(const Visit& visit) const;
 
-  std::vector<Bound> bounds_;
+  std::vector<OneSidedBound> bounds_;
   Eigen::Index count_ = 0;
 };
 

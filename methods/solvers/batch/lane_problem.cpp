@@ -12,7 +12,7 @@ namespace dmocbench::batch {
 LaneProblem::LaneProblem(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes)
     : program_(program),
       lanes_(std::move(lanes)),
-      inequalities_(inequality_rows(program)),
+      inequalities_(inequalities_of(program)),
       fixed_(fixed_variables(program)),
       bounds_(program, inequalities_),
       variables_(static_cast<Eigen::Index>(program.variable_count())),
@@ -23,8 +23,8 @@ LaneProblem::LaneProblem(const NonlinearProgram& program, std::unique_ptr<LanePr
       hessian_(static_cast<Eigen::Index>(program.hessian_structure().size())),
       of_lagrangian_(primal_count()) {}
 
-void LaneProblem::set_rows(std::size_t lane, const Eigen::VectorXd& rows) {
-  rows_.of(lane) = rows.size() > 0 ? rows : program_.constraint_lower();
+void LaneProblem::set_equality_values(std::size_t lane, const Eigen::VectorXd& values) {
+  rows_.of(lane) = values.size() > 0 ? values : program_.constraint_lower();
   for (const Eigen::Index row : inequalities_) rows_.of(lane)[row] = 0.0;
 }
 

@@ -45,7 +45,7 @@ class LaneProblem {
 
   /// The values that the equalities of the instance in a lane have, constraint_count() entries; none for those of the
   /// program.
-  void set_rows(std::size_t lane, const Eigen::VectorXd& rows);
+  void set_equality_values(std::size_t lane, const Eigen::VectorXd& values);
 
   /// The values at a point. In the `fresh` lanes the slacks are first set to a(x), inside their bounds by the share
   /// `push`.

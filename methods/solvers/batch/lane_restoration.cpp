@@ -10,14 +10,14 @@ namespace dmocbench::batch {
 bool LaneRun::begin_restoration(std::size_t number) {
   Lane& lane = lanes_[number];
   const double theta = values_.theta[index_of(number)];
-  if (lane.phase == Phase::restoring || problem_.has_bounds() || theta <= options_.tolerance) {
+  if (lane.phase == LanePhase::restoring || problem_.has_bounds() || theta <= options_.tolerance) {
     give_up(number);
     return false;
   }
   lane.line_search.leave(values_in(number, values_));
   lane.theta_restored = constants::kappa_resto * theta;
-  lane.jammed = 0;
-  lane.phase = Phase::restoring;
+  lane.blocked_steps = 0;
+  lane.phase = LanePhase::restoring;
   lane.is_searching = false;
   lane.moves = false;
   lane.waits = true;
@@ -39,8 +39,8 @@ bool LaneRun::is_restored(std::size_t number) {
   const Eigen::Index at = index_of(number);
   const double theta = values_.theta[at];
   if (theta <= lane.theta_restored && lane.line_search.may_return_to(values_in(number, values_))) return true;
-  lane.jammed = length_[at] < constants::very_short_step ? lane.jammed + 1 : 0;
-  if (lane.jammed >= constants::most_jammed) give_up(number);
+  lane.blocked_steps = length_[at] < constants::very_short_step ? lane.blocked_steps + 1 : 0;
+  if (lane.blocked_steps >= constants::most_blocked_steps) give_up(number);
   return false;
 }
 

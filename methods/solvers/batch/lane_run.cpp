@@ -21,13 +21,13 @@ LaneValues values_of(const LaneProblem& problem) {
 }  // namespace
 
 LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
-                 const BatchOptions& options, Desk& desk)
+                 const BatchOptions& options, BatchQueue& queue)
     : options_(options),
-      desk_(desk),
+      queue_(queue),
       problem_(program, std::move(lanes)),
       kkt_(std::move(kkt)),
       stop_rule_(program, options.tolerance),
-      rounding_of_theta_(program.rounding_floors().norm_of_rows(problem_.constraint_count())),
+      rounding_of_theta_(program.rounding_floors().norm_of_constraints(problem_.constraint_count())),
       primal_(problem_.primal_count()),
       multipliers_(problem_.constraint_count()),
       z_(problem_.bounds().count()),
@@ -45,31 +45,32 @@ LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> l
 
 void LaneRun::run() {
   clock_.begin();
-  for (refill(); !std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.phase == Phase::idle; }); refill()) {
+  for (refill(); !std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.phase == LanePhase::idle; });
+       refill()) {
     solve_systems();
     search_lines();
     differentiate();
     judge();
-    desk_.count_round();
+    queue_.count_round();
   }
-  desk_.add_seconds(clock_.seconds());
+  queue_.add_seconds(clock_.seconds());
 }
 
-bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].ticket.instance.multipliers.size() > 0; }
+bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].assignment.instance.multipliers.size() > 0; }
 
 double LaneRun::push_of(std::size_t lane) const {
   return is_warm(lane) ? constants::of_warm_start : constants::kappa_1;
 }
 
-bool LaneRun::is_anyone(Phase phase) const {
+bool LaneRun::is_anyone(LanePhase phase) const {
   return std::ranges::any_of(lanes_, [&](const Lane& lane) { return lane.phase == phase; });
 }
 
 void LaneRun::refill() {
   const PhaseClock::Within within(clock_, BatchPhase::exchange);
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    while (lanes_[lane].phase == Phase::idle && !desk_.is_stopped()) {
-      if (!desk_.fetch(lanes_[lane].ticket)) return;
+    while (lanes_[lane].phase == LanePhase::idle && !queue_.is_stopped()) {
+      if (!queue_.fetch(lanes_[lane].assignment)) return;
       try {
         begin(lane);
       } catch (const Error& error) {
@@ -82,8 +83,8 @@ void LaneRun::refill() {
 /// A-1, as far as it needs no value of the program.
 void LaneRun::begin(std::size_t number) {
   Lane& lane = lanes_[number];
-  const BatchInstance& instance = lane.ticket.instance;
-  lane.phase = Phase::fresh;
+  const BatchInstance& instance = lane.assignment.instance;
+  lane.phase = LanePhase::fresh;
   lane.shift = {};
   lane.iterations = 0;
   lane.systems = 0;
@@ -92,7 +93,7 @@ void LaneRun::begin(std::size_t number) {
   lane.is_newton = false;
   lane.mu = !problem_.has_bounds() ? 0.0 : is_warm(number) ? constants::of_warm_start : constants::mu_0;
   kkt_->forget(number);
-  problem_.set_rows(number, instance.rows);
+  problem_.set_equality_values(number, instance.equality_values);
   const Eigen::VectorXd& parameters = instance.parameters;
   problem_.program().set_parameters(number, {parameters.data(), static_cast<std::size_t>(parameters.size())});
   primal_.of(number).head(problem_.variable_count()) = instance.start;
@@ -108,7 +109,7 @@ void LaneRun::begin(std::size_t number) {
 /// Assembles the systems of this round.
 kkt::LaneKkt::Systems LaneRun::systems() {
   const bool is_plain = primal_.size() == problem_.variable_count() && !problem_.has_bounds() &&
-                        !is_anyone(Phase::estimating) && !is_anyone(Phase::restoring);
+                        !is_anyone(LanePhase::estimating) && !is_anyone(LanePhase::restoring);
   kkt::LaneKkt::Systems systems{.hessian = problem_.hessian().data(),
                                 .jacobian = problem_.jacobian().data(),
                                 .diagonal = sigma_.data(),
@@ -116,7 +117,7 @@ kkt::LaneKkt::Systems LaneRun::systems() {
                                 .gradient = problem_.gradient_of_lagrangian().data(),
                                 .constraints = values_.constraints.data()};
   const OfLanes shift = of_lanes([](const Lane& lane) {
-    return lane.phase == Phase::estimating || lane.phase == Phase::restoring ? 1.0 : lane.shift.value();
+    return lane.phase == LanePhase::estimating || lane.phase == LanePhase::restoring ? 1.0 : lane.shift.value();
   });
   if (is_plain) {
     if ((shift != shift_in_sigma_).any()) {
@@ -143,12 +144,12 @@ void LaneRun::assemble_systems(const OfLanes& shift) {
     problem_.bounds().add_barrier(primal_, z_, of_lanes([](const Lane& lane) { return lane.mu; }), sigma_, gradient_);
   }
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    const Phase phase = lanes_[lane].phase;
-    if (phase != Phase::estimating && phase != Phase::restoring) continue;
+    const LanePhase phase = lanes_[lane].phase;
+    if (phase != LanePhase::estimating && phase != LanePhase::restoring) continue;
     problem_.hessian().of(lane).setZero();
     sigma_.of(lane).setZero();
     gradient_.of(lane).setZero();
-    if (phase == Phase::restoring) continue;
+    if (phase == LanePhase::restoring) continue;
     residuals_.of(lane).setZero();
     gradient_.of(lane).head(n) = problem_.gradient().of(lane);
     problem_.bounds().subtract_multipliers(lane, z_, gradient_);
@@ -164,7 +165,7 @@ void LaneRun::assemble_systems(const OfLanes& shift) {
 void LaneRun::solve_systems() {
   LaneMask wanted{};
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    wanted[lane] = lanes_[lane].phase != Phase::idle && lanes_[lane].phase != Phase::fresh;
+    wanted[lane] = lanes_[lane].phase != LanePhase::idle && lanes_[lane].phase != LanePhase::fresh;
     lanes_[lane].moves = false;
     lanes_[lane].waits = false;
   }
@@ -188,14 +189,14 @@ void LaneRun::solve_systems() {
       continue;
     }
     ++lane.systems;
-    if (lane.phase == Phase::estimating) {
+    if (lane.phase == LanePhase::estimating) {
       auto estimate = multiplier_step_.of(number);
       const bool is_usable = outcomes[number] == solved && estimate.lpNorm<Eigen::Infinity>() <= constants::lambda_max;
       if (is_usable) multipliers_.of(number) = estimate;
       if (!is_usable) multipliers_.of(number).setZero();
     } else if (outcomes[number] == solved) {
       lane.moves = true;
-    } else if (outcomes[number] == wrong_inertia && lane.phase == Phase::newton && lane.shift.raise()) {
+    } else if (outcomes[number] == wrong_inertia && lane.phase == LanePhase::newton && lane.shift.raise()) {
       lane.waits = true;
     } else {
       give_up(number);
@@ -209,7 +210,7 @@ void LaneRun::differentiate() {
   problem_.find_gradient_of_lagrangian(multipliers_);
   if (!problem_.has_bounds()) return;
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    const bool is_fresh_and_warm = lanes_[lane].phase == Phase::fresh && is_warm(lane);
+    const bool is_fresh_and_warm = lanes_[lane].phase == LanePhase::fresh && is_warm(lane);
     if (is_fresh_and_warm) {
       problem_.bounds().balance(lane, lanes_[lane].mu, primal_, problem_.gradient_of_lagrangian(), z_);
     }
@@ -240,29 +241,29 @@ void LaneRun::judge() {
   mean_multiplier_ =
       (sum_of_multipliers + sum_of_z) / std::max(1.0, static_cast<double>(z_.size() + multipliers_.size()));
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
-    if (lanes_[lane].phase != Phase::idle) judge(lane);
+    if (lanes_[lane].phase != LanePhase::idle) judge(lane);
   }
 }
 
 void LaneRun::judge(std::size_t number) {
   Lane& lane = lanes_[number];
   if (lane.waits) {
-    if (desk_.is_stopped()) finish(number, Status::interrupted);
+    if (queue_.is_stopped()) finish(number, Status::interrupted);
     return;
   }
-  if (lane.moves || lane.phase == Phase::fresh) {
+  if (lane.moves || lane.phase == LanePhase::fresh) {
     ++lane.evaluations.gradient;
     ++lane.evaluations.jacobian;
   }
   if (!std::isfinite(size_of_gradient_[index_of(number)])) return give_up(number);
-  if (lane.phase == Phase::restoring) {
-    if (desk_.is_stopped()) return finish(number, Status::interrupted);
+  if (lane.phase == LanePhase::restoring) {
+    if (queue_.is_stopped()) return finish(number, Status::interrupted);
     if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
     ++lane.iterations;
-    if (is_restored(number)) lane.phase = Phase::estimating;
+    if (is_restored(number)) lane.phase = LanePhase::estimating;
     return;
   }
-  const bool is_cold_start = lane.phase == Phase::fresh && !is_warm(number);
+  const bool is_cold_start = lane.phase == LanePhase::fresh && !is_warm(number);
   // Where bounds allow short steps only, every one of them may multiply the multipliers.
   const bool has_runaway_multipliers = lane.moves && length_[index_of(number)] <= constants::short_step &&
                                        largest_multiplier_[index_of(number)] > constants::runaway;
@@ -270,12 +271,12 @@ void LaneRun::judge(std::size_t number) {
   lane.is_newton = lane.is_newton && lane.moves && length_[index_of(number)] >= nearly_full;
   if (is_cold_start || has_runaway_multipliers) {
     const bool has_gradient = problem_.has_bounds() || !problem_.gradient().of(number).isZero(0.0);
-    lane.phase = has_gradient ? Phase::estimating : Phase::newton;
+    lane.phase = has_gradient ? LanePhase::estimating : LanePhase::newton;
     if (has_gradient) return;
   }
-  lane.phase = Phase::newton;
+  lane.phase = LanePhase::newton;
   if (is_solved(number)) return finish(number, Status::solved);
-  if (desk_.is_stopped()) return finish(number, Status::interrupted);
+  if (queue_.is_stopped()) return finish(number, Status::interrupted);
   if (lane.iterations >= options_.most_iterations) return finish(number, Status::iteration_limit);
   update_barrier_parameter(number);
   ++lane.iterations;
@@ -321,17 +322,17 @@ void LaneRun::update_barrier_parameter(std::size_t number) {
 
 /// An instance whose parameters are not allowed.
 void LaneRun::refuse(std::size_t number, const char* reason) {
-  lanes_[number].phase = Phase::idle;
+  lanes_[number].phase = LanePhase::idle;
   solution_ = {};
   solution_.status = Status::invalid_program;
   solution_.message = reason;
   solution_.solver = "batch";
-  desk_.deliver(lanes_[number].ticket.index, solution_);
+  queue_.deliver(lanes_[number].assignment.index, solution_);
 }
 
 void LaneRun::give_up(std::size_t number) {
   Lane& lane = lanes_[number];
-  lane.phase = Phase::idle;
+  lane.phase = LanePhase::idle;
   lane.moves = false;
   lane.is_searching = false;
   solution_ = {};
@@ -341,13 +342,13 @@ void LaneRun::give_up(std::size_t number) {
   solution_.linear_systems = lane.systems;
   solution_.evaluations = lane.evaluations;
   const PhaseClock::Within within(clock_, BatchPhase::one_by_one);
-  desk_.solve_one_by_one(lane.ticket, solution_);
+  queue_.solve_one_by_one(lane.assignment, solution_);
 }
 
 void LaneRun::finish(std::size_t number, Status status) {
   const Eigen::Index at = index_of(number);
   Lane& lane = lanes_[number];
-  lane.phase = Phase::idle;
+  lane.phase = LanePhase::idle;
   lane.moves = false;
   solution_.status = status;
   solution_.message = sentence_of(status);
@@ -365,10 +366,10 @@ void LaneRun::finish(std::size_t number, Status status) {
   const bool is_settled = lane.is_newton && lane.share_moved <= settled;
   if (status == Status::solved && !is_settled) {
     const PhaseClock::Within within(clock_, BatchPhase::one_by_one);
-    desk_.confirm(lane.ticket, solution_);
+    queue_.confirm(lane.assignment, solution_);
   }
   const PhaseClock::Within within(clock_, BatchPhase::exchange);
-  desk_.deliver(lane.ticket.index, solution_);
+  queue_.deliver(lane.assignment.index, solution_);
 }
 
 }  // namespace dmocbench::batch

@@ -7,7 +7,7 @@
 
 #include "methods/program/solution.hpp"
 #include "methods/program/status.hpp"
-#include "methods/solvers/batch/desk.hpp"
+#include "methods/solvers/batch/batch_queue.hpp"
 #include "methods/solvers/batch/lane_problem.hpp"
 #include "methods/solvers/batch/lane_vector.hpp"
 #include "methods/solvers/batch/phase_clock.hpp"
@@ -33,13 +33,13 @@ namespace constants = interior_point::constants;
 class LaneRun {
  public:
   LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
-          const BatchOptions& options, Desk& desk);
+          const BatchOptions& options, BatchQueue& queue);
 
-  /// Until the desk has no more instances.
+  /// Until the queue has no more instances.
   void run();
 
  private:
-  enum class Phase : std::uint8_t {
+  enum class LanePhase : std::uint8_t {
     idle,        ///< no instance
     fresh,       ///< its start is to be evaluated
     estimating,  ///< the next system is that of the least-squares multipliers, (36)
@@ -47,12 +47,12 @@ class LaneRun {
     restoring,   ///< the next system is that of a step of least length to where the linearised constraints hold
   };
   struct Lane {
-    Phase phase = Phase::idle;
-    Ticket ticket;
+    LanePhase phase = LanePhase::idle;
+    Assignment assignment;
     interior_point::FilterLineSearch line_search;
     interior_point::InertiaShift shift;
     double theta_restored = 0.0;  ///< θ at which the restoration of feasibility may end
-    int jammed = 0;               ///< its very short steps in a row
+    int blocked_steps = 0;        ///< its very short steps in a row
     double mu = 0.0;
     // Of the present step.
     bool is_searching = false;  ///< its length is not accepted yet
@@ -95,7 +95,7 @@ class LaneRun {
   [[nodiscard]] bool is_warm(std::size_t lane) const;
   /// How far a start is pushed away from its bounds.
   [[nodiscard]] double push_of(std::size_t lane) const;
-  [[nodiscard]] bool is_anyone(Phase phase) const;
+  [[nodiscard]] bool is_anyone(LanePhase phase) const;
   /// A number of every lane, `value(lane)`.
   template <class Value>
   [[nodiscard]] OfLanes of_lanes(const Value& value) const {
@@ -105,7 +105,7 @@ class LaneRun {
   }
 
   const BatchOptions& options_;
-  Desk& desk_;
+  BatchQueue& queue_;
   PhaseClock clock_;
   LaneProblem problem_;
   std::unique_ptr<kkt::LaneKkt> kkt_;

@@ -31,7 +31,7 @@ void LaneRun::search_lines() {
     }
   }
   LaneMask fresh{};
-  for (std::size_t lane = 0; lane < instance_lanes; ++lane) fresh[lane] = lanes_[lane].phase == Phase::fresh;
+  for (std::size_t lane = 0; lane < instance_lanes; ++lane) fresh[lane] = lanes_[lane].phase == LanePhase::fresh;
   search(fresh);
   primal_.swap(trial_);
   std::swap(values_, trial_values_);
@@ -62,7 +62,7 @@ void LaneRun::search(const LaneMask& fresh) {
       Lane& lane = lanes_[number];
       if (is_first && fresh[number]) evaluate_start(number);
       if (!lane.is_searching) continue;
-      lane.is_searching = lane.phase == Phase::restoring ? !try_feasibility_step(number) : !try_step(number);
+      lane.is_searching = lane.phase == LanePhase::restoring ? !try_feasibility_step(number) : !try_step(number);
       if (!lane.is_searching) continue;
       length_[index_of(number)] *= 0.5;
       if (length_[index_of(number)] >= lane.smallest_length) continue;
@@ -76,7 +76,7 @@ void LaneRun::search(const LaneMask& fresh) {
 void LaneRun::begin_search(std::size_t number) {
   Lane& lane = lanes_[number];
   lane.is_searching = true;
-  if (lane.phase == Phase::restoring) {
+  if (lane.phase == LanePhase::restoring) {
     lane.is_newton = false;
     lane.smallest_length = constants::shortest_feasibility_step;
     return;

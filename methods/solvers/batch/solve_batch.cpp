@@ -13,7 +13,7 @@
 
 #include "methods/error.hpp"
 #include "methods/runtime/parallel.hpp"
-#include "methods/solvers/batch/desk.hpp"
+#include "methods/solvers/batch/batch_queue.hpp"
 #include "methods/solvers/batch/instance_program.hpp"
 #include "methods/solvers/batch/lane_run.hpp"
 #include "methods/solvers/confirm.hpp"
@@ -26,14 +26,14 @@ namespace batch {
 
 namespace {
 
-/// The desk of one batch, for all its threads.
-class BatchDesk final : public Desk {
+/// The queue of one batch, for all its threads.
+class SharedBatchQueue final : public BatchQueue {
  private:
   /// What `use` makes of the instance as a program of its own.
   template <class Use>
   auto with_instance(const BatchInstance& instance, const Use& use) {
     if (options_.set_parameters) options_.set_parameters(instance.parameters);
-    InstanceProgram program(program_, instance.start, instance.rows);
+    InstanceProgram program(program_, instance.start, instance.equality_values);
     return use(program);
   }
 
@@ -55,25 +55,25 @@ class BatchDesk final : public Desk {
   }
 
  public:
-  BatchDesk(NonlinearProgram& program, std::size_t parameters, const NextInstance& next, const TakeSolution& take,
-            const BatchOptions& options)
+  SharedBatchQueue(NonlinearProgram& program, std::size_t parameters, const NextInstance& next,
+                   const TakeSolution& take, const BatchOptions& options)
       : program_(program), parameters_(parameters), next_(next), take_(take), options_(options) {}
 
-  [[nodiscard]] bool fetch(Ticket& ticket) override {
+  [[nodiscard]] bool fetch(Assignment& assignment) override {
     while (true) {
       {
         const std::lock_guard lock(fetching_);
         if (is_exhausted_ || is_stopped()) return false;
-        ticket.index = fetched_;
-        if (!next_(ticket.index, ticket.instance)) {
+        assignment.index = fetched_;
+        if (!next_(assignment.index, assignment.instance)) {
           is_exhausted_ = true;
           return false;
         }
         ++fetched_;
       }
-      Solution refused = check(ticket.instance);
+      Solution refused = check(assignment.instance);
       if (refused.status == Status::not_run) return true;
-      deliver(ticket.index, refused);
+      deliver(assignment.index, refused);
     }
   }
 
@@ -83,20 +83,20 @@ class BatchDesk final : public Desk {
     take_(index, solution);
   }
 
-  void solve_one_by_one(const Ticket& ticket, const Solution& so_far) override {
-    if (!options_.falls_back) return deliver(ticket.index, so_far);
+  void solve_one_by_one(const Assignment& assignment, const Solution& so_far) override {
+    if (!options_.falls_back) return deliver(assignment.index, so_far);
     Solution solution;
     {
       const std::lock_guard lock(program_use_);
       ++summary_.solved_one_by_one;
-      solution = solve_alone(ticket.instance);
+      solution = solve_alone(assignment.instance);
     }
-    deliver(ticket.index, solution);
+    deliver(assignment.index, solution);
   }
 
-  void confirm(const Ticket& ticket, Solution& solution) override {
+  void confirm(const Assignment& assignment, Solution& solution) override {
     const std::lock_guard lock(program_use_);
-    with_instance(ticket.instance, [&](NonlinearProgram& instance) {
+    with_instance(assignment.instance, [&](NonlinearProgram& instance) {
       dmocbench::confirm(instance, options_.tolerance, solution);
       return 0;
     });
@@ -141,12 +141,12 @@ class BatchDesk final : public Desk {
       refused.message = fmt::format("the {} of the instance has {} entries instead of {}", what, vector.size(), wanted);
     };
     require_size("start", instance.start, program_.variable_count(), false);
-    require_size("vector of constraint values", instance.rows, program_.constraint_count(), true);
+    require_size("vector of constraint values", instance.equality_values, program_.constraint_count(), true);
     require_size("vector of multipliers", instance.multipliers, program_.constraint_count(), true);
     require_size("vector of parameters", instance.parameters, parameters_, true);
     if (refused.status != Status::not_run) return refused;
     for (const Eigen::VectorXd* vector :
-         {&instance.start, &instance.rows, &instance.multipliers, &instance.parameters}) {
+         {&instance.start, &instance.equality_values, &instance.multipliers, &instance.parameters}) {
       if (vector->allFinite()) continue;
       refused.status = Status::evaluation_failed;
       refused.message = "A number of the instance is not finite.";
@@ -200,18 +200,18 @@ BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes,
   std::vector<std::unique_ptr<LaneProgram>> lanes;
   lanes.reserve(threads);
   for (std::size_t i = 0; i < threads; ++i) lanes.push_back(make_lanes());
-  batch::BatchDesk desk(program, lanes.front()->parameter_count(), next, take, options);
+  batch::SharedBatchQueue queue(program, lanes.front()->parameter_count(), next, take, options);
   // All of them read the program, which belongs to one thread at a time as soon as threads work.
   std::vector<std::unique_ptr<batch::LaneRun>> runs;
   for (std::unique_ptr<LaneProgram>& mine : lanes) {
     runs.push_back(
-        std::make_unique<batch::LaneRun>(program, std::move(mine), batch::make_kkt(program, usual), options, desk));
+        std::make_unique<batch::LaneRun>(program, std::move(mine), batch::make_kkt(program, usual), options, queue));
   }
   const auto work = [&](batch::LaneRun& run) {
     try {
       run.run();
     } catch (...) {
-      desk.fail(std::current_exception());
+      queue.fail(std::current_exception());
     }
   };
   {
@@ -219,7 +219,7 @@ BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes,
     for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back([&work, &run = *runs[i]] { work(run); });
     work(*runs.front());
   }
-  return desk.summary();
+  return queue.summary();
 }
 
 }  // namespace dmocbench

@@ -19,7 +19,7 @@ struct BatchInstance {
   /// instance (the states of clamped ends, `ClampedEnds`).
   Eigen::VectorXd start;
   /// The values of equalities, constraint_count() entries; none for those of the program.
-  Eigen::VectorXd rows;
+  Eigen::VectorXd equality_values;
   /// λ of an instance that is nearly the same, constraint_count() entries: a warm start. None for a cold one.
   Eigen::VectorXd multipliers;
   /// As many as `LaneProgram::parameter_count`; none for those of the program.

@@ -52,7 +52,7 @@ Primal bounds_of(const Eigen::VectorXd& variables, bool are_bounded, const Eigen
 
 BarrierProgram::BarrierProgram(NonlinearProgram& program)
     : program_(program),
-      inequalities_(inequality_rows(program)),
+      inequalities_(inequalities_of(program)),
       fixed_(fixed_variables(program)),
       has_bounded_variables_(has_bounded_variables(program)),
       lower_(bounds_of(program.variable_lower(), has_bounded_variables_, program.constraint_lower(), inequalities_)),

@@ -33,7 +33,7 @@ inline constexpr double largest_z = 1e3;    // larger multipliers of bounds beco
 inline constexpr double shortest_feasibility_step = 1e-10;
 inline constexpr double sufficient_decrease = 1e-4;  // of the violation, as a share of what a whole step takes away
 inline constexpr double very_short_step = 1e-3;
-inline constexpr int most_jammed = 20;  // very short ones in a row, where bounds leave no room
+inline constexpr int most_blocked_steps = 20;  // very short ones in a row, where bounds leave no room
 
 // By the names of Ipopt's options: "A filter that blocks the way". Ipopt waits for 5 searches.
 inline constexpr int filter_reset_trigger = 10;

@@ -10,9 +10,9 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// The two sides of (19): what a step of this length promises of φ, and what it has to be worth at the violation θ.
-double promise(double length, double derivative) { return length * std::pow(-derivative, constants::s_phi); }
-double worth(double theta) { return constants::delta * std::pow(theta, constants::s_theta); }
+/// Left and right side of the switching condition (19): for a step of this length, and for the violation θ.
+double switching_left(double length, double derivative) { return length * std::pow(-derivative, constants::s_phi); }
+double switching_right(double theta) { return constants::delta * std::pow(theta, constants::s_theta); }
 
 }  // namespace
 
@@ -46,7 +46,7 @@ double FilterLineSearch::smallest_length(double theta, double derivative) const 
   double length = Filter::margin;
   if (derivative < 0.0) {
     length = std::min(length, -Filter::margin * theta / derivative);
-    if (theta <= theta_min_) length = std::min(length, worth(theta) / promise(1.0, derivative));
+    if (theta <= theta_min_) length = std::min(length, switching_right(theta) / switching_left(1.0, derivative));
   }
   return std::max(constants::gamma_alpha * length, shortest);
 }
@@ -70,7 +70,7 @@ bool FilterLineSearch::decreases(const PointValues& from, const PointValues& to,
                                  double rounding) {
   const bool is_nearer = to.theta <= (1.0 - Filter::margin) * from.theta;  // (18a)
   const bool is_rounding = to.theta <= rounding_of_theta_ && from.theta <= rounding_of_theta_;
-  const bool is_descent = derivative < 0.0 && promise(length, derivative) > worth(from.theta);  // (19)
+  const bool is_descent = derivative < 0.0 && switching_left(length, derivative) > switching_right(from.theta);  // (19)
   const double rise = to.phi - from.phi;
   if (from.theta <= theta_min_ && (is_descent || is_rounding)) {
     // Where the constraints hold but for rounding, φ may have to rise for them to hold better still.

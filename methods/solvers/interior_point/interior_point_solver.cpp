@@ -73,7 +73,7 @@ class InteriorPointRun final : public PreparedRun {
     if (!is_warm) newton_.estimate_multipliers(at_);
     if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
     if (is_warm) program_.bounds().balance(mu_, gradient_, at_);
-    line_search_.begin(values_.theta, counted_.rounding_floors().norm_of_rows(values_.constraints.size()),
+    line_search_.begin(values_.theta, counted_.rounding_floors().norm_of_constraints(values_.constraints.size()),
                        at_.x.size());
     return std::nullopt;
   }
@@ -205,8 +205,8 @@ class InteriorPointRun final : public PreparedRun {
     }
     const double enough = constants::kappa_resto * values_.theta;
     line_search_.leave(values_);
-    for (int jammed = 0; jammed < constants::most_jammed && take_feasibility_step();
-         jammed = length_ < constants::very_short_step ? jammed + 1 : 0) {
+    for (int blocked_steps = 0; blocked_steps < constants::most_blocked_steps && take_feasibility_step();
+         blocked_steps = length_ < constants::very_short_step ? blocked_steps + 1 : 0) {
       ++iterations_;
       report("normal");
       if (values_.theta <= enough && line_search_.may_return_to(values_)) return std::nullopt;

@@ -60,11 +60,11 @@ std::vector<Eigen::Index> fixed_variables(const NonlinearProgram& program) {
   return where_bounds_agree(true, program.variable_lower(), program.variable_upper());
 }
 
-std::vector<Eigen::Index> inequality_rows(const NonlinearProgram& program) {
+std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program) {
   return where_bounds_agree(false, program.constraint_lower(), program.constraint_upper());
 }
 
-std::vector<bool> equality_rows(const NonlinearProgram& program) {
+std::vector<bool> equalities_of(const NonlinearProgram& program) {
   return where_bounds_are(true, program.constraint_lower(), program.constraint_upper());
 }
 

@@ -25,10 +25,10 @@ struct Linearisation {
 [[nodiscard]] std::vector<bool> free_variables(const NonlinearProgram& program);
 /// The variables whose bounds are equal, in ascending order.
 [[nodiscard]] std::vector<Eigen::Index> fixed_variables(const NonlinearProgram& program);
-/// The rows that are no equalities, in ascending order.
-[[nodiscard]] std::vector<Eigen::Index> inequality_rows(const NonlinearProgram& program);
-/// Which rows are equalities.
-[[nodiscard]] std::vector<bool> equality_rows(const NonlinearProgram& program);
+/// The constraints that are no equalities, in ascending order.
+[[nodiscard]] std::vector<Eigen::Index> inequalities_of(const NonlinearProgram& program);
+/// Which constraints are equalities.
+[[nodiscard]] std::vector<bool> equalities_of(const NonlinearProgram& program);
 
 /// Objective and constraints at a point.
 [[nodiscard]] Linearisation values_at(NonlinearProgram& program, const Eigen::VectorXd& point);

@@ -52,7 +52,7 @@ Linearisation Globalisation::corrected(const Linearisation& from, const Linearis
   const Eigen::Index m = from.constraints.size();
   Eigen::VectorXd right_hand_side = Eigen::VectorXd::Zero(n + m);
   right_hand_side.tail(m) = -violations(program_, tried.constraints);
-  std::vector<bool> counts = equality_rows(program_);
+  std::vector<bool> counts = equalities_of(program_);
   for (Eigen::Index i = 0; i < m; ++i) {
     if (right_hand_side[n + i] != 0.0) counts[static_cast<std::size_t>(i)] = true;
   }

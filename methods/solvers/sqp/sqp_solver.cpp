@@ -77,7 +77,7 @@ class SequentialRun {
 
   [[nodiscard]] bool observe(MinorIteration minor) {
     minor.major = majors_;
-    (minor.phase == MinorIteration::Phase::feasibility ? phase_one_minors_ : phase_two_minors_) += 1;
+    (minor.phase == MinorPhase::feasibility ? phase_one_minors_ : phase_two_minors_) += 1;
     if (choices_.on_minor_iteration) choices_.on_minor_iteration(minor);
     return !reason_to_stop();
   }
@@ -101,21 +101,21 @@ class SequentialRun {
     const QuadraticSolution quadratic = quadratic_solver_.solve(
         quadratic_program_at(program_, at_, [this](const auto& vectors) { return hessian_times(vectors); }));
     switch (quadratic.status) {
-      case QuadraticSolution::Status::stopped:
+      case QuadraticStatus::stopped:
         return reason_to_stop().value_or(Status::interrupted);
-      case QuadraticSolution::Status::breakdown:
+      case QuadraticStatus::breakdown:
         message_ = "A quadratic program could not be solved: " + quadratic.message + ".";
         return Status::step_failed;
-      case QuadraticSolution::Status::infeasible:
+      case QuadraticStatus::infeasible:
         if (quadratic.step.lpNorm<Eigen::Infinity>() < tolerance_) return Status::infeasible;
         break;
-      case QuadraticSolution::Status::optimal:
+      case QuadraticStatus::optimal:
         break;
     }
     const double curvature = quadratic.step.dot(hessian_times(quadratic.step).col(0));
     const LineSearchResult search = globalisation_.search(at_, quadratic.step, curvature);
     if (search.step_length == 0.0) {
-      return quadratic.status == QuadraticSolution::Status::infeasible ? Status::infeasible : Status::step_failed;
+      return quadratic.status == QuadraticStatus::infeasible ? Status::infeasible : Status::step_failed;
     }
     if (options_.verbose) print(quadratic, search);
     take(search, quadratic);
@@ -127,7 +127,7 @@ class SequentialRun {
   [[nodiscard]] std::optional<Status> compute_exact_hessian() {
     exact_hessian_ = hessian_at(program_, at_.point, multipliers_);
     const auto needed =
-        convexification_.shift_for(exact_hessian_, at_.jacobian, free_variables(program_), equality_rows(program_),
+        convexification_.shift_for(exact_hessian_, at_.jacobian, free_variables(program_), equalities_of(program_),
                                    [this] { return reason_to_stop().has_value(); });
     if (!needed) {
       if (const auto reason = reason_to_stop()) return reason;
@@ -153,7 +153,7 @@ class SequentialRun {
 
   void take(const LineSearchResult& search, const QuadraticSolution& quadratic) {
     Eigen::VectorXd wanted = quadratic.multipliers;
-    if (quadratic.status == QuadraticSolution::Status::infeasible) {
+    if (quadratic.status == QuadraticStatus::infeasible) {
       wanted = wanted.cwiseMax(-globalisation_.weight()).cwiseMin(globalisation_.weight());
     }
     multipliers_ += search.step_length * (wanted - multipliers_);

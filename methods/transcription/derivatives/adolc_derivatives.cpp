@@ -195,9 +195,9 @@ class AdolcDerivatives final : public DerivativeBackEnd {
   std::vector<std::size_t> jacobian_columns_;
   std::vector<std::size_t> hessian_rows_;
   std::vector<std::size_t> hessian_columns_;
-  ColumnAssembly gradient_;
-  ColumnAssembly jacobian_;
-  ColumnAssembly hessian_;
+  SeriesAssembly gradient_;
+  SeriesAssembly jacobian_;
+  SeriesAssembly hessian_;
   std::vector<double> cost_gradient_;
   Dense rows_jacobian_;
   int directions_;

@@ -12,7 +12,8 @@ AssembledPattern assemble_pattern(const LocalEntries& entries) {
   using Head = std::tuple<std::size_t, std::size_t, bool, bool>;  // row, column, whether they step
   const std::size_t count = entries.rows.size();
   const auto head_of = [&](std::size_t e) {
-    return Head{entries.rows[e].first, entries.columns[e].first, !entries.rows[e].shared, !entries.columns[e].shared};
+    return Head{entries.rows[e].first, entries.columns[e].first, !entries.rows[e].is_global,
+                !entries.columns[e].is_global};
   };
   // One local entry over all intervals is a run, or two that meet at the nodes; an entry of two shared places is
   // single.
@@ -56,8 +57,8 @@ AssembledPattern assemble_pattern(const LocalEntries& entries) {
   return assembled;
 }
 
-std::vector<ColumnPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries) {
-  std::vector<ColumnPlace> places;
+std::vector<SeriesPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries) {
+  std::vector<SeriesPlace> places;
   for (std::size_t e = 0; e < entries.rows.size(); ++e) {
     const std::size_t row = entries.rows[e].first;
     const std::size_t column = entries.columns[e].first;

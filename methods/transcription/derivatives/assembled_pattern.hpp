@@ -4,28 +4,28 @@
 #include <vector>
 
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 
 namespace dmocbench {
 
 /// Where the local entries of a part of a program stand in its matrix: entry e of interval k at (rows[e].at(k),
 /// columns[e].at(k)).
 struct LocalEntries {
-  std::vector<ColumnPlace> rows;     ///< of every entry of an interval
-  std::vector<ColumnPlace> columns;  ///< of every entry of an interval
+  std::vector<SeriesPlace> rows;     ///< of every entry of an interval
+  std::vector<SeriesPlace> columns;  ///< of every entry of an interval
   std::size_t intervals = 0;         ///< N
 };
 
 /// The pattern of an assembled sparse matrix, and where local entries go in its array of values.
 struct AssembledPattern {
   BlockPattern pattern;             ///< where entries lie
-  std::vector<ColumnPlace> places;  ///< per local entry, as `ColumnAssembly` wants it
+  std::vector<SeriesPlace> places;  ///< per local entry, as `SeriesAssembly` wants it
 };
 
 /// Merges the local entries of all intervals.
 [[nodiscard]] AssembledPattern assemble_pattern(const LocalEntries& entries);
 
 /// Adds the few entries of a part with one interval to a pattern, and says where each of them goes.
-[[nodiscard]] std::vector<ColumnPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries);
+[[nodiscard]] std::vector<SeriesPlace> extend_pattern(BlockPattern& pattern, const LocalEntries& entries);
 
 }  // namespace dmocbench

@@ -9,8 +9,8 @@
 
 #include "methods/expression/tape.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/transcription/derivatives/column_assembly.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 
 namespace dmocbench {
 

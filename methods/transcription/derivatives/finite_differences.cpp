@@ -123,7 +123,7 @@ class FiniteDifferences final : public DerivativeBackEnd {
   [[nodiscard]] const double* steps_of(std::size_t unknown) const { return steps_.data() + unknown * intervals_; }
 
   void first_order(Formulas& formulas, const std::vector<std::vector<Quotient>>& entries, Inputs inputs,
-                   ColumnAssembly& assembly, VectorOut& result) {
+                   SeriesAssembly& assembly, VectorOut& result) {
     bind(inputs, difference_step(kind_, 1));
     const auto columns = assembly.open(result);
     const bool central = kind_ == DifferenceKind::central;
@@ -223,9 +223,9 @@ class FiniteDifferences final : public DerivativeBackEnd {
   std::vector<std::vector<Quotient>> jacobian_entries_;
   std::vector<std::size_t> hessian_rows_;  // per entry
   std::vector<std::size_t> hessian_columns_;
-  ColumnAssembly gradient_;
-  ColumnAssembly jacobian_;
-  ColumnAssembly hessian_;
+  SeriesAssembly gradient_;
+  SeriesAssembly jacobian_;
+  SeriesAssembly hessian_;
   std::vector<Tape::Input> original_;
   std::vector<Tape::Input> inputs_;  // with moved unknowns
   std::vector<double> steps_;        // unknown by unknown

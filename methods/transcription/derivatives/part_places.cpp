@@ -4,19 +4,19 @@
 
 namespace dmocbench {
 
-std::vector<ColumnPlace> picked(const std::vector<ColumnPlace>& places, const std::vector<std::size_t>& numbers) {
-  std::vector<ColumnPlace> result;
+std::vector<SeriesPlace> picked(const std::vector<SeriesPlace>& places, const std::vector<std::size_t>& numbers) {
+  std::vector<SeriesPlace> result;
   result.reserve(numbers.size());
   for (const std::size_t number : numbers) result.push_back(places[number]);
   return result;
 }
 
-LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
-                              const std::vector<ColumnPlace>& unknowns, std::size_t intervals) {
+LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& rows,
+                              const std::vector<SeriesPlace>& unknowns, std::size_t intervals) {
   return {picked(rows, functions.jacobian.rows), picked(unknowns, functions.jacobian.columns), intervals};
 }
 
-LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                              std::size_t intervals) {
   LocalEntries entries{picked(unknowns, functions.hessian.rows), picked(unknowns, functions.hessian.columns),
                        intervals};
@@ -26,11 +26,11 @@ LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<
   return entries;
 }
 
-PartPlaces part_places(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                       const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
-                       const std::vector<ColumnPlace>& hessian, const ProgramArrays& arrays, std::size_t intervals,
+PartPlaces part_places(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                       const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
+                       const std::vector<SeriesPlace>& hessian, const ProgramArrays& arrays, std::size_t intervals,
                        AssemblyMode mode) {
-  const auto plan = [&](std::vector<ColumnPlace> places, std::size_t size) {
+  const auto plan = [&](std::vector<SeriesPlace> places, std::size_t size) {
     return AssemblyPlan{.places = std::move(places), .size = size, .intervals = intervals, .mode = mode};
   };
   return {.unknowns = unknowns,

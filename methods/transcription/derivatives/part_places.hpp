@@ -9,14 +9,14 @@
 namespace dmocbench {
 
 /// The places with these numbers, in their order.
-[[nodiscard]] std::vector<ColumnPlace> picked(const std::vector<ColumnPlace>& places,
+[[nodiscard]] std::vector<SeriesPlace> picked(const std::vector<SeriesPlace>& places,
                                               const std::vector<std::size_t>& numbers);
 
 /// Where the entries of a part's Jacobian stand; `rows` and `unknowns` are the places of all that are local.
-[[nodiscard]] LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& rows,
-                                            const std::vector<ColumnPlace>& unknowns, std::size_t intervals);
+[[nodiscard]] LocalEntries jacobian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& rows,
+                                            const std::vector<SeriesPlace>& unknowns, std::size_t intervals);
 /// Where those of its Hessian stand, in the lower triangle.
-[[nodiscard]] LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
+[[nodiscard]] LocalEntries hessian_entries(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
                                            std::size_t intervals);
 
 /// The arrays of a program that its parts make up.
@@ -29,9 +29,9 @@ struct ProgramArrays {
 
 /// Where a part with these local unknowns and rows stands in a program; `jacobian` and `hessian` are the places of its
 /// entries in the assembled patterns.
-[[nodiscard]] PartPlaces part_places(const LocalFunctions& functions, const std::vector<ColumnPlace>& unknowns,
-                                     const std::vector<ColumnPlace>& rows, const std::vector<ColumnPlace>& jacobian,
-                                     const std::vector<ColumnPlace>& hessian, const ProgramArrays& arrays,
+[[nodiscard]] PartPlaces part_places(const LocalFunctions& functions, const std::vector<SeriesPlace>& unknowns,
+                                     const std::vector<SeriesPlace>& rows, const std::vector<SeriesPlace>& jacobian,
+                                     const std::vector<SeriesPlace>& hessian, const ProgramArrays& arrays,
                                      std::size_t intervals, AssemblyMode mode = AssemblyMode::whole);
 
 }  // namespace dmocbench

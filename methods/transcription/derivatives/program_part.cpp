@@ -27,7 +27,7 @@ ProgramPart::ProgramPart(const LocalFunctions& functions, PartPlaces places, con
 std::span<const Tape::Input> ProgramPart::bind(const VectorIn& x, const VectorIn& multipliers,
                                                double objective_factor) {
   for (std::size_t a = 0; a < numbers_.unknowns; ++a) {
-    inputs_[numbers_.unknown(a)] = {x.data() + unknown_places_[a].first, unknown_places_[a].shared};
+    inputs_[numbers_.unknown(a)] = {x.data() + unknown_places_[a].first, unknown_places_[a].is_global};
   }
   objective_factor_ = objective_factor;
   for (std::size_t r = 0; r < numbers_.rows && multipliers.size() > 0; ++r) {

@@ -8,17 +8,17 @@
 
 #include <Eigen/Core>
 
-#include "methods/transcription/derivatives/column_assembly.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/derivatives/local_functions.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 
 namespace dmocbench {
 
 /// Where the unknowns and constraints (rows) of a part stand in the program's vectors, and how its values and
 /// derivatives make up the program's arrays.
 struct PartPlaces {
-  std::vector<ColumnPlace> unknowns;  ///< where unknowns lie in the program's vectors
-  std::vector<ColumnPlace> rows;      ///< all local rows
+  std::vector<SeriesPlace> unknowns;  ///< where unknowns lie in the program's vectors
+  std::vector<SeriesPlace> rows;      ///< all local rows
   AssemblyPlan constraints;           ///< entries in the order of `LocalFunctions::rows`
   DerivativePlaces derivatives;       ///< where derivatives go
 };
@@ -60,8 +60,8 @@ class ProgramPart {
 
  private:
   LocalInputs numbers_;
-  std::vector<ColumnPlace> unknown_places_;
-  std::vector<ColumnPlace> row_places_;
+  std::vector<SeriesPlace> unknown_places_;
+  std::vector<SeriesPlace> row_places_;
   double objective_factor_ = 1.0;
   Eigen::VectorXd no_multipliers_;
   std::vector<Tape::Input> inputs_;

@@ -38,11 +38,13 @@ class SwingUps {
 
   /// An instance whose cart goes to `place`, with a bob of `mass`.
   [[nodiscard]] BatchInstance instance(double place, double mass) const {
-    BatchInstance made{
-        .start = start_, .rows = program_->constraint_lower(), .multipliers = {}, .parameters = parameters(mass)};
+    BatchInstance made{.start = start_,
+                       .equality_values = program_->constraint_lower(),
+                       .multipliers = {},
+                       .parameters = parameters(mass)};
     BoundaryState last = problem_->final_state();
     last.q[0] = place;
-    ClampedEnds(*program_).write(problem_->initial_state(), last, made.start, made.rows);
+    ClampedEnds(*program_).write(problem_->initial_state(), last, made.start, made.equality_values);
     return made;
   }
   [[nodiscard]] std::vector<BatchInstance> instances(std::size_t count) const {
@@ -96,11 +98,12 @@ std::vector<Poison> poisons(const SwingUps& carts) {
   const auto rows = static_cast<Eigen::Index>(carts.rows());
   return {{"a number of its start", with([](Spoilt i) { i.start[3] = nan; }), Status::evaluation_failed},
           {"a parameter that is no number", with([](Spoilt i) { i.parameters[1] = nan; }), Status::evaluation_failed},
-          {"an infinite value of a row", with([](Spoilt i) { i.rows[0] = std::numeric_limits<double>::infinity(); }),
+          {"an infinite value of a row",
+           with([](Spoilt i) { i.equality_values[0] = std::numeric_limits<double>::infinity(); }),
            Status::evaluation_failed},
           {"a multiplier", with([&](Spoilt i) { i.multipliers.setConstant(rows, nan); }), Status::evaluation_failed},
           {"the size of its start", with([](Spoilt i) { i.start.conservativeResize(3); }), Status::invalid_program},
-          {"the size of its rows", with([](Spoilt i) { i.rows.setZero(1); }), Status::invalid_program},
+          {"the size of its rows", with([](Spoilt i) { i.equality_values.setZero(1); }), Status::invalid_program},
           {"the size of its multipliers", with([](Spoilt i) { i.multipliers.setOnes(2); }), Status::invalid_program},
           {"the size of its parameters", with([](Spoilt i) { i.parameters.setOnes(1); }), Status::invalid_program},
           {"a parameter that changes bounds", with([&](Spoilt i) { i.parameters = carts.parameters(0.0, "bounded"); }),

@@ -49,9 +49,9 @@ struct Case {
     std::vector<BatchInstance> instances(count);
     for (BatchInstance& instance : instances) {
       instance.start = start;
-      instance.rows = program->constraint_lower();
+      instance.equality_values = program->constraint_lower();
       const BoundaryState from = moved(first);
-      ends.write(from, moved(last), instance.start, instance.rows);
+      ends.write(from, moved(last), instance.start, instance.equality_values);
     }
     return instances;
   }
@@ -71,7 +71,7 @@ struct Case {
   }
 
   [[nodiscard]] Solution solve_alone(const BatchInstance& instance) const {
-    batch::InstanceProgram alone(*program, instance.start, instance.rows);
+    batch::InstanceProgram alone(*program, instance.start, instance.equality_values);
     return InteriorPointSolver().solve(alone, instance.start, instance.multipliers);
   }
 
@@ -119,7 +119,7 @@ void poison(BatchInstance& instance, std::size_t kind) {
       instance.start.head(2).setZero();  // the radius: 1/r is infinite
       break;
     default:
-      instance.rows.array() += 1e150;
+      instance.equality_values.array() += 1e150;
   }
 }
 
@@ -171,7 +171,7 @@ TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForOtherParameters) {
   constexpr std::size_t count = 11;
   std::vector<BatchInstance> instances(count);
   for (std::size_t i = 0; i < count; ++i)
-    instances[i] = {.start = start, .rows = {}, .multipliers = {}, .parameters = parameters(i)};
+    instances[i] = {.start = start, .equality_values = {}, .multipliers = {}, .parameters = parameters(i)};
   std::vector<Solution> solutions(count);
   const auto next = [&](std::size_t index, BatchInstance& instance) {
     if (index < count) instance = instances[index];
@@ -248,10 +248,10 @@ TEST(SolveBatch, StartsFromTheNearestInstanceOfThoseBeforeHoweverManyThreadsTher
       has_neighbour[index] = neighbour != nullptr;
       instance.start = neighbour == nullptr ? orbit.start : neighbour->primal;
       instance.multipliers = neighbour == nullptr ? Eigen::VectorXd() : neighbour->multipliers;
-      instance.rows = orbit.program->constraint_lower();
+      instance.equality_values = orbit.program->constraint_lower();
       BoundaryState last = orbit.problem->final_state();
       last.q[1] += 1e-4 * static_cast<double>(index);
-      ends.write(orbit.problem->initial_state(), last, instance.start, instance.rows);
+      ends.write(orbit.problem->initial_state(), last, instance.start, instance.equality_values);
     };
     BatchOptions options;
     options.threads = threads;
@@ -290,7 +290,8 @@ TEST(SolveBatch, SolvesOneByOneWhatTheLanesCannotAndCountsIt) {
   std::vector<BatchInstance> instances = motion.instances(9, 0.05);
   ClampedEnds ends(*motion.program);
   ends.write(BoundaryState::at_rest(Eigen::VectorXd::Zero(1)),
-             BoundaryState::at_rest(Eigen::VectorXd::Constant(1, 9.0)), instances[4].start, instances[4].rows);
+             BoundaryState::at_rest(Eigen::VectorXd::Constant(1, 9.0)), instances[4].start,
+             instances[4].equality_values);
   const std::vector<Solution> solutions = motion.solve(instances);
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     EXPECT_EQ(solutions[i].status, i == 4 ? Status::infeasible : Status::solved) << i;
@@ -308,7 +309,7 @@ TEST(SolveBatch, KeepsHopelessStartsInTheirLanes) {
   std::vector<BatchInstance> instances(count);
   for (BatchInstance& instance : instances) {
     instance.start = sample(*orbit.program, randomly_bent(guessed_motion(*orbit.problem), random));
-    instance.rows = orbit.program->constraint_lower();
+    instance.equality_values = orbit.program->constraint_lower();
   }
   const std::vector<Solution> solutions = orbit.solve(instances, {.most_iterations = 200, .falls_back = false});
   const auto ended = [&](Status status) { return std::ranges::count(solutions, status, &Solution::status); };

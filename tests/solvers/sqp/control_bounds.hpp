@@ -13,7 +13,7 @@ inline dmocbench::tests::BoundedProgram with_control_bound(Transcription& transc
   const auto intervals = static_cast<Eigen::Index>(layout.intervals());
   for (Eigen::Index stage = 0; stage < layout.stages(); ++stage) {
     for (Eigen::Index i = 0; i < transcription.traced_problem().control_size(); ++i) {
-      const auto head = static_cast<Eigen::Index>(layout.control_column(stage, i));
+      const auto head = static_cast<Eigen::Index>(layout.control_head(stage, i));
       lower.segment(head, intervals).setConstant(-bound);
       upper.segment(head, intervals).setConstant(bound);
     }

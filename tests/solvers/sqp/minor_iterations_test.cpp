@@ -34,12 +34,12 @@ class Replay {
   }
 
   void follow(const MinorIteration& minor) {
-    const double before = minor.phase == MinorIteration::Phase::feasibility ? infeasibility() : objective();
+    const double before = minor.phase == MinorPhase::feasibility ? infeasibility() : objective();
     if (minor.entering) {
       EXPECT_FALSE(moving_.contains(*minor.entering)) << "enters but moved already";
       moving_.insert(*minor.entering);
     }
-    const bool first_phase = minor.phase == MinorIteration::Phase::feasibility;
+    const bool first_phase = minor.phase == MinorPhase::feasibility;
     point_ += minor.step * (first_phase ? along(value_of(minor.entering)) : to_minimiser());
     if (minor.leaving) {
       EXPECT_EQ(moving_.erase(*minor.leaving), 1U) << "leaves but did not move";
@@ -146,7 +146,7 @@ void replay_first_program(NonlinearProgram& program, const Eigen::VectorXd& star
     return !::testing::Test::HasFailure();
   });
   const QuadraticSolution solution = solver.solve(quadratic);
-  ASSERT_EQ(solution.status, QuadraticSolution::Status::optimal);
+  ASSERT_EQ(solution.status, QuadraticStatus::optimal);
   EXPECT_GT(replay.count(), 0);
   EXPECT_LT((replay.point().head(start.size()) - solution.step).lpNorm<Eigen::Infinity>(), 1e-6);
 }
@@ -180,7 +180,7 @@ TEST(MinorIterations, OfRandomProgramsWithBoundsCanBeReplayed) {
       replay.follow(minor);
       return true;
     });
-    ASSERT_EQ(solver.solve(problem.program).status, QuadraticSolution::Status::optimal);
+    ASSERT_EQ(solver.solve(problem.program).status, QuadraticStatus::optimal);
   }
 }
 
@@ -269,10 +269,9 @@ TEST(MinorIterations, AreAsManyAsTheObserverSaw) {
                          {.on_minor_iteration = [&](const MinorIteration& minor) { seen.push_back(minor); }});
   const Solution solution = solver.solve(program, sample(program, guessed_motion(*problem)));
   EXPECT_EQ(static_cast<int>(seen.size()), value_of(solution.minor_iterations));
-  EXPECT_EQ(
-      std::count_if(seen.begin(), seen.end(),
-                    [](const MinorIteration& minor) { return minor.phase == MinorIteration::Phase::feasibility; }),
-      value_of(solution.phase_one_minor_iterations));
+  EXPECT_EQ(std::count_if(seen.begin(), seen.end(),
+                          [](const MinorIteration& minor) { return minor.phase == MinorPhase::feasibility; }),
+            value_of(solution.phase_one_minor_iterations));
   EXPECT_EQ(seen.back().major, value_of(solution.major_iterations));
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(),
                              [](const MinorIteration& a, const MinorIteration& b) { return a.major < b.major; }));

@@ -22,7 +22,7 @@ QuadraticSolution solve(const QuadraticProgram& program, Crash crash = Crash::no
 /// The conditions of optimality, by dense linear algebra: they are sufficient as the programs are convex.
 void expect_optimal(const OwnedQuadraticProgram& problem, const QuadraticSolution& solution) {
   const QuadraticProgram& program = problem.program;
-  ASSERT_EQ(solution.status, QuadraticSolution::Status::optimal) << solution.message;
+  ASSERT_EQ(solution.status, QuadraticStatus::optimal) << solution.message;
   const Eigen::Index n = program.variable_count();
   const Eigen::MatrixXd dense_rows = Eigen::MatrixXd(program.columns).leftCols(n);
   const Eigen::VectorXd gradient =
@@ -76,7 +76,7 @@ TEST(QuadraticSolver, SaysWhichRowsCannotBeMet) {
   const auto problem = owned(Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1),
                              Eigen::Vector2d(-infinity, 3.0), Eigen::Vector2d(1.0, infinity));
   const QuadraticSolution solution = solve(problem.program);
-  EXPECT_EQ(solution.status, QuadraticSolution::Status::infeasible);
+  EXPECT_EQ(solution.status, QuadraticStatus::infeasible);
   EXPECT_DOUBLE_EQ(solution.infeasibility, 2.0);
   EXPECT_DOUBLE_EQ(solution.step[0], 1.0);
 }
@@ -90,7 +90,7 @@ TEST(QuadraticSolver, FindsTheMinimumOfContradictoryRowsAmongPointsOfLeastViolat
       owned(Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(0.0, -5.0), rows,
             Eigen::Vector4d(-infinity, -infinity, 0.0, 2.0), Eigen::Vector4d(infinity, infinity, 0.0, 2.0));
   const QuadraticSolution solution = solve(problem.program);
-  EXPECT_EQ(solution.status, QuadraticSolution::Status::infeasible);
+  EXPECT_EQ(solution.status, QuadraticStatus::infeasible);
   EXPECT_DOUBLE_EQ(solution.infeasibility, 2.0);
   EXPECT_DOUBLE_EQ(solution.step[1], 5.0);
 }
@@ -113,7 +113,7 @@ TEST(QuadraticSolver, NeverTellsAnIndefiniteReducedHessianForAMinimum) {
   const auto problem = owned(Eigen::Vector2d(1.0, -1.0).asDiagonal(), Eigen::Vector2d(1.0, 1.0),
                              Eigen::MatrixXd(Eigen::RowVector2d(1.0, 0.0)), Eigen::Vector3d::Constant(-infinity),
                              Eigen::Vector3d::Constant(infinity));
-  EXPECT_EQ(solve(problem.program).status, QuadraticSolution::Status::breakdown);
+  EXPECT_EQ(solve(problem.program).status, QuadraticStatus::breakdown);
 }
 
 TEST(QuadraticSolver, FromTheSetsOfItsSolutionNeedsOneMinorIteration) {
@@ -137,7 +137,7 @@ TEST(QuadraticSolver, StopsWhenItsObserverSaysSo) {
   const auto problem = random_program(30, 12, 100.0, 5);
   int minors = 0;
   QuadraticSolver solver({}, Pricing(), [&](const MinorIteration&) { return ++minors < 7; });
-  EXPECT_EQ(solver.solve(problem.program).status, QuadraticSolution::Status::stopped);
+  EXPECT_EQ(solver.solve(problem.program).status, QuadraticStatus::stopped);
   EXPECT_EQ(minors, 7);
 }
 

@@ -20,7 +20,7 @@ struct Order {
 };
 
 /// Derivatives of the equalities of an interval with respect to Z.
-Eigen::MatrixXd equalities_of(const IntervalEntries& entries, const NewtonArrays& arrays, Eigen::Index interval) {
+Eigen::MatrixXd equality_jacobian(const IntervalEntries& entries, const NewtonArrays& arrays, Eigen::Index interval) {
   const Shape& shape = entries.shape;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(shape.rows, next_size(shape));
   for (const LocalEntry& entry : entries.local) {
@@ -178,7 +178,7 @@ std::optional<EliminationPlan> elimination_plan(const IntervalEntries& entries, 
                                                 const std::vector<Eigen::Index>& intervals) {
   std::vector<Eigen::MatrixXd> equalities;
   equalities.reserve(intervals.size());
-  for (const Eigen::Index interval : intervals) equalities.push_back(equalities_of(entries, arrays, interval));
+  for (const Eigen::Index interval : intervals) equalities.push_back(equality_jacobian(entries, arrays, interval));
   auto order = find_order(equalities, false);
   if (!order) return std::nullopt;
   const Shape& shape = entries.shape;

@@ -6,7 +6,7 @@
 
 namespace dmocbench::sqp {
 
-Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double tolerance)
+QuadraticIterate::QuadraticIterate(const QuadraticProgram& program, WorkingSet sets, double tolerance)
     : program_(&program),
       sets_(std::move(sets)),
       tolerance_(tolerance),
@@ -16,7 +16,7 @@ Iterate::Iterate(const QuadraticProgram& program, WorkingSet sets, double tolera
   refactorise();
 }
 
-double Iterate::infeasibility() const {
+double QuadraticIterate::infeasibility() const {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < values_.size(); ++j) {
     const double distance = std::max(lower_[j] - values_[j], values_[j] - upper_[j]);
@@ -25,27 +25,27 @@ double Iterate::infeasibility() const {
   return sum;
 }
 
-double Iterate::objective() const {
+double QuadraticIterate::objective() const {
   const Eigen::VectorXd d = variables();
   const Eigen::VectorXd curved = program_->hessian_times(d);
   return program_->gradient.dot(d) + 0.5 * d.dot(curved);
 }
 
-Eigen::VectorXd Iterate::null_space_times(const Eigen::VectorXd& of_superbasics) const {
+Eigen::VectorXd QuadraticIterate::null_space_times(const Eigen::VectorXd& of_superbasics) const {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(program_->column_count());
   change(sets_.superbasics()) = of_superbasics;
   change(sets_.basics()) = -basis_.solve(program_->columns * change);
   return change;
 }
 
-Eigen::VectorXd Iterate::null_space_transposed_times(const Eigen::VectorXd& of_variables) const {
+Eigen::VectorXd QuadraticIterate::null_space_transposed_times(const Eigen::VectorXd& of_variables) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(program_->column_count());
   all.head(program_->variable_count()) = of_variables;
   const Eigen::VectorXd multipliers = basis_.solve_transposed(all(sets_.basics()));
   return (all - program_->transposed_times(multipliers))(sets_.superbasics());
 }
 
-Eigen::MatrixXd Iterate::reduced_hessian() const {
+Eigen::MatrixXd QuadraticIterate::reduced_hessian() const {
   const std::vector<Eigen::Index>& superbasics = sets_.superbasics();
   if (superbasics.empty()) return {};  // Eigen's triangular product looks at its first entry
   const Eigen::Index n = program_->variable_count();
@@ -64,24 +64,24 @@ Eigen::MatrixXd Iterate::reduced_hessian() const {
   return result;
 }
 
-void Iterate::replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved) {
+void QuadraticIterate::replace_basic(Eigen::Index position, Eigen::Index entering, const Eigen::VectorXd& solved) {
   sets_.replace_basic(position, entering);
   basis_.replace(position, solved);
   if (basis_.needs_refactorisation()) refactorise();
 }
 
-void Iterate::choose_basis_again() {
+void QuadraticIterate::choose_basis_again() {
   BasisChoice choice = choose_basis(*program_, sets_.basics(), sets_.superbasics());
   sets_ = WorkingSet(program_->column_count(), std::move(choice.basics), std::move(choice.others));
   refactorise();
 }
 
-void Iterate::accept_violations() {
+void QuadraticIterate::accept_violations() {
   lower_ = lower_.cwiseMin(values_);
   upper_ = upper_.cwiseMax(values_);
 }
 
-void Iterate::refactorise() {
+void QuadraticIterate::refactorise() {
   if (!basis_.factorise(*program_, sets_.basics())) throw Breakdown("the basis is singular");
   Eigen::VectorXd others = values_;
   others(sets_.basics()).setZero();

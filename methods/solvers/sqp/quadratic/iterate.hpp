@@ -73,11 +73,11 @@ class Breakdown : public std::runtime_error {
 
 /// A point (d, s) of the active-set method with its sets. A d = s always holds: the basic columns follow from the
 /// others.
-class Iterate {
+class QuadraticIterate {
  public:
   /// All columns that are not basic are at 0, or at the bound nearest to 0. Throws `Breakdown` if the basis is
   /// singular.
-  Iterate(const QuadraticProgram& program, WorkingSet sets, double tolerance);
+  QuadraticIterate(const QuadraticProgram& program, WorkingSet sets, double tolerance);
 
   [[nodiscard]] const QuadraticProgram& program() const noexcept { return *program_; }
   [[nodiscard]] const WorkingSet& sets() const noexcept { return sets_; }

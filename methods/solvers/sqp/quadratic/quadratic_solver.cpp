@@ -18,7 +18,7 @@ struct StoppedByObserver {};
 
 /// The columns that may move and thereby lower the objective, without the basic and (if `but_superbasics`) the
 /// superbasic ones. `rates` (n + m entries): the rates of change of the objective.
-std::vector<PricedColumn> candidates_of(const Iterate& iterate, const Eigen::VectorXd& rates, double tolerance,
+std::vector<PricedColumn> candidates_of(const QuadraticIterate& iterate, const Eigen::VectorXd& rates, double tolerance,
                                         bool but_superbasics) {
   std::vector<PricedColumn> candidates;
   const WorkingSet& sets = iterate.sets();
@@ -34,8 +34,8 @@ std::vector<PricedColumn> candidates_of(const Iterate& iterate, const Eigen::Vec
 }
 
 /// How far the columns `moving` may follow `change` (n + m entries).
-RatioTest ratio_test(const Iterate& iterate, const std::vector<Eigen::Index>& moving, const Eigen::VectorXd& change,
-                     double limit) {
+RatioTest ratio_test(const QuadraticIterate& iterate, const std::vector<Eigen::Index>& moving,
+                     const Eigen::VectorXd& change, double limit) {
   std::vector<MovingColumn> columns;
   columns.reserve(moving.size());
   for (const Eigen::Index j : moving) {
@@ -45,7 +45,7 @@ RatioTest ratio_test(const Iterate& iterate, const std::vector<Eigen::Index>& mo
 }
 
 /// Tells the observer; throws `StoppedByObserver`.
-void report(const Iterate& iterate, MinorIteration minor, const MinorObserver& observer) {
+void report(const QuadraticIterate& iterate, MinorIteration minor, const MinorObserver& observer) {
   const WorkingSet& sets = iterate.sets();
   minor.infeasibility = iterate.infeasibility();
   minor.objective = iterate.objective();
@@ -56,7 +56,7 @@ void report(const Iterate& iterate, MinorIteration minor, const MinorObserver& o
 }
 
 /// The rate of change of the sum of infeasibilities with each basic column: -1, 0 or 1.
-Eigen::VectorXd infeasibility_rates(const Iterate& iterate) {
+Eigen::VectorXd infeasibility_rates(const QuadraticIterate& iterate) {
   const std::vector<Eigen::Index>& basics = iterate.sets().basics();
   Eigen::VectorXd rates(static_cast<Eigen::Index>(basics.size()));
   for (std::size_t position = 0; position < basics.size(); ++position) {
@@ -66,7 +66,7 @@ Eigen::VectorXd infeasibility_rates(const Iterate& iterate) {
 }
 
 /// Moves `entering` and the basic columns with it until one of them is stopped by a bound, and exchanges the two.
-void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserver& observer) {
+void take_step(QuadraticIterate& iterate, const PricedColumn& entering, const MinorObserver& observer) {
   const QuadraticProgram& program = iterate.program();
   const double direction = entering.rate < 0.0 ? 1.0 : -1.0;
   const Eigen::VectorXd solved = iterate.basis().solve(program.column(entering.column));
@@ -91,7 +91,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
     iterate.drop_superbasic(std::find(superbasics.begin(), superbasics.end(), leaving) - superbasics.begin());
   }
   report(iterate,
-         {.phase = MinorIteration::Phase::feasibility,
+         {.phase = MinorPhase::feasibility,
           .entering = entering.column,
           .leaving = leaving,
           .into_basis = {},
@@ -101,7 +101,7 @@ void take_step(Iterate& iterate, const PricedColumn& entering, const MinorObserv
 
 /// Phase 1: one column enters the basis and one leaves per minor iteration, so that the sum of infeasibilities falls,
 /// until all columns are within their bounds or no column can lower the sum. Throws `Breakdown`, `StoppedByObserver`.
-void find_feasible_point(Iterate& iterate, Pricing& pricing, double tolerance, const MinorObserver& observer) {
+void find_feasible_point(QuadraticIterate& iterate, Pricing& pricing, double tolerance, const MinorObserver& observer) {
   while (true) {
     const Eigen::VectorXd weights = infeasibility_rates(iterate);
     if (weights.isZero(0.0)) return;
@@ -118,7 +118,7 @@ void find_feasible_point(Iterate& iterate, Pricing& pricing, double tolerance, c
 /// iteration takes the exact step of the reduced Hessian ZᵀHZ, or as much of it as the bounds allow.
 class PhaseTwo {
  public:
-  PhaseTwo(Iterate& iterate, Pricing& pricing, double tolerance, const MinorObserver& observer)
+  PhaseTwo(QuadraticIterate& iterate, Pricing& pricing, double tolerance, const MinorObserver& observer)
       : iterate_(iterate), pricing_(pricing), tolerance_(tolerance), observer_(observer) {
     start();
   }
@@ -201,11 +201,8 @@ class PhaseTwo {
     constexpr double whole = 1.0;
     const RatioTest test = ratio_test(iterate_, moving, change, whole);
     iterate_.move(change, test.step);
-    MinorIteration minor{.phase = MinorIteration::Phase::optimality,
-                         .entering = entering,
-                         .leaving = {},
-                         .into_basis = {},
-                         .step = test.step};
+    MinorIteration minor{
+        .phase = MinorPhase::optimality, .entering = entering, .leaving = {}, .into_basis = {}, .step = test.step};
     if (test.blocking) {
       minor.leaving = moving[*test.blocking];
       iterate_.put_on_bound(*minor.leaving, change[*minor.leaving] > 0.0);
@@ -247,7 +244,7 @@ class PhaseTwo {
     }
   }
 
-  Iterate& iterate_;
+  QuadraticIterate& iterate_;
   ReducedHessian reduced_;
   Pricing& pricing_;
   double tolerance_;
@@ -264,7 +261,7 @@ WorkingSet warm_start(const QuadraticProgram& program, const WorkingSet& sets) {
   return {program.column_count(), std::move(choice.basics), std::move(choice.others)};
 }
 
-bool leaves_variable_outside(const Iterate& iterate) {
+bool leaves_variable_outside(const QuadraticIterate& iterate) {
   return std::ranges::any_of(std::views::iota(Eigen::Index{0}, iterate.program().variable_count()),
                              [&](Eigen::Index j) { return iterate.violated_side(j) != 0; });
 }
@@ -280,23 +277,22 @@ QuadraticSolution QuadraticSolver::solve(const QuadraticProgram& program) {
 QuadraticSolution QuadraticSolver::solve_from(const QuadraticProgram& program, WorkingSet start, bool may_restart) {
   QuadraticSolution solution;
   try {
-    Iterate iterate(program, std::move(start), options_.tolerance);
+    QuadraticIterate iterate(program, std::move(start), options_.tolerance);
     find_feasible_point(iterate, pricing_, options_.tolerance, observer_);
     if (may_restart && leaves_variable_outside(iterate)) return solve_from(program, slack_start(program), false);
     solution.infeasibility = iterate.infeasibility();
     if (solution.infeasibility > 0.0) iterate.accept_violations();
     solution.multipliers = -PhaseTwo(iterate, pricing_, options_.tolerance, observer_).run();
     solution.step = iterate.variables();
-    solution.status =
-        solution.infeasibility > 0.0 ? QuadraticSolution::Status::infeasible : QuadraticSolution::Status::optimal;
+    solution.status = solution.infeasibility > 0.0 ? QuadraticStatus::infeasible : QuadraticStatus::optimal;
     sets_ = iterate.sets();
   } catch (const Breakdown& reason) {
     sets_.reset();
     if (may_restart) return solve_from(program, slack_start(program), false);
-    solution.status = QuadraticSolution::Status::breakdown;
+    solution.status = QuadraticStatus::breakdown;
     solution.message = reason.what();
   } catch (const StoppedByObserver&) {
-    solution.status = QuadraticSolution::Status::stopped;
+    solution.status = QuadraticStatus::stopped;
   }
   return solution;
 }

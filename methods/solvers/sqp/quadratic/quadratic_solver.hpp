@@ -20,14 +20,16 @@ namespace dmocbench::sqp {
 using MinorObserver = std::function<bool(const MinorIteration&)>;
 
 /// How a quadratic program ended.
+enum class QuadraticStatus : std::uint8_t {
+  optimal,
+  infeasible,  ///< rows stay violated; `step` minimises the objective with their violations accepted
+  breakdown,   ///< singular basis or reduced Hessian not positive definite
+  stopped,     ///< by the observer
+};
+
+/// The answer to a quadratic program.
 struct QuadraticSolution {
-  enum class Status : std::uint8_t {
-    optimal,
-    infeasible,  ///< rows stay violated; `step` minimises the objective with their violations accepted
-    breakdown,   ///< singular basis or reduced Hessian not positive definite
-    stopped,     ///< by the observer
-  };
-  Status status = Status::breakdown;
+  QuadraticStatus status = QuadraticStatus::breakdown;
   std::string message;
   Eigen::VectorXd step;         ///< d
   Eigen::VectorXd multipliers;  ///< λ of the rows: g + Hd + Aᵀλ vanishes in the free variables

@@ -1,4 +1,4 @@
-#include "methods/transcription/derivatives/column_assembly.hpp"
+#include "methods/transcription/derivatives/series_assembly.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@
 
 namespace dmocbench {
 
-ColumnAssembly::ColumnAssembly(AssemblyPlan plan) : plan_(std::move(plan)), columns_(plan_.places.size()) {
+SeriesAssembly::SeriesAssembly(AssemblyPlan plan) : plan_(std::move(plan)), columns_(plan_.places.size()) {
   std::vector<std::size_t> order(columns_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t column) { return plan_.places[column].first; });
@@ -21,10 +21,10 @@ ColumnAssembly::ColumnAssembly(AssemblyPlan plan) : plan_(std::move(plan)), colu
     covered = end;
   };
   for (const std::size_t column : order) {
-    const ColumnPlace& place = plan_.places[column];
+    const SeriesPlace& place = plan_.places[column];
     const std::size_t end = place.at(plan_.intervals - 1) + 1;
     if (end > plan_.size) throw Error("a column leaves the array that it is assembled to");
-    if (plan_.mode == AssemblyMode::part || place.shared || place.first < covered) {
+    if (plan_.mode == AssemblyMode::part || place.is_global || place.first < covered) {
       additions_.push_back({column, additions_.size() * plan_.intervals});
       zero_until(end);
     } else {
@@ -36,7 +36,7 @@ ColumnAssembly::ColumnAssembly(AssemblyPlan plan) : plan_(std::move(plan)), colu
   scratch_.resize(additions_.size() * plan_.intervals);
 }
 
-std::span<double* const> ColumnAssembly::open(VectorOut& result) {
+std::span<double* const> SeriesAssembly::open(VectorOut& result) {
   if (static_cast<std::size_t>(result.size()) != plan_.size) {
     throw Error("columns are assembled to an array of wrong length");
   }
@@ -47,7 +47,7 @@ std::span<double* const> ColumnAssembly::open(VectorOut& result) {
   return columns_;
 }
 
-void ColumnAssembly::close(VectorOut& result) const {
+void SeriesAssembly::close(VectorOut& result) const {
   // Threads share the entries of the result and not the columns: an entry gets what belongs to it in the order of the
   // columns, and is still in a cache when the next one adds to it.
   constexpr std::size_t entries_per_part = 65536;
@@ -65,11 +65,11 @@ void ColumnAssembly::close(VectorOut& result) const {
 }
 
 /// Adds those of its values whose entries of the result lie within a stretch.
-void ColumnAssembly::add_column(const Addition& addition, Stretch within, double* result) const {
-  const ColumnPlace& place = plan_.places[addition.column];
+void SeriesAssembly::add_column(const Addition& addition, Stretch within, double* result) const {
+  const SeriesPlace& place = plan_.places[addition.column];
   const double* const source = scratch_.data() + addition.scratch;
   const std::size_t first = place.first;
-  if (place.shared) {
+  if (place.is_global) {
     if (first < within.begin || first >= within.end) return;
     result[first] += Eigen::Map<const Eigen::VectorXd>(source, static_cast<Eigen::Index>(intervals())).sum();
     return;

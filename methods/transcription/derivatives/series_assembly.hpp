@@ -12,58 +12,58 @@ namespace dmocbench {
 
 /// Where a local quantity of the intervals stands in a long array: that of interval k at `first + k`; a quantity of the
 /// whole horizon, which all intervals share, at `first`.
-struct ColumnPlace {
+struct SeriesPlace {
   /// One entry per interval from `first_entry` on, or that entry alone for all of them.
   // NOLINTNEXTLINE(google-explicit-constructor): a bare number is the usual place.
-  ColumnPlace(std::size_t first_entry = 0, bool is_shared = false) : first(first_entry), shared(is_shared) {}
+  SeriesPlace(std::size_t first_entry = 0, bool global = false) : first(first_entry), is_global(global) {}
 
   std::size_t first;  ///< of interval 0
-  bool shared;        ///< one entry for all intervals
+  bool is_global;     ///< one entry for all intervals
 
   /// The entry of an interval.
-  [[nodiscard]] std::size_t at(std::size_t interval) const noexcept { return shared ? first : first + interval; }
+  [[nodiscard]] std::size_t at(std::size_t interval) const noexcept { return is_global ? first : first + interval; }
   /// Equal members.
-  friend bool operator==(const ColumnPlace&, const ColumnPlace&) = default;
+  friend bool operator==(const SeriesPlace&, const SeriesPlace&) = default;
 };
 
-/// How columns are combined with the array.
+/// How series are combined with the array.
 enum class AssemblyMode : std::uint8_t {
-  whole,  ///< all are written; those that no column reaches are set to 0
-  part,   ///< columns are added to the present entries
+  whole,  ///< all are written; those that no series reaches are set to 0
+  part,   ///< series are added to the present entries
 };
 
-/// How columns of one value per interval make up one long array: column e stands at places[e].
+/// How series of one value per interval make up one long array: series e stands at places[e].
 struct AssemblyPlan {
-  std::vector<ColumnPlace> places;          ///< a place for every column of the results
+  std::vector<SeriesPlace> places;          ///< a place for every series of the results
   std::size_t size = 0;                     ///< length of the array
-  std::size_t intervals = 0;                ///< length of a column
-  AssemblyMode mode = AssemblyMode::whole;  ///< how columns become entries
+  std::size_t intervals = 0;                ///< length of a series
+  AssemblyMode mode = AssemblyMode::whole;  ///< how series become entries
 };
 
-/// Puts columns together to one long array.
+/// Puts series together to one long array.
 ///
-/// Where columns meet (the right end of one interval is the left end of the next, so one's `first` is one more than the
-/// other's) their values are added, and so are all values of a column with a shared place. Between `open` and `close`
-/// the caller writes all columns.
-class ColumnAssembly {
+/// Where series meet (the right end of one interval is the left end of the next, so one's `first` is one more than the
+/// other's) their values are added, and so are all values of a series with a global place. Between `open` and `close`
+/// the caller writes all series.
+class SeriesAssembly {
  public:
-  /// Throws `Error` if a column leaves the array.
-  explicit ColumnAssembly(AssemblyPlan plan);
+  /// Throws `Error` if a series leaves the array.
+  explicit SeriesAssembly(AssemblyPlan plan);
 
-  /// Where the columns are to be written: most of them in `result` itself. Valid until the next call. Allocates
+  /// Where the series are to be written: most of them in `result` itself. Valid until the next call. Allocates
   /// nothing. Throws `Error` if `result` does not have the length of the plan.
   [[nodiscard]] std::span<double* const> open(VectorOut& result);
-  /// Completes `result`, once every column has been written. Allocates nothing.
+  /// Completes `result`, once every series has been written. Allocates nothing.
   void close(VectorOut& result) const;
 
-  /// How many columns there are.
+  /// How many series there are.
   [[nodiscard]] std::size_t columns() const noexcept { return columns_.size(); }
   /// N.
   [[nodiscard]] std::size_t intervals() const noexcept { return plan_.intervals; }
 
  private:
   struct Addition {
-    std::size_t column = 0;   // is written to a scratch column
+    std::size_t column = 0;   // this series is written to scratch memory
     std::size_t scratch = 0;  // that begins here
   };
 
@@ -75,16 +75,16 @@ class ColumnAssembly {
   void add_column(const Addition& addition, Stretch within, double* result) const;
 
   AssemblyPlan plan_;
-  std::vector<Addition> additions_;  // columns that are added at the end
-  std::vector<Stretch> zeros_;       // entries that no column writes
+  std::vector<Addition> additions_;  // series that are added at the end
+  std::vector<Stretch> zeros_;       // entries that no series writes
   std::vector<double> scratch_;
   std::vector<double*> columns_;
 };
 
-/// A tape whose outputs are the columns of one long array.
+/// A tape whose outputs are the series of one long array.
 class AssembledTape {
  public:
-  /// Throws `Error` if there is not one place per output, or a column leaves the array.
+  /// Throws `Error` if there is not one place per output, or a series leaves the array.
   AssembledTape(const Schedule& schedule, AssemblyPlan plan);
 
   /// Writes the whole array, or adds to it. Allocates nothing; long grids by several threads (parallel.hpp), with the
@@ -94,7 +94,7 @@ class AssembledTape {
  private:
   Tape tape_;
   std::vector<Tape::Workspace> workspaces_;  // one per thread's share of the intervals
-  ColumnAssembly assembly_;
+  SeriesAssembly assembly_;
 };
 
 }  // namespace dmocbench
