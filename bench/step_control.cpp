@@ -1,6 +1,5 @@
 // Step sizes that are tied to the motion: inside the variational principle and outside of it (section 5, KMLTMD).
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include "bench/experiment/warm_start.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
-#include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"

@@ -27,7 +27,11 @@ class NoStart : public Error {
 };
 
 /// What solves start from.
-enum class StartKind : std::uint8_t { common, guess, file };
+enum class StartKind : std::uint8_t {
+  common,  ///< the common start of a problem and tableau
+  guess,   ///< the problem's guess
+  file,    ///< a motion in a file
+};
 
 /// Where solves start: the common start, the problem's guess or a file.
 ///
@@ -49,6 +53,7 @@ class StartProvider {
     bool takes_costates = false;           ///< a file's costates come with its motion, where it has them
     bool tells_branch_from_guess = false;  ///< also starts at the guess, which takes the search of a common start
 
+    /// What `start` names.
     [[nodiscard]] StartKind kind() const;
   };
   /// `options` are those of the solves that look for a common start.

@@ -1,6 +1,5 @@
 // How the cost of an iteration grows with the number of configurations: chains of 2 to 32 links, DMOC, N = 256; and how
 // long the program of a chain takes to make, up to 64 links.
-#include <iterator>
 #include <list>
 #include <memory>
 #include <string>

@@ -1,6 +1,5 @@
 // Programs that are solved again and again: a `PreparedSolve` against `Solver::solve`, turn by turn.
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <string>
 #include <tuple>

@@ -6,7 +6,6 @@
 #include <ranges>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "bench/summary/selection.hpp"

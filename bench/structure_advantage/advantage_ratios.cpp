@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "bench/summary/ratio_interval.hpp"
 #include "bench/summary/ratios.hpp"

@@ -46,8 +46,8 @@ void write_motion(const Problem& problem, const Trajectory& trajectory, const st
 
 /// The texts of the two files of a motion.
 struct MotionTexts {
-  std::string nodes;
-  std::string stages;
+  std::string nodes;   ///< of X_nodes.csv
+  std::string stages;  ///< of X_stages.csv
 };
 /// Reads them. Throws `Error` that names the file that cannot be read.
 [[nodiscard]] MotionTexts read_motion_texts(const std::filesystem::path& nodes_file);
