@@ -66,7 +66,10 @@ class Solve final : public Experiment {
                 of(estimated_error_)}};
   }
   void add_options(CommandLine& line) override {
-    line.option("--trace", trace_file_, "file for every minor iteration of one solve by sqp, a row each");
+    line.option(
+        "--trace", trace_file_,
+        "file for every minor iteration of one solve by sqp, a row each; the metadata tell of it if it is in the "
+        "folder of --out");
     line.flag("--costates,!--no-costates", card_.takes_costates,
               "--start FILE brings the file's costates as multipliers, for --solver interior_point and auto");
     line.option(
@@ -127,7 +130,10 @@ class Solve final : public Experiment {
 
   void complete(SolvedCase& solved) override {
     const auto variables = static_cast<Eigen::Index>(solved.program ? solved.program->variable_count() : 0);
-    if (!trace_file_.empty()) write_file(trace_file_, trace_table(trace_, variables).csv());
+    if (!trace_file_.empty()) {
+      traced_ = trace_table(trace_, variables);
+      write_file(trace_file_, traced_.csv());
+    }
     checks_ = {};
     if (answer_ && !answer_->message.empty()) solved.note(fmt::format("Its solver says: {}", answer_->message));
     if (!is_solved(solved.solution.status)) {
@@ -148,8 +154,13 @@ class Solve final : public Experiment {
     }
     return files;
   }
+  [[nodiscard]] std::vector<std::filesystem::path> named_files() const override {
+    if (trace_file_.empty() || place_of(trace_file_).parent_path() != place_of(card_.options.out)) return {};
+    return {trace_file_};
+  }
   void finish(const Table& /*table*/, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     for (const std::string& failure : failures_) fmt::print("solve: {}\n", failure);
+    for (const std::filesystem::path& file : named_files()) add_meanings(metadata, file, traced_);
     for (const SolvedCase& solved : motions_) {
       if (!solved.trajectory || !solved.accuracy) continue;
       const Case& the_case = solved.the_case;
@@ -293,20 +304,21 @@ class Solve final : public Experiment {
     return "_" + the_case.file_label() + (has_several_solvers_ ? "_" + the_case.solver : "");
   }
 
+  /// Where a path leads, whether it is there or not.
+  [[nodiscard]] static std::filesystem::path place_of(const std::filesystem::path& path) {
+    std::error_code none;  // what is not there has no links to follow
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), none);
+  }
+
   /// Throws `Error` if the trace cannot be written, or would be lost under a file of the run.
   void check_trace() const {
-    std::error_code none;  // what is not there has no links to follow
-    const auto place = [&none](const std::filesystem::path& path) {
-      return std::filesystem::weakly_canonical(std::filesystem::absolute(path), none);
-    };
     std::vector<std::string> own = further_files();
     own.insert(own.end(), {".csv", ".json"});
     for (const std::string& suffix : own) {
-      if (place(trace_file_) != place(card_.options.out / (card_.options.name + suffix))) continue;
+      if (place_of(trace_file_) != place_of(card_.options.out / (card_.options.name + suffix))) continue;
       throw Error(fmt::format("--trace {} is a file that the run itself writes; name another", trace_file_));
     }
-    const bool is_in_folder_to_make = place(trace_file_).parent_path() == place(card_.options.out);
-    if (!is_in_folder_to_make) require_writable(trace_file_);
+    if (named_files().empty()) require_writable(trace_file_);
   }
 
   bool single_ = true;
@@ -314,6 +326,7 @@ class Solve final : public Experiment {
   std::vector<std::string> labels_;  // of all cases
   std::string trace_file_;
   std::vector<MinorIteration> trace_;
+  Table traced_;                       // the trace as it was written
   std::vector<SolvedCase> motions_;    // solved, each with its trajectory
   std::vector<std::string> failures_;  // of the cases that were not solved, why, a sentence each
   IndependentChecks checks_;           // of the case that is completed

@@ -74,7 +74,7 @@ Finding judge_misprint(const Row& row) {
 std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   if (!tables.has("slips")) return {};
   std::vector<JudgedClaim> judged;
-  const auto append = [&](const std::string& id, const Row& row, Finding finding) {
+  const auto append = [&](const std::string& id, const Row& row, Finding finding, std::vector<ReadRows> rows = {}) {
     judged.push_back({.id = id,
                       .where = row.text("where"),
                       .figure = "",
@@ -84,11 +84,14 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
                       .verdict = finding.verdict,
                       .reason = std::move(finding.reason),
                       .evidence = "slips.csv",
-                      .sure = std::move(finding.sure)});
+                      .sure = std::move(finding.sure),
+                      .rows = std::move(rows)});
   };
   try {
     for (const Row& row : tables.rows("slips")) {
-      append(row.text("problem") + "/" + row.text("slip"), row, finding_of([&] { return judge_misprint(row); }));
+      const ReadFields fields;
+      Finding finding = finding_of([&] { return judge_misprint(row); });
+      append(row.text("problem") + "/" + row.text("slip"), row, std::move(finding), read_rows(fields));
     }
   } catch (const Error& fault) {
     Row unread;

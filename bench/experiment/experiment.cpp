@@ -151,7 +151,8 @@ class Run {
   }
 
   [[nodiscard]] std::vector<std::filesystem::path> files_of_run() const {
-    std::vector<std::filesystem::path> files{table_file()};
+    std::vector<std::filesystem::path> files = experiment_.named_files();
+    files.insert(files.begin(), table_file());
     for (const std::string& suffix : experiment_.further_files()) files.emplace_back(prefix_.string() + suffix);
     return files;
   }

@@ -80,6 +80,8 @@ class Experiment {
   /// What `finish` puts behind the table's name, as in "_slopes.csv"; asked for after `check`. Those of an earlier run
   /// are removed when the first row is written, so that old and new never stand beside each other.
   [[nodiscard]] virtual std::vector<std::string> further_files() const { return {}; }
+  /// Tables of the run's folder that the command line names and `complete` writes; the metadata tell of them too.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> named_files() const { return {}; }
   /// The rows with what they tell of each other, when all are there; by default as they are.
   [[nodiscard]] virtual Table compared(const Table& table) const { return table; }
   /// What `finish` needs of the cases that were solved, besides their rows: a part keeps it in its file.

@@ -166,6 +166,7 @@ nlohmann::ordered_json metadata_schema() {
                       {"additionalProperties", false}};
   const Json properties = {{"command_line", texts},
                            {"utc_time", {{"type", "string"}, {"pattern", "^[0-9-]+T[0-9:]+Z$"}}},
+                           {"wall_seconds", {{"type", "number"}, {"minimum", 0}}},
                            {"commit", text},
                            {"dmocbench", text},
                            {"compiler", text},

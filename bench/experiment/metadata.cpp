@@ -18,6 +18,7 @@
 
 #include "bench/experiment/problem_libraries.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "methods/runtime/clock.hpp"
 #include "methods/runtime/instruction_set.hpp"
 #include "methods/runtime/native_code_use.hpp"
 #include "methods/solvers/solver.hpp"
@@ -25,6 +26,10 @@
 namespace dmocbench {
 
 namespace {
+
+/// When the program began: one program is one run.
+const std::time_t begun = std::time(nullptr);
+const Clock::time_point begun_by_clock = Clock::now();
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -69,7 +74,7 @@ std::string compiler() {
 nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line) {
   nlohmann::ordered_json description;
   description["command_line"] = command_line;
-  description["utc_time"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  description["utc_time"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begun));
   description["commit"] = commit();
   description["dmocbench"] = DMOCBENCH_VERSION;
   description["compiler"] = compiler();
@@ -98,7 +103,10 @@ nlohmann::ordered_json describe_run(const std::vector<std::string>& command_line
 }
 
 void write_metadata(const std::filesystem::path& file, const nlohmann::ordered_json& description) {
-  write_file(file, description.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  nlohmann::ordered_json timed = description;
+  // Parts ran elsewhere and at other times; the program that joins them does not know how long.
+  if (!timed.contains("parts")) timed["wall_seconds"] = seconds_since(begun_by_clock);
+  write_file(file, timed.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace dmocbench

@@ -65,10 +65,11 @@ std::string answer_html(const Question& question, const Table& claims) {
   measured.reserve(answers.size());
   for (const Row* const claim : answers) {
     measured.push_back(fmt::format("{} {}: {}", linked(*claim), badge(claim->text("verdict")),
-                                   escaped(first_clauses(claim->text("measured"), question.clauses))));
+                                   escaped_prose(first_clauses(claim->text("measured"), question.clauses))));
   }
-  std::string html = fmt::format("<li><b>{}.</b> {}: {}.", question.topic,
-                                 escaped(capitalised(answers.front()->text("states"))), fmt::join(measured, "; "));
+  std::string html =
+      fmt::format("<li><b>{}.</b> {}: {}.", question.topic, escaped_prose(capitalised(answers.front()->text("states"))),
+                  fmt::join(measured, "; "));
   std::vector<std::string> verdicts;
   const std::vector<const Row*> beside = claims_named(claims, question.beside);
   verdicts.reserve(beside.size());

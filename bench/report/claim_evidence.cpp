@@ -89,7 +89,7 @@ std::string rows_behind(const Row& told, const ResultsFolder& results) {
                   shown.rows().size() < rows.size() ? fmt::format(", {} of them here", shown.rows().size()) : "");
   html += fmt::format("<p>Of <a href=\"#{}\">{}</a> with its {}", anchor("table", reported->file),
                       escaped(reported->file), counted(reported->table.rows().size(), "row"));
-  if (!columns.constant.empty()) html += escaped(fmt::format("; here {}", fmt::join(columns.constant, ", ")));
+  if (!columns.constant.empty()) html += escaped_prose(fmt::format("; here {}", fmt::join(columns.constant, ", ")));
   html += ".</p>\n";
   if (!columns.differing.empty()) {  // else the sentence has told all
     html +=

@@ -20,15 +20,15 @@ std::string claim_html(const Row& claim, const ResultsFolder& results) {
       "<b>{}</b> <i>{}</i> {}</summary>\n<dl>",
       anchor("claim", claim.text("claim")), escaped(claim.text("verdict")), escaped(problem),
       escaped(claim.text("whose")), badge(claim.text("verdict")), escaped(in_words(name)), escaped(in_words(problem)),
-      escaped(claim.text("states")));
+      escaped_prose(claim.text("states")));
   const auto add = [&html](std::string_view term, const std::string& description) {
     if (!description.empty()) html += fmt::format("<dt>{}<dd>{}\n", term, description);
   };
-  add("Measured", escaped(claim.text("measured")));
-  add("Why", escaped(claim.text("reason")));
+  add("Measured", escaped_prose(claim.text("measured")));
+  add("Why", escaped_prose(claim.text("reason")));
   add("Where", escaped(fmt::format("{} {}", claim.text("where"), claim.text("figure"))));
   add("Whose", escaped(claim.text("whose")));
-  add("Sure", escaped(claim.text("sure")));
+  add("Sure", escaped_prose(claim.text("sure")));
   return html + claim_evidence(claim, results) + "</dl></details>\n";
 }
 

@@ -54,6 +54,24 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
+std::string escaped_prose(std::string_view text) {
+  const std::string html = escaped(text);
+  const auto is_digit = [&html](std::size_t k) { return std::isdigit(static_cast<unsigned char>(html[k])) != 0; };
+  std::string prose;
+  std::size_t told = 0;
+  for (std::size_t i = 1; i + 2 < html.size(); ++i) {
+    if (html[i] != 'e' || html[i + 1] != '-' || !is_digit(i - 1) || !is_digit(i + 2)) continue;
+    std::size_t begin = i - 1;
+    while (begin > told && (is_digit(begin - 1) || html[begin - 1] == '.' || html[begin - 1] == '-')) --begin;
+    std::size_t end = i + 2;
+    while (end < html.size() && is_digit(end)) ++end;
+    prose += fmt::format("{}<span class=\"number\">{}</span>", std::string_view(html).substr(told, begin - told),
+                         std::string_view(html).substr(begin, end - begin));
+    told = end;
+  }
+  return prose + html.substr(told);
+}
+
 std::string anchor(std::string_view kind, std::string_view name) {
   std::string result = fmt::format("{}-{}", kind, name);
   std::ranges::replace_if(

@@ -8,6 +8,9 @@ namespace dmocbench {
 /// A text as HTML shows it, in elements and in attributes with double quotes; what is no UTF-8 becomes a question mark.
 [[nodiscard]] std::string escaped(std::string_view text);
 
+/// The same between elements: numbers with an exponent stay on one line.
+[[nodiscard]] std::string escaped_prose(std::string_view text);
+
 /// "two_link_manipulator/state_slope" as a name for links within the page: letters, digits and dashes.
 [[nodiscard]] std::string anchor(std::string_view kind, std::string_view name);
 

@@ -199,44 +199,94 @@ std::string drawing_of(const std::vector<DrawnMotion>& motions, const std::strin
   return svg + "</svg>\n";
 }
 
-/// Quantities over time, each in a strip of its own.
-std::string strips_of(const std::vector<const ReportedMotion*>& motions, const std::string& title) {
-  constexpr double width = 320.0;
-  constexpr double height = 70.0;
-  constexpr double gap = 26.0;
-  constexpr std::size_t most_strips = 3;
-  const std::vector<std::string>& columns = motions.front()->picture.columns();
+/// Where quantities over time are drawn, each in a strip of its own.
+struct Strips {
+  static constexpr double width = 320.0;
+  static constexpr double height = 70.0;
+  static constexpr double gap = 26.0;
+  static constexpr std::size_t most = 3;
+  double begin = INFINITY;  ///< of all motions
+  double end = -INFINITY;
+  std::size_t count = 0;
   std::string svg;
-  std::size_t strips = 0;
-  for (std::size_t column = 1; column < columns.size() && strips < most_strips; ++column) {
-    double least = INFINITY;
-    double largest = -INFINITY;
-    for (const ReportedMotion* motion : motions) {
-      for (const double value : column_of(motion->picture, columns[column])) {
-        if (!std::isfinite(value)) continue;
-        least = std::min(least, value);
-        largest = std::max(largest, value);
-      }
-    }
-    if (!(largest > least)) continue;
-    const double bottom = static_cast<double>(++strips) * (height + gap);
-    svg += fmt::format(R"(<text x="0" y="{:.0f}">{} from {:.4g} to {:.4g}</text>)", bottom - height - 6.0,
-                       escaped(columns[column]), least, largest);
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      const std::vector<double> t = column_of(motions[i]->picture, columns.front());
-      const std::vector<double> values = column_of(motions[i]->picture, columns[column]);
-      std::string places;
-      for (std::size_t k = 0; k < t.size(); ++k) {
-        if (!std::isfinite(values[k])) continue;
-        places += fmt::format("{:.1f},{:.1f} ", width * (t[k] - t.front()) / (t.back() - t.front()),
-                              bottom - height * (values[k] - least) / (largest - least));
-      }
-      svg += fmt::format(R"(<polyline class="path method-{}" points="{}"/>)", i, places);
+  std::vector<DrawnMotion> motions;  ///< a point on each curve, to be moved
+  [[nodiscard]] double bottom() const { return static_cast<double>(count) * (height + gap); }
+};
+
+/// The finite numbers of a column: least and largest of all motions; the least is above the largest if there are none.
+std::pair<double, double> range_of(const std::vector<const ReportedMotion*>& motions, const std::string& column) {
+  std::pair<double, double> range{INFINITY, -INFINITY};
+  for (const ReportedMotion* motion : motions) {
+    for (const double value : column_of(motion->picture, column)) {
+      if (std::isfinite(value)) range = {std::min(range.first, value), std::max(range.second, value)};
     }
   }
-  if (strips == 0) return "";
-  return fmt::format("<svg role=\"img\" aria-label=\"{}\" viewBox=\"-4 0 {:.0f} {:.0f}\">{}</svg>\n", escaped(title),
-                     width + 8.0, static_cast<double>(strips) * (height + gap) + 4.0, svg);
+  return range;
+}
+
+/// Adds a strip with a quantity of all motions; nothing where it does not change.
+void add_strip(Strips& strips, const std::vector<const ReportedMotion*>& motions, const std::string& column) {
+  const auto [least, largest] = range_of(motions, column);
+  if (!(largest > least)) return;
+  ++strips.count;
+  const auto without_rounding = [least = least, largest = largest](double value) {
+    constexpr double rounding = 1e-9;
+    return std::abs(value) < rounding * (largest - least) ? 0.0 : value;
+  };
+  strips.svg += fmt::format(
+      R"(<text x="0" y="{0:.0f}">{1} from {2:.4g} to {3:.4g}</text><path class="axis" d="M0,{4:.0f}h{5:.0f}"/>)",
+      strips.bottom() - Strips::height - 6.0, escaped(in_words(column)), without_rounding(least),
+      without_rounding(largest), strips.bottom(), Strips::width);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const std::vector<double>& t = strips.motions[i].t;
+    const std::vector<double> values = column_of(motions[i]->picture, column);
+    MovingPoint point{.name = column, .x = {}, .y = {}};
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      if (!std::isfinite(values[k])) continue;
+      point.x.push_back(Strips::width * (t[k] - strips.begin) / (strips.end - strips.begin));
+      point.y.push_back(Strips::height * (values[k] - least) / (largest - least) - strips.bottom());
+    }
+    strips.svg += path_of(point, fmt::format("method-{}", i));
+    if (point.x.size() == t.size()) strips.motions[i].points.push_back(std::move(point));
+  }
+}
+
+/// The first quantities that change.
+Strips strips_of(const std::vector<const ReportedMotion*>& motions) {
+  Strips strips;
+  for (const ReportedMotion* motion : motions) {
+    const std::string time = motion->picture.columns().front();
+    strips.motions.push_back({motion->method, name_and_unit(time).second, column_of(motion->picture, time), {}});
+    strips.begin = std::min(strips.begin, strips.motions.back().t.front());
+    strips.end = std::max(strips.end, strips.motions.back().t.back());
+  }
+  const std::vector<std::string>& columns = motions.front()->picture.columns();
+  for (std::size_t column = 1; column < columns.size() && strips.count < Strips::most; ++column)
+    add_strip(strips, motions, columns[column]);
+  return strips;
+}
+
+/// What JavaScript shows to move a motion through time, and what it moves.
+std::string controls_html(const std::string& problem, const Json& data) {
+  return fmt::format(
+      "<p class=\"controls\" hidden><button type=\"button\" aria-label=\"Play {0}\">Play</button> "
+      "<input type=\"range\" min=\"0\" max=\"1000\" value=\"0\" aria-label=\"time of {0}\"> "
+      "<output></output></p>\n<script type=\"application/json\">{1}</script>",
+      escaped(in_words(problem)), as_script(data));
+}
+
+/// Quantities over time, with a line at the time that is shown.
+std::string strips_html(const std::string& problem, const std::vector<const ReportedMotion*>& motions,
+                        const std::string& title) {
+  const Strips strips = strips_of(motions);
+  if (strips.count == 0) return "";
+  const double bottom = strips.bottom() + 4.0;
+  Json data = data_of(strips.motions);
+  data["cursor"] = {{"width", Strips::width}, {"height", bottom}};
+  return fmt::format(
+             "<svg role=\"img\" aria-label=\"{}\" viewBox=\"-4 0 {:.0f} {:.0f}\" data-radius=\"3.5\">{}</svg>\n",
+             escaped(title), Strips::width + 8.0, bottom, strips.svg) +
+         controls_html(problem, data);
 }
 
 /// Which line is whose, where there are several.
@@ -267,14 +317,10 @@ std::string motion_picture_html(const std::string& problem, const std::vector<co
                      points_of(motion->picture)};
     if (!next.points.empty()) drawn.push_back(std::move(next));
   }
-  if (drawn.size() < shown.size()) return begin + strips_of(shown, title) + end;
-  return begin + drawing_of(drawn, title) +
-         fmt::format(
-             "<p class=\"controls\" hidden><button type=\"button\" aria-label=\"Play {0}\">Play</button> "
-             "<input type=\"range\" min=\"0\" max=\"1000\" value=\"0\" aria-label=\"time of {0}\"> "
-             "<output></output></p>\n<script type=\"application/json\">{1}</script>",
-             escaped(in_words(problem)), as_script(data_of(drawn))) +
-         end;
+  const std::string picture = drawn.size() < shown.size()
+                                  ? strips_html(problem, shown, title)
+                                  : drawing_of(drawn, title) + controls_html(problem, data_of(drawn));
+  return begin + picture + end;
 }
 
 }  // namespace dmocbench

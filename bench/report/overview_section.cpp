@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ctime>
 #include <iomanip>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "bench/report/answers.hpp"
 #include "bench/report/html.hpp"
+#include "bench/report/measured_answers.hpp"
 #include "bench/report/sections.hpp"
 #include "methods/runtime/counted.hpp"
 
@@ -88,17 +90,41 @@ std::optional<long long> seconds_of(const std::string& utc_time) {
   return static_cast<long long>(::timegm(&time));
 }
 
-/// When the runs began, and how long after the first the last one did.
-std::string times_in_words(const std::set<std::string>& times) {
+/// "12.3 minutes"
+std::string duration_in_words(double seconds) {
+  constexpr double seconds_per_minute = 60.0;
+  constexpr double fewest_minutes = 2.0;
+  return seconds < fewest_minutes * seconds_per_minute ? fmt::format("{:.1f} s", seconds)
+                                                       : fmt::format("{:.1f} minutes", seconds / seconds_per_minute);
+}
+
+/// Seconds since 1970 when the last of all runs ended; none if one does not tell how long it took.
+std::optional<double> last_end(const ResultsFolder& results) {
+  std::optional<double> last;
+  for (const ReportedRun& run : results.runs) {
+    const Json begin = run.metadata.value("utc_time", Json());
+    const Json wall = run.metadata.value("wall_seconds", Json());
+    if (!begin.is_string() || !wall.is_number()) return std::nullopt;
+    const auto seconds = seconds_of(begin.get<std::string>());
+    if (!seconds) return std::nullopt;
+    last = std::max(last.value_or(0.0), static_cast<double>(*seconds) + wall.get<double>());
+  }
+  return last;
+}
+
+/// When the runs began, and how long it took until the last one ended.
+std::string times_in_words(const ResultsFolder& results) {
+  const std::set<std::string> times = told(results, "utc_time");
   if (times.empty()) return "";
-  if (times.size() == 1) return "began at " + *times.begin();
-  std::string words = fmt::format("the first began at {}, the last at {}", *times.begin(), *times.rbegin());
   const auto first = seconds_of(*times.begin());
   const auto last = seconds_of(*times.rbegin());
-  constexpr double seconds_per_minute = 60.0;
-  if (first && last)
-    words += fmt::format(", {:.1f} minutes later", static_cast<double>(*last - *first) / seconds_per_minute);
-  return words;
+  const auto end = last_end(results);
+  const std::string took = first && end ? duration_in_words(*end - static_cast<double>(*first)) : "";
+  if (times.size() == 1) return fmt::format("began at {}{}", *times.begin(), took.empty() ? "" : " and took " + took);
+  const std::string words = fmt::format("the first began at {}, the last at {}", *times.begin(), *times.rbegin());
+  if (!took.empty()) return fmt::format("{}; all had ended {} after the first began", words, took);
+  return first && last ? fmt::format("{}, {} later", words, duration_in_words(static_cast<double>(*last - *first)))
+                       : words;
 }
 
 /// What was compared, in a sentence.
@@ -115,12 +141,13 @@ std::string comparison_html(const ResultsFolder& results) {
 
 std::string overview_section(const ResultsFolder& results) {
   std::string html = "<section id=\"overview\"><h1>DMOC against collocation</h1>\n";
-  html += comparison_html(results) + warnings_html(results) + answers_html(results.claims) + unsolved_html(results) +
-          "<dl class=\"facts\">\n";
+  html += comparison_html(results) + warnings_html(results) +
+          (results.claims.rows().empty() ? measured_answers_html(results) : answers_html(results.claims)) +
+          unsolved_html(results) + "<dl class=\"facts\">\n";
   const auto add = [&html](std::string_view term, const std::string& description) {
     if (!description.empty()) html += fmt::format("<dt>{}<dd>{}\n", term, escaped(description));
   };
-  add("Runs", times_in_words(told(results, "utc_time")));
+  add("Runs", times_in_words(results));
   add("Commit", listed(told(results, "commit")));
   add("Processor", fmt::format("{}, {} cores, {}", listed(told(results, "processor")), listed(told(results, "cores")),
                                listed(told(results, "instruction_set"))));

@@ -42,7 +42,8 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
     html += "<p class=\"warning\">The run is not complete.</p>\n";
   html += fmt::format("<p><a href=\"{0}{1}\" download>{1}</a> has {2}.", escaped(folder), escaped(reported.file),
                       table.rows().empty() ? "no row" : "all rows and digits");
-  if (!columns.constant.empty()) html += escaped(fmt::format(" In all rows {}", fmt::join(columns.constant, ", ")));
+  if (!columns.constant.empty())
+    html += escaped_prose(fmt::format(" In all rows {}", fmt::join(columns.constant, ", ")));
   html += "</p>\n";
   if (const std::string command = command_of(metadata); !command.empty())
     html += fmt::format("<p>Made by <code>{}</code></p>\n", escaped(command));
@@ -55,9 +56,11 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
 
 std::string tables_section(const ResultsFolder& results, const std::string& folder) {
   if (results.tables.empty()) return "";
-  std::string html =
+  std::string html = fmt::format(
       "<section id=\"tables\"><h2>Tables</h2>\n<p>A row is one solve where there is a status; rows that were not "
-      "solved are marked. A column's unit stands in its head, its meaning above the table.</p>\n";
+      "solved are marked. A column's unit stands in its head, its meaning above the table. The files with all rows are "
+      "not in this page but {}: a page that is sent alone does not bring them.</p>\n",
+      folder.empty() ? "beside it" : escaped("in the folder " + folder + " beside it"));
   for (const ReportedTable& table : results.tables) html += table_html(table, results.metadata_of(table.run), folder);
   return html + "</section>\n";
 }

@@ -68,17 +68,24 @@ struct Series {
   std::vector<std::string> names;
   Eigen::MatrixXd values;
   std::string meaning;
+  std::vector<std::string> units = {};  ///< of each; none where the problem's are taken as they are
 };
 
-Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all) {
+/// "[m] meaning", as tables tell a unit.
+std::string with_unit(const std::string& unit, const std::string& meaning) {
+  return unit.empty() ? meaning : fmt::format("[{}] {}", unit, meaning);
+}
+
+Table series_table(const std::string& time, const Eigen::VectorXd& times, const std::vector<Series>& all,
+                   const std::string& time_unit = "") {
   std::vector<std::string> header{time};
   std::vector<Row> rows(static_cast<std::size_t>(times.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].set(time, times[static_cast<Eigen::Index>(k)]);
-  std::map<std::string, std::string> meanings{{time, "time"}};
-  for (const auto& [prefix, names, values, meaning] : all) {
+  std::map<std::string, std::string> meanings{{time, with_unit(time_unit, "time")}};
+  for (const auto& [prefix, names, values, meaning, units] : all) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       header.push_back(prefix + names[i]);
-      meanings[header.back()] = meaning;
+      meanings[header.back()] = with_unit(units.empty() ? "" : units[i], meaning);
       for (Eigen::Index k = 0; k < values.rows(); ++k) {
         rows[static_cast<std::size_t>(k)].set(header.back(), values(k, static_cast<Eigen::Index>(i)));
       }
@@ -138,11 +145,13 @@ Table stage_table(const Problem& problem, const Trajectory& trajectory) {
 
 Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   std::vector<std::string> names;
+  std::vector<std::string> units;
   PointFunction quantities(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
     const Picture picture = pictured_quantities(problem, x);
     ExpressionVector values(static_cast<Eigen::Index>(picture.size()));
     for (std::size_t i = 0; i < picture.size(); ++i) {
       names.push_back(name_with_unit(picture[i].name, picture[i].unit));
+      units.push_back(picture[i].unit);
       values[static_cast<Eigen::Index>(i)] = picture[i].value;
     }
     return values;
@@ -157,7 +166,7 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   }
   const Unit time = problem.card().time_unit;
   return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor,
-                      {{"", names, values, "a quantity of the picture"}});
+                      {{"", names, values, "a quantity of the picture", units}}, time.name);
 }
 
 std::string name_with_unit(const std::string& name, const std::string& unit) {

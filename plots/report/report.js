@@ -102,6 +102,8 @@ function start_motion(figure) {
   if (!script) return;
   const data = JSON.parse(script.textContent);
   const svg = figure.querySelector("svg"), radius = Number(svg.dataset.radius);
+  // Curves over time have a line at the time that is shown.
+  const cursor = data.cursor && element("line", { class: "cursor", y1: 0, y2: data.cursor.height }, svg);
   const moving = data.motions.map((motion, i) => ({
     ...motion,
     rods: motion.points.map((point) => (point.rod ? element("line", { class: "rod method-" + i }, svg) : null)),
@@ -130,6 +132,7 @@ function start_motion(figure) {
   const show = () => {
     const t = first + (duration * slider.value) / slider.max;
     for (const motion of moving) place(motion, t);
+    if (cursor) for (const key of ["x1", "x2"]) cursor.setAttribute(key, (data.cursor.width * slider.value) / slider.max);
     output.value = "t = " + t.toPrecision(3) + " " + data.unit;
     slider.setAttribute("aria-valuetext", output.value);
   };

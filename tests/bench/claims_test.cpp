@@ -1,4 +1,5 @@
 // Claims are judged by predicates on tables; doctored tables have to be caught.
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -282,6 +283,20 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
   slips.append(row);
   results.add("slips", slips);
   EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::undecided);
+}
+
+TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {
+  ResultTables results;
+  results.add("slips", Table::from_csv("problem,slip,where,printed,meant,quantity,value_as_printed,value_as_meant,"
+                                       "required_value\norbit,first,,,,,2,1,1\norbit,second,,,,,3,1,1\n"));
+  const std::vector<JudgedClaim> judged =
+      judge_claims(results, [](const std::string& id) { return id == "orbit/second"; });
+  ASSERT_EQ(judged.size(), 1U);
+  ASSERT_EQ(judged.front().rows.size(), 1U);
+  EXPECT_EQ(judged.front().rows.front().table, "slips.csv");
+  EXPECT_EQ(judged.front().rows.front().records, std::vector<std::size_t>{3});
+  for (const char* const column : {"value_as_printed", "value_as_meant", "required_value"})
+    EXPECT_EQ(std::ranges::count(judged.front().rows.front().columns, column), 1) << column;
 }
 
 TEST(Claims, IdsAreUniqueAndBeginWithTheirProblem) {

@@ -44,6 +44,13 @@ TEST(Html, ShowsLettersThatMeanSomethingToItAsLetters) {
   EXPECT_EQ(escaped("\xff|\xc3"), "?|?");
 }
 
+TEST(Html, KeepsNumbersWithAnExponentOnOneLine) {
+  EXPECT_EQ(escaped_prose("to -3.5e-13 & 2e-9; the-end, e-7, 1e5"),
+            "to <span class=\"number\">-3.5e-13</span> &amp; <span class=\"number\">2e-9</span>; the-end, e-7, 1e5");
+  EXPECT_EQ(escaped_prose("1e-"), "1e-");
+  EXPECT_EQ(escaped_prose(""), "");
+}
+
 TEST(Html, LinksHaveNoLetterThatEndsThem) {
   EXPECT_EQ(anchor("claim", "two_link/state_slope"), "claim-two-link-state-slope");
   EXPECT_EQ(anchor("table", "\"><script>"), "table----script-");
@@ -70,6 +77,43 @@ TEST(Report, SaysOfARunThatItIsNotComplete) {
   EXPECT_FALSE(has(report_page(results, ""), "is not complete"));
   results.runs.front().metadata["complete"] = false;
   EXPECT_TRUE(has(report_page(results, ""), "The run objective is not complete."));
+}
+
+TEST(Report, TellsHowLongAllRunsTook) {
+  ResultsFolder results = folder_with(two_solves());
+  results.runs.push_back(results.runs.front());
+  results.runs.front().metadata["utc_time"] = "2026-11-23T14:00:00Z";
+  results.runs.back().metadata["utc_time"] = "2026-11-23T14:10:00Z";
+  EXPECT_TRUE(has(report_page(results, ""), "the last at 2026-11-23T14:10:00Z, 10.0 minutes later\n"));
+  results.runs.front().metadata["wall_seconds"] = 6000.0;  // it ends last
+  results.runs.back().metadata["wall_seconds"] = 30.0;
+  EXPECT_TRUE(has(report_page(results, ""), "; all had ended 100.0 minutes after the first began\n"));
+  results.runs.pop_back();
+  results.runs.front().metadata["wall_seconds"] = 2.5;
+  EXPECT_TRUE(has(report_page(results, ""), "began at 2026-11-23T14:00:00Z and took 2.5 s\n"));
+}
+
+TEST(Report, TellsOrdersAndSolvesWhereNobodyHasJudged) {
+  ResultsFolder results = folder_with(two_solves());
+  results.tables.push_back(
+      {"convergence_slopes.csv", "convergence",
+       Table::from_csv("problem,method,tableau,stages,quantity,slope,standard_error,verdict\n"
+                       "arm,dmoc,gauss,1,state,2.0123,0.0171,slope\n"
+                       "arm,dmoc,gauss,1,control,1.9,,slope\narm,dmoc,gauss,1,costate,,,floor\n")});
+  results.tables.push_back({"other_slopes.csv", "other",
+                            Table::from_csv("problem,method,situation,quantity,slope,standard_error\n"
+                                            "arm,dmoc,odd,state,7,1\n")});
+  const auto overview = [&results] {
+    const std::string page = report_page(results, "");
+    return page.substr(0, page.find("</section>"));
+  };
+  EXPECT_TRUE(has(overview(),
+                  "<b>arm by dmoc</b> (gauss, 1 stage per step): <a href=\"#table-convergence-slopes-csv\">"
+                  "fitted orders</a> state 2.012 ± 0.017, control 1.900, costate: floor."));
+  EXPECT_TRUE(has(overview(), "<b>arm by dmoc</b>: 1 of 2 solves solved."));
+  EXPECT_FALSE(has(overview(), "state 7"));
+  results.claims = Table::from_csv("claim,verdict,whose,states,measured\narm/other,differs,paper,nothing,5\n");
+  EXPECT_FALSE(has(overview(), "arm by dmoc"));
 }
 
 TEST(Report, RunsNothingThatStandsInATable) {
@@ -207,8 +251,8 @@ TEST(Report, AnswersFiveQuestionsByClaimsOnItsFirstScreen) {
   const std::string page = report_page(results, "");
   const std::string overview = page.substr(0, page.find("<section id=\"claims\""));
   EXPECT_TRUE(has(overview, "<b>Accuracy.</b> They are equal: "));
-  EXPECT_TRUE(has(overview, "reproduced</span>: to 1e-9; "));
-  EXPECT_TRUE(has(overview, "differs</span>: to 1e-2."));
+  EXPECT_TRUE(has(overview, "reproduced</span>: to <span class=\"number\">1e-9</span>; "));
+  EXPECT_TRUE(has(overview, "differs</span>: to <span class=\"number\">1e-2</span>."));
   EXPECT_FALSE(has(overview, "on 3 grids") || has(overview, "Structure"));
 }
 
@@ -276,7 +320,20 @@ TEST(Report, DrawsOneMotionOfEachMethodAndQuantitiesWhereNothingMovesInThePlane)
   const std::string page = report_page(results, "");
   EXPECT_TRUE(has(page, "<polyline class=\"path method-1\""));
   EXPECT_FALSE(has(page, "<polyline class=\"path method-2\""));
-  EXPECT_TRUE(has(page, "q_[m] from 1 to 3</text>"));
+  EXPECT_TRUE(has(page, "q [m] from 1 to 3</text>"));
+}
+
+TEST(Report, QuantitiesOverTimeHaveControlsAndALineAtTheTime) {
+  ResultsFolder results;
+  results.motions.push_back({"spring", "dmoc", Table::from_csv("t_in_s,q_in_m,still\n0,1,2\n1,3,2\n")});
+  results.motions.push_back({"spring", "tangent", Table::from_csv("t_in_s,q_in_m,still\n0,1,2\n2,3,2\n")});
+  const std::string page = report_page(results, "");
+  EXPECT_TRUE(has(page, "aria-label=\"Play spring\""));
+  EXPECT_TRUE(has(page, R"("cursor":{"width":320.0,"height":100.0})"));
+  EXPECT_TRUE(has(page, R"("points":[{"name":"q_in_m","x":[0.0,160.0],"y":[-96.0,-26.0],"rod":false}])"));
+  EXPECT_TRUE(has(page, R"("points":[{"name":"q_in_m","x":[0.0,320.0],"y":[-96.0,-26.0],"rod":false}])"));
+  results.motions = {{"stone", "dmoc", Table::from_csv("t_in_s,q_in_m\n0,1\n1,1\n")}};
+  EXPECT_FALSE(has(report_page(results, ""), "aria-label=\"Play stone\""));
 }
 
 TEST(Report, TellsWhichMethodsReachTheOptimumOfAProblemAsItIsStated) {

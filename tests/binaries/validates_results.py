@@ -63,6 +63,8 @@ for file in sorted((folder / "results").glob("*.json")):
         continue  # a solution kept by the indirect method
     of_metadata.validate(metadata)
     refuses(of_metadata, {**metadata, "complete": "yes"})
+    refuses(of_metadata, {**metadata, "wall_seconds": -1})
+    assert metadata["wall_seconds"] > 0
     for name, told in metadata["tables"].items():
         of_row = validator_of(told["schema"])
         declares_all(name, told["schema"])
@@ -72,6 +74,8 @@ for file in sorted((folder / "results").glob("*.json")):
                 of_row.validate(row)
                 validated += 1
         refuses(of_row, {**row, "colour": 1})
+        if name.endswith("_picture.csv"):
+            assert all(("_in_" in column) == ("unit" in of) for column, of in told["schema"]["properties"].items()), name
         if name.endswith(("_nodes.csv", "_stages.csv", "_picture.csv")):
             for column in row:
                 refuses(of_row, {**row, column: "far"})

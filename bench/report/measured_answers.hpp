@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "bench/report/results_folder.hpp"
+
+namespace dmocbench {
+
+/// What the tables of a folder that nobody has judged tell: a line per problem, method and scheme with the orders that
+/// were fitted, each with its standard error, and how many solves were solved. Empty where no table tells of either.
+[[nodiscard]] std::string measured_answers_html(const ResultsFolder& results);
+
+}  // namespace dmocbench
