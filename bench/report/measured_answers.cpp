@@ -78,6 +78,7 @@ std::map<Scheme, Measured> measured_by_scheme(const ResultsFolder& results) {
 std::string line_html(const Scheme& scheme, const Measured& measured) {
   const auto& [problem, method, tableau, stages] = scheme;
   std::vector<std::string> parts;
+  parts.reserve(measured.orders.size() + 1);
   for (const auto& [file, orders] : measured.orders) {
     parts.push_back(fmt::format("<a href=\"#{}\">fitted orders</a> {}", anchor("table", file),
                                 escaped_prose(fmt::format("{}", fmt::join(orders, ", ")))));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace dmocbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A point of a picture: its name and where it is at each instant.
 struct MovingPoint {
@@ -49,7 +52,7 @@ std::optional<std::string> partner_of(const std::string& column, const std::stri
 
 /// True if `to` keeps its distance from another point (the origin if there is none) all the time: there is a rod.
 bool is_rod(const MovingPoint* from, const MovingPoint& to) {
-  double least = INFINITY;
+  double least = infinity;
   double largest = 0.0;
   for (std::size_t k = 0; k < to.x.size(); ++k) {
     const double distance =
@@ -130,10 +133,10 @@ Json data_of(const std::vector<DrawnMotion>& motions) {
 
 /// The smallest rectangle with all points, with a margin; and with the origin, if a rod begins there.
 struct Frame {
-  double left = INFINITY;
-  double right = -INFINITY;
-  double bottom = INFINITY;
-  double top = -INFINITY;
+  double left = infinity;
+  double right = -infinity;
+  double bottom = infinity;
+  double top = -infinity;
   void add(double x, double y) {
     left = std::min(left, x);
     right = std::max(right, x);
@@ -205,8 +208,8 @@ struct Strips {
   static constexpr double height = 70.0;
   static constexpr double gap = 26.0;
   static constexpr std::size_t most = 3;
-  double begin = INFINITY;  ///< of all motions
-  double end = -INFINITY;
+  double begin = infinity;  ///< of all motions
+  double end = -infinity;
   std::size_t count = 0;
   std::string svg;
   std::vector<DrawnMotion> motions;  ///< a point on each curve, to be moved
@@ -215,7 +218,7 @@ struct Strips {
 
 /// The finite numbers of a column: least and largest of all motions; the least is above the largest if there are none.
 std::pair<double, double> range_of(const std::vector<const ReportedMotion*>& motions, const std::string& column) {
-  std::pair<double, double> range{INFINITY, -INFINITY};
+  std::pair<double, double> range{infinity, -infinity};
   for (const ReportedMotion* motion : motions) {
     for (const double value : column_of(motion->picture, column)) {
       if (std::isfinite(value)) range = {std::min(range.first, value), std::max(range.second, value)};
@@ -234,7 +237,7 @@ void add_strip(Strips& strips, const std::vector<const ReportedMotion*>& motions
     return std::abs(value) < rounding * (largest - least) ? 0.0 : value;
   };
   strips.svg += fmt::format(
-      R"(<text x="0" y="{0:.0f}">{1} from {2:.4g} to {3:.4g}</text><path class="axis" d="M0,{4:.0f}h{5:.0f}"/>)",
+      R"(<text x="5" y="{0:.0f}">{1} from {2:.4g} to {3:.4g}</text><path class="axis" d="M0,{4:.0f}h{5:.0f}"/>)",
       strips.bottom() - Strips::height - 6.0, escaped(in_words(column)), without_rounding(least),
       without_rounding(largest), strips.bottom(), Strips::width);
   for (std::size_t i = 0; i < motions.size(); ++i) {
