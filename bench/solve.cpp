@@ -79,9 +79,10 @@ class Solve final : public Experiment {
     line.option("--write-nl", nl_file_,
                 "FILE.nl for solvers that read AMPL's format: the program of one case and its start, with the names of "
                 "rows and unknowns in FILE.row and FILE.col; written before the case is solved");
-    line.option("--read-sol", sol_file_,
-                "FILE.sol, the answer of such a solver: it takes the place of the solve, so that --solver and --start have "
-                "no part in it, and is judged as every answer. It is known by its sizes alone");
+    line.option(
+        "--read-sol", sol_file_,
+        "FILE.sol, the answer of such a solver: it takes the place of the solve, so that --solver and --start have "
+        "no part in it, and is judged as every answer. It is known by its sizes alone");
     line.option("--refine", refine_, "with --accuracy: h (steps) or hp (steps, and up to three stages); default: h");
   }
   void check(const std::vector<Case>& cases) override {

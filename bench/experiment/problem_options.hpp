@@ -17,8 +17,8 @@ struct ProblemOptions {
 
   /// Registers the options; what they hold is the default.
   void add_to(CommandLine& line);
-  /// The problems, after the command line was read: loads the libraries first. Throws `Error` as `selected_problems` and
-  /// `load_problem_libraries`.
+  /// The problems, after the command line was read: loads the libraries first. Throws `Error` as `selected_problems`
+  /// and `load_problem_libraries`.
   [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected() const;
 };
 
