@@ -139,10 +139,9 @@ std::vector<Row> published_rows(const std::filesystem::path& file, const std::ve
 constexpr const char* words_of_page =
     "Rows that name a source were measured elsewhere, on other machines, by other discretisations and to other "
     "tolerances; they are divided by nothing. Ours: `interior_point`, tolerance 1e-10, medians with their 99 % "
-    "intervals (bootstrap), the time of the solver without making the program, which has a column; a solve of less "
-    "than "
-    "0.1 s is timed the second time in a row, with its memory in the caches. `cost off`: from the problem's reference, "
-    "as a share of it.\n\n";
+    "intervals (bootstrap), the time of the solver without making the program, which has a column. A solve of less "
+    "than 0.1 s is timed the second time in a row, with its memory in the caches. `cost off`: from the problem's "
+    "reference, as a share of it.\n\n";
 
 /// The rows of others and of us, those of one problem and number of intervals beside each other.
 Table times_beside_ours(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {
