@@ -13,7 +13,7 @@ namespace dmocbench {
 struct ProblemOptions {
   std::vector<std::string> problems = {};  ///< names; "all" for every one
   std::vector<std::string> settings = {};  ///< "parameter=value"
-  std::vector<std::string> libraries = {};
+  std::vector<std::string> libraries = {};  ///< paths
 
   /// Registers the options; what they hold is the default.
   void add_to(CommandLine& line);
