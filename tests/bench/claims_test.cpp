@@ -265,7 +265,7 @@ TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
                "required_value"});
   Row row;
   row.set("problem", orbit);
-  row.set("misprint", "boundary_momenta");
+  row.set("slip", "boundary_momenta");
   row.set("value_as_printed", 1.02);
   row.set("value_as_meant", 1.0);
   row.set("required_value", 1.0);
