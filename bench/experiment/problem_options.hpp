@@ -11,8 +11,8 @@ namespace dmocbench {
 
 /// The options --problem, --set and --library of an experiment that takes problems by their names.
 struct ProblemOptions {
-  std::vector<std::string> problems = {};  ///< names; "all" for every one
-  std::vector<std::string> settings = {};  ///< "parameter=value"
+  std::vector<std::string> problems = {};   ///< names; "all" for every one
+  std::vector<std::string> settings = {};   ///< "parameter=value"
   std::vector<std::string> libraries = {};  ///< paths
 
   /// Registers the options; what they hold is the default.

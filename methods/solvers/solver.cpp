@@ -95,8 +95,8 @@ void Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Con
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                        std::optional<double> barrier_parameter) const {
   check(program, start, multipliers, barrier_parameter);
+  Confirmation confirmation(program);  // before the clock begins
   CountedProgram counted(program, seconds_allowed());
-  Confirmation confirmation(program);
   Solution solution;
   prepare(counted)->run(start, multipliers, barrier_parameter, solution);
   complete(counted, start, confirmation, true, solution);

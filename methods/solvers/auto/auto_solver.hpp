@@ -24,7 +24,6 @@ struct AutoOptions {
 ///
 /// Counts and times are those of both together: evaluations, seconds, major iterations. The limit of time holds for
 /// both together, that of iterations for each. Linear systems are told where `interior_point` gives the answer.
-///
 class AutoSolver final : public Solver {
  public:
   /// Throws `Error` if Ipopt does not take one of the named options.
