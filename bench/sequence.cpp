@@ -7,7 +7,7 @@
 
 #include "bench/experiment/column.hpp"
 #include "bench/experiment/experiment.hpp"
-#include "bench/experiment/problem_libraries.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
@@ -20,10 +20,8 @@ namespace dmocbench::sequence_program {
 
 /// The choices of a user.
 struct SequenceOptions {
-  std::vector<std::string> problems = paper_problem_names();
-  std::vector<std::string> libraries = {};
+  ProblemOptions problems{.problems = paper_problem_names()};
   std::vector<std::string> methods = element_names();
-  std::vector<std::string> settings = {};
   int intervals = 64;
   int steps = 200;
   int cold_every = 5;
@@ -96,8 +94,8 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
                           receding_horizon(problem, *answers.front().trajectory, options.disturbance, options.seed),
                           solver_options, choices);
     if (!quantity) continue;
-    continued.emplace_back(answer, homotopy(problem, options.settings, *quantity, options.steps), solver_options,
-                           choices);
+    continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
+                           solver_options, choices);
   }
   run_in_turn(receding, options, steps);
   run_in_turn(continued, options, steps);
@@ -117,10 +115,8 @@ void print_summary(const Table& summary) {
 }
 
 void add_options(CommandLine& line, SequenceOptions& options) {
-  line.list("--problem", options.problems, "problems, as `list` names them");
-  add_library_option(line, options.libraries);
+  options.problems.add_to(line);
   line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent");
-  line.option("--set", options.settings, "parameter=value of a problem; may be repeated");
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
   line.number("--cold-every", options.cold_every, 0, 100000,
@@ -138,9 +134,8 @@ int run_sequences(CommandLine& line) {
   SequenceOptions options;
   add_options(line, options);
   TableRun run("sequence", line);
-  load_problem_libraries(options.libraries);
   options.methods = chosen_of("--method", element_names(), options.methods);
-  const auto problems = selected_problems(options.problems, options.settings);
+  const auto problems = options.problems.selected();
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();
   StartProvider starts({}, solver_options);

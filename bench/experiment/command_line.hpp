@@ -43,7 +43,8 @@ class CommandLine {
   friend int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                          const std::function<int(CommandLine&)>& body);
   CommandLine(CLI::App& app, int argc, char** argv) : app_(app), argc_(argc), argv_(argv) {}
-  /// Throws where a list has nothing between two commas, which CLI11 drops without a word.
+  /// Throws where a list has nothing between two commas, which CLI11 drops without a word, and where nothing is behind
+  /// the = of an option.
   void refuse_empty_entries() const;
 
   CLI::App& app_;

@@ -147,9 +147,9 @@ KktResidual mutable_kkt_residual(NonlinearProgram& program, const Eigen::VectorX
   return residual;
 }
 
-void mutable_confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
+void mutable_judge(Confirmation* self, double tolerance, Solution& solution, bool asks_newton) {
   const Status claim = solution.status;
-  true_confirm(program, tolerance, solution);
+  true_judge(self, tolerance, solution, asks_newton);
   if (chosen("believed_solver")) solution.status = claim;
 }
 

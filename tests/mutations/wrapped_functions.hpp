@@ -48,8 +48,8 @@ DMOCBENCH_WRAPPED(Costates, costates, (Transcription& transcription, const Eigen
 DMOCBENCH_WRAPPED(KktResidual, kkt_residual, (NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers, KktMemory& memory),
   "_ZN9dmocbench12kkt_residualERNS_16NonlinearProgramERKN5Eigen6MatrixIdLin1ELi1ELi0ELin1ELi1EEES6_RNS_9KktMemoryE");
 
-DMOCBENCH_WRAPPED(void, confirm, (NonlinearProgram& program, double tolerance, Solution& solution),
-  "_ZN9dmocbench7confirmERNS_16NonlinearProgramEdRNS_8SolutionE");
+DMOCBENCH_WRAPPED(void, judge, (Confirmation* self, double tolerance, Solution& solution, bool asks_newton),
+  "_ZN9dmocbench12Confirmation5judgeEdRNS_8SolutionEb");
 
 DMOCBENCH_WRAPPED(ReplayError, replay_error, (const Problem& problem, const Trajectory& trajectory, double tolerance),
   "_ZN9dmocbench12replay_errorERKNS_7ProblemERKNS_10TrajectoryEd");
