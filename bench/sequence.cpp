@@ -84,15 +84,16 @@ std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std:
   const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
   std::vector<SequenceStep> steps;
   const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
+  // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
+  const Trajectory& motion = *answers.front().trajectory;
   const SequenceChoices choices{
       .repeats = options.repeats,
       .barrier_parameter = options.barrier > 0.0 ? std::optional(options.barrier) : std::nullopt};
   std::vector<SequenceRun> receding;
   std::vector<SequenceRun> continued;
   for (const SolvedCase& answer : answers) {
-    receding.emplace_back(answer,
-                          receding_horizon(problem, *answers.front().trajectory, options.disturbance, options.seed),
-                          solver_options, choices);
+    receding.emplace_back(answer, receding_horizon(problem, motion, options.disturbance, options.seed), solver_options,
+                          choices);
     if (!quantity) continue;
     continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
                            solver_options, choices);
