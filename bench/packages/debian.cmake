@@ -39,6 +39,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME dmocbench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
@@ -55,11 +56,9 @@ libdmocbench-dev makes of one header each.")
 # Its name ends in the version of its interface, as the library's own.
 set(library libdmocbench${PROJECT_VERSION_MAJOR})
 file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-# By hand: with CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS come scripts that call ldconfig, which the trigger does.
-file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libdmocbench ${PROJECT_VERSION_MAJOR} ${library} (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers ${PROJECT_BINARY_DIR}/shlibs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
     "optimal control by DMOC and collocation, from C and other languages
 A shared library with an interface in C, dmocbench.h, that Python, Julia,
