@@ -1,5 +1,6 @@
 // Grids that the error chooses: how good the estimate of the error is, and how many intervals it saves.
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "bench/adaptive/effectivity.hpp"
 #include "bench/adaptive/needed_intervals.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/elements/element.hpp"
@@ -17,7 +19,10 @@ namespace dmocbench::adaptive_program {
 /// Slow and fast by turns: what adaptive grids are for.
 const std::vector<std::string> uneven{"eccentric_transfer", "hypersensitive"};
 
-/// The problems with these solved: the paper's, the uneven ones and eight of the library.
+/// The paper's, with several minima near the guess.
+const std::vector<std::string> with_several_minima{"orbital_transfer", "two_link_manipulator"};
+
+/// The problems unless others are asked for: the paper's, the uneven ones and eight of the library.
 const std::vector<std::string> all_problems{"orbital_transfer",  "two_link_manipulator", "eccentric_transfer",
                                             "hypersensitive",    "kepler_cartesian",     "link_chain",
                                             "double_integrator", "forced_oscillator",    "cart_pole",
@@ -33,22 +38,35 @@ struct Tables {
   std::vector<StepOfGrid> steps;
 };
 
-void compare_grids(const TableRun& run, const CertifiedProblem& certified, int rounds, Tables& tables) {
+/// Adapted grids and, if asked, uniform ones for the same accuracy.
+void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool with_uniform, int rounds,
+                   Tables& tables) {
   constexpr double accuracy = 1e-8;
   const std::string name = certified.problem().name();
   const SolverOptions options = TableRun::solver_options();
-  const bool is_uneven = is_one_of(uneven, name);
-  // What is timed begins where a user begins; the paper's problems have several minima near the guess.
-  const Motion start = is_uneven ? guessed_motion(certified.problem()) : smooth_motion(certified.motion());
+  const bool has_several_minima = is_one_of(with_several_minima, name);
+  // What is timed begins where a user begins.
+  const Motion start = has_several_minima ? smooth_motion(certified.motion()) : guessed_motion(certified.problem());
   for (const std::string& method : element_names()) {
     for (const int stages : {2, 3, 4}) {
       const Scheme scheme{name, method, "gauss", stages};
       run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
       tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start,
-                                             is_uneven && method == "dmoc" ? rounds : 0, options, tables.steps));
-      if (!is_uneven) continue;
+                                             !has_several_minima && method == "dmoc" ? rounds : 0, options,
+                                             tables.steps));
+      if (!with_uniform) continue;
       run.show(fmt::format("{} {} s = {}, uniform", name, method, stages));
       tables.needed.push_back(needed_uniform(certified, scheme, accuracy, options));
+    }
+  }
+}
+
+void measure_effectivities(const TableRun& run, const CertifiedProblem& certified, Tables& tables) {
+  for (const std::string& method : element_names()) {
+    for (const int stages : {1, 2}) {
+      run.show(fmt::format("{} {} s = {}, effectivity", certified.problem().name(), method, stages));
+      const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());
+      tables.effectivity.insert(tables.effectivity.end(), rows.begin(), rows.end());
     }
   }
 }
@@ -56,23 +74,22 @@ void compare_grids(const TableRun& run, const CertifiedProblem& certified, int r
 int measure_all(CommandLine& line) {
   int rounds = 11;
   bool is_quick = false;
+  ProblemOptions asked{.problems = all_problems};
+  asked.add_to(line);
   line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
-  line.flag("--quick", is_quick, "the paper's and the uneven problems alone");
+  line.flag("--quick", is_quick, "the uneven problems alone, unless others are asked for");
   TableRun run("adaptive", line);
+  const bool is_named = asked.problems != all_problems;
   Tables tables;
-  for (const std::string& name : all_problems) {
-    if (is_quick && !is_one_of(uneven, name)) continue;
-    run.show(name + ", certified");
-    const CertifiedProblem certified(name, TableRun::solver_options());
-    for (const std::string& method : element_names()) {
-      for (const int stages : {1, 2}) {
-        run.show(fmt::format("{} {} s = {}, effectivity", name, method, stages));
-        const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());
-        tables.effectivity.insert(tables.effectivity.end(), rows.begin(), rows.end());
-      }
-    }
-    if (is_one_of({"orbital_transfer", "two_link_manipulator"}, name) || is_one_of(uneven, name)) {
-      compare_grids(run, certified, rounds, tables);
+  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+    const bool is_uneven = is_one_of(uneven, problem->name());
+    if (is_quick && !is_named && !is_uneven) continue;
+    run.show(problem->name() + ", certified");
+    const CertifiedProblem certified(problem, TableRun::solver_options());
+    measure_effectivities(run, certified, tables);
+    const bool with_uniform = is_named || is_uneven;
+    if (with_uniform || is_one_of(with_several_minima, problem->name())) {
+      compare_grids(run, certified, with_uniform, rounds, tables);
     }
   }
   run.add("adaptive", needed_columns(), tables.needed);

@@ -1,6 +1,9 @@
 #include "bench/adaptive/certified_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,7 +12,6 @@
 #include "methods/error.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/transcription/start.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench {
 
@@ -30,20 +32,21 @@ Trajectory direct_motion(const std::shared_ptr<const Problem>& problem, const So
 }
 
 /// Bounds that a parameter can switch off are switched off: the indirect method knows none.
-std::shared_ptr<const Problem> without_bounds(const std::string& name) {
-  std::shared_ptr<Problem> problem = make_problem(name);
-  for (const Parameter& parameter : problem->parameters()) {
-    if (parameter.name == "bounded") problem->set_parameter("bounded", 0.0);
-  }
-  return problem;
+std::shared_ptr<const Problem> without_bounds(std::shared_ptr<const Problem> problem) {
+  const auto is_switch = [](const Parameter& parameter) { return parameter.name == "bounded"; };
+  const std::vector<Parameter>& parameters = problem->parameters();
+  if (std::ranges::none_of(parameters, is_switch)) return problem;
+  std::shared_ptr<Problem> free = problem->clone();
+  free->set_parameter("bounded", 0.0);
+  return free;
 }
 
 double largest_row_of(const Eigen::MatrixXd& rows) { return rows.rowwise().norm().maxCoeff(); }
 
 }  // namespace
 
-CertifiedProblem::CertifiedProblem(const std::string& name, const SolverOptions& options)
-    : problem_(without_bounds(name)),
+CertifiedProblem::CertifiedProblem(std::shared_ptr<const Problem> problem, const SolverOptions& options)
+    : problem_(without_bounds(std::move(problem))),
       optimum_(solve_indirect(*problem_, direct_motion(problem_, options))),
       motion_(optimum_.trajectory()) {}
 

@@ -16,9 +16,9 @@ namespace dmocbench {
 /// A problem with its certified optimum, against which estimates are held.
 class CertifiedProblem {
  public:
-  /// Solves the problem of that name, without bounds that a parameter can switch off, by the indirect method from a
-  /// direct solution. Throws `Error` if that fails.
-  CertifiedProblem(const std::string& name, const SolverOptions& options);
+  /// Solves the problem, without bounds that a parameter can switch off, by the indirect method from a direct solution.
+  /// Throws `Error` if that fails.
+  CertifiedProblem(std::shared_ptr<const Problem> problem, const SolverOptions& options);
 
   [[nodiscard]] const Problem& problem() const noexcept { return *problem_; }
   /// Its program by a method, on a uniform grid.

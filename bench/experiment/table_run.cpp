@@ -24,6 +24,21 @@ std::vector<std::string> parse(CommandLine& line, std::filesystem::path& out) {
 
 }  // namespace
 
+void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
+                  const std::vector<std::string>& command_line) {
+  nlohmann::ordered_json metadata = describe_run(command_line);
+  const auto write_as = [&](bool is_complete) {
+    metadata["complete"] = is_complete;
+    write_metadata(metadata_file, metadata);
+  };
+  write_as(false);
+  std::vector<std::filesystem::path> files;
+  for (const TableFile& table : tables) write_file(files.emplace_back(table.file), table.table.csv());
+  for (const TableFile& table : tables) add_meanings(metadata, table.file, table.table);
+  describe_tables_of_run(files, tables.empty() ? Table() : tables.front().table, metadata);
+  write_as(true);
+}
+
 TableRun::TableRun(std::string name, CommandLine& line)
     : name_(std::move(name)),
       command_line_(parse(line, out_)),
@@ -46,24 +61,17 @@ void TableRun::show(const std::string& activity) const {
 
 void TableRun::add(const std::string& file, const Table& table, std::ptrdiff_t not_measured) {
   const std::string gaps = not_measured > 0 ? fmt::format(", {} not measured", not_measured) : "";
-  tables_.push_back({out_ / (file + ".csv"), table, counted(table.rows().size(), "row") + gaps});
+  tables_.push_back({out_ / (file + ".csv"), table});
+  rows_of_tables_.push_back(counted(table.rows().size(), "row") + gaps);
   not_measured_ += not_measured;
 }
 
 int TableRun::write() const {
   throw_if_interrupted();
-  nlohmann::ordered_json metadata = describe_run(command_line_);
-  const auto write_as = [&](bool is_complete) {
-    metadata["complete"] = is_complete;
-    write_metadata(out_ / (name_ + ".json"), metadata);
-  };
-  write_as(false);
-  std::vector<std::filesystem::path> files;
-  for (const NamedTable& table : tables_) write_file(files.emplace_back(table.file), table.table.csv());
-  for (const NamedTable& table : tables_) add_meanings(metadata, table.file, table.table);
-  describe_tables_of_run(files, Table(), metadata);
-  write_as(true);
-  for (const NamedTable& table : tables_) fmt::print("{}: {}: {}\n", name_, table.rows, table.file.string());
+  write_tables(tables_, out_ / (name_ + ".json"), command_line_);
+  for (std::size_t i = 0; i < tables_.size(); ++i) {
+    fmt::print("{}: {}: {}\n", name_, rows_of_tables_[i], tables_[i].file.string());
+  }
   return not_measured_ > 0 ? 1 : 0;
 }
 

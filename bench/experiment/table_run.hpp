@@ -14,6 +14,18 @@
 
 namespace dmocbench {
 
+/// A table and the file that holds it.
+struct TableFile {
+  std::filesystem::path file;  ///< with its folder, NAME.csv
+  Table table;                 ///< with what its columns mean
+};
+
+/// Writes tables, and beside them the metadata of their run with the JSON Schema of their rows. Columns that a table
+/// leaves unexplained mean what the first table says. The metadata say `"complete": false` until all tables are there.
+/// Throws `Error` if a file cannot be written.
+void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
+                  const std::vector<std::string>& command_line);
+
 /// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
 /// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
 class TableRun {
@@ -39,11 +51,6 @@ class TableRun {
   [[nodiscard]] int write() const;
 
  private:
-  struct NamedTable {
-    std::filesystem::path file;
-    Table table;
-    std::string rows;  ///< how many, in words
-  };
   std::string name_;
   std::filesystem::path out_ = "results";
   std::vector<std::string> command_line_;
@@ -51,8 +58,9 @@ class TableRun {
   ResultLock lock_;
   ProgressLine progress_;
   StopScope scope_;
-  std::vector<NamedTable> tables_;
-  std::ptrdiff_t not_measured_ = 0;  ///< rows of all tables
+  std::vector<TableFile> tables_;
+  std::vector<std::string> rows_of_tables_;  ///< how many each has, in words
+  std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables
 };
 
 }  // namespace dmocbench

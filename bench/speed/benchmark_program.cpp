@@ -12,6 +12,7 @@
 #include "bench/experiment/command_line.hpp"
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 
@@ -75,7 +76,8 @@ bool initialize(const BenchmarkProgram& program, const char* file, const std::ve
 }
 
 /// Runs what the flags choose and writes its tables. False if they choose nothing; the library has then said so.
-bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv) {
+bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path& csv,
+                   const std::vector<std::string>& command_line) {
   const nlohmann::ordered_json description = describe_run({});
   for (const char* key : {"commit", "compiler", "flags", "instruction_set", "processor"}) {
     benchmark::AddCustomContext(key, description.at(key).get<std::string>());
@@ -86,11 +88,14 @@ bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path&
   benchmark::Shutdown();
   const Benchmarks benchmarks = reporter.benchmarks();
   if (csv.empty() || benchmarks.empty()) return has_run;
+  const auto beside = [&](const std::string& end) {
+    return std::filesystem::path(csv).replace_filename(csv.stem().string() + end);
+  };
+  std::vector<TableFile> tables;
   for (const auto& [suffix, table] : program.tables(benchmarks)) {
-    std::filesystem::path file = csv;
-    file.replace_filename(csv.stem().string() + suffix + csv.extension().string());
-    write_file(file, table.csv());
+    tables.push_back({beside(suffix + csv.extension().string()), table});
   }
+  write_tables(tables, beside("_tables.json"), command_line);
   return has_run;
 }
 
@@ -119,7 +124,7 @@ int BenchmarkProgram::run(int argc, char** argv) const try {
   for (const std::string& flag : flags) {
     if (flag.starts_with("--benchmark_repetitions=-")) throw Error(flag + ": repetitions are at least 1");
   }
-  return run_and_write(*this, file) ? 0 : 2;
+  return run_and_write(*this, file, {argv, argv + argc}) ? 0 : 2;
 } catch (const std::exception& error) {
   fmt::print(stderr, "{}: {}\n", name, sentence_of(error));
   return 2;

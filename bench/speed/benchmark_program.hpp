@@ -25,7 +25,8 @@ struct BenchmarkProgram {
   std::function<TablesBySuffix(const Benchmarks&)> tables;  ///< of a run
 
   /// Reads the command line, `--csv FILE` and the flags of Google Benchmark, runs the benchmarks and writes the tables,
-  /// each whole or not at all. Returns the exit code; every error is one line on standard error.
+  /// each whole or not at all, and their metadata, FILE_tables.json (FILE.json is free for `--benchmark_out`). Returns
+  /// the exit code; every error is one line on standard error.
   ///
   /// The flags are those of this suite (five repetitions, in random order so that a disturbance of a shared machine is
   /// spread over all benchmarks), then the user's, which win.

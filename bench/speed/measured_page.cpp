@@ -6,6 +6,7 @@
 
 #include "bench/experiment/metadata.hpp"
 #include "bench/experiment/result_file.hpp"
+#include "bench/experiment/table_run.hpp"
 
 namespace dmocbench::speed {
 
@@ -56,7 +57,7 @@ int PageProgram::run(int argc, char** argv) const {
     int rounds = 11;
     const std::string prefix = "speed_" + name;
     line.option("--out", out,
-                fmt::format("folder for {0}{1}.csv and {0}.md", prefix, fmt::join(ends, ".csv, " + prefix)));
+                fmt::format("folder for {0}{1}.csv, {0}.json and {0}.md", prefix, fmt::join(ends, ".csv, " + prefix)));
     line.number("--rounds", rounds, 1, 1000, "how often everything is measured, in turn");
     if (options) options(line);
     if (!columns.empty()) line.footer("Columns of the tables:\n" + columns);
@@ -64,8 +65,12 @@ int PageProgram::run(int argc, char** argv) const {
     static_cast<void>(is_busy());
     const OutputFolder folder(out);
     const MeasuredPage page = measure(rounds);
-    for (const auto& [end, table] : page.tables) write_file(out / fmt::format("{}{}.csv", prefix, end), table.csv());
-    write_page(out / (prefix + ".md"), page, {argv, argv + argc});
+    const std::vector<std::string> command(argv, argv + argc);
+    std::vector<TableFile> tables;
+    tables.reserve(page.tables.size());
+    for (const auto& [end, table] : page.tables) tables.push_back({out / fmt::format("{}{}.csv", prefix, end), table});
+    write_tables(tables, out / (prefix + ".json"), command);
+    write_page(out / (prefix + ".md"), page, command);
     return 0;
   });
 }

@@ -28,7 +28,8 @@ struct MeasuredPage {
   std::vector<std::pair<std::string, Table>> tables;  ///< by the ends of their names
 };
 
-/// A program that measures in rounds and writes results/speed_NAME.md, and a table speed_NAMEEND.csv for every end.
+/// A program that measures in rounds and writes results/speed_NAME.md, a table speed_NAMEEND.csv for every end, and the
+/// metadata of the tables, speed_NAME.json.
 struct PageProgram {
   std::string name;
   std::string description;                         ///< a sentence

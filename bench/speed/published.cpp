@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/experiment/column.hpp"
 #include "bench/experiment/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
@@ -143,11 +144,38 @@ constexpr const char* words_of_page =
     "than 0.1 s is timed the second time in a row, with its memory in the caches. `cost off`: from the problem's "
     "reference, as a share of it.\n\n";
 
+/// A column that both kinds of rows have by this name. Fields that nobody states are empty.
+Column<Row> field(const std::string& name, const std::string& unit, const std::string& meaning,
+                  FieldKind kind = FieldKind::text) {
+  return {name, unit, meaning, FieldReader<Row>([name](const Row& row) { return Cell(row.text(name)); }, {kind})};
+}
+
+const Columns<Row>& columns_of_times() {
+  static const Columns<Row> columns{
+      field("position", "", "of the problem and number of intervals in figures, from 1", FieldKind::integer),
+      field("problem", "", "name of the problem"),
+      field("intervals", "", "number of intervals N", FieldKind::integer),
+      field("who", "", "has solved it: others' software, or our method with its stages and start"),
+      field("where", "", "here, elsewhere, or gpu: elsewhere on a graphics processor"),
+      field("machine", "", "on which it was solved"),
+      field("rounds", "", "how often we solved it", FieldKind::integer),
+      field("seconds", "s", "of a solve, ours the median over the rounds", FieldKind::number),
+      field("seconds_lower", "s", "of the interval of 99 % of this median", FieldKind::number),
+      field("seconds_upper", "s", "of the same interval", FieldKind::number),
+      field("setup_seconds", "s", "making our program, which `seconds` leaves out", FieldKind::number),
+      field("iterations", "", "of the solver", FieldKind::integer),
+      field("objective", "cost", "of the answer", FieldKind::number),
+      field("cost_error", "", "by how much the cost is off the problem's reference, as a share", FieldKind::number),
+      field("status", "", "how the solve ended, in the words of who has solved it"),
+      field("tolerance", "", "of others' solves", FieldKind::number),
+      field("differs", "", "what differs from our program"),
+      field("source", "", "where it is published")};
+  return columns;
+}
+
 /// The rows of others and of us, those of one problem and number of intervals beside each other.
 Table times_beside_ours(const std::vector<Row>& others, const std::vector<std::unique_ptr<TimedRival>>& ours) {
-  Table table({"position", "problem", "intervals", "who", "where", "machine", "rounds", "seconds", "seconds_lower",
-               "seconds_upper", "setup_seconds", "iterations", "objective", "cost_error", "status", "tolerance",
-               "differs", "source"});
+  Table table = table_of(columns_of_times(), std::vector<Row>());
   const auto are_beside = [](const Row& row, const Row& other) {
     return row.text("problem") == other.text("problem") && row.text("intervals") == other.text("intervals");
   };
@@ -221,6 +249,7 @@ int run_published(int argc, char** argv) {
   Choices choices;
   const PageProgram program{.name = "published",
                             .description = "Times that others have published beside ours on this machine.",
+                            .columns = describe(columns_of_times()),
                             .options =
                                 [&](CommandLine& line) {
                                   line.option("--published", choices.published, "the table of published times");
