@@ -56,8 +56,8 @@ int operations_of_formulas(int n, int w) {
   const int pairs = sum_to(N) - 1;  // of the lower triangle, without the constant
   const int condensed = pairs * X + (pairs - sum_to(N) + sum_to(X + 1)) * n;
   const int end_multiplier = N * X * X;
-  int free = 0;
-  for (int p = 0; p < w; ++p) free += p * (N - p + X) + 2 + (N - 1 - p) + X + (2 * X + 1) * (w - 1 - p);
+  int free = 0;  // each with a reciprocal, and two comparisons with the diagonal entry
+  for (int p = 0; p < w; ++p) free += p * (N - p + X) + 3 + (N - 1 - p) + X + (2 * X + 1) * (w - 1 - p);
   const int value = w * (sum_to(X + 1) - 1 + X * (X + 1) + sum_to(X));
   return equalities + next_state + slopes + condensed + end_multiplier + free + value;
 }

@@ -65,6 +65,9 @@ class KktSystem {
   [[nodiscard]] virtual FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                                   const KktStep& step) = 0;
 
+  /// After `wrong_inertia`: whether rounding leaves no doubt about it. If not, the inertia may be right.
+  [[nodiscard]] virtual bool is_certain() const noexcept { return false; }
+
  protected:
   KktSystem() = default;
 };

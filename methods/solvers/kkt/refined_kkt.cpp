@@ -34,7 +34,7 @@ FactorisationStatus RefinedKkt::solve(const KktMatrix& matrix, const KktRightHan
                                       const KktStep& step) {
   const FactorisationStatus status = fast_->solve(matrix, right_hand_side, step);
   const bool is_refusal = status == FactorisationStatus::wrong_inertia;
-  if (is_refusal && !checks_.ask()) return status;
+  if (is_refusal && (fast_->is_certain() || !checks_.ask())) return status;
   if (status == FactorisationStatus::solved && is_accurate(matrix, right_hand_side, step)) {
     checks_.end_matrix();
     return status;

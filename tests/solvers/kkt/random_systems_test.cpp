@@ -186,6 +186,28 @@ TEST(RandomSystems, AreSolvedToRoundingByRefinementOrRefusedAsDenseLinearAlgebra
   EXPECT_LE(fallbacks, 5);                  // none, but for another processor's rounding
 }
 
+/// The inertia counts, and not the terminal weights that one tries, where no pivot is near zero.
+TEST(RandomSystems, AreRefusedByOneSweepWhereTheHessianIsIndefinite) {
+  constexpr unsigned seeds = 1000;
+  int refusals = 0;
+  int by_one_sweep = 0;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    SystemChoice choice(seed);
+    RandomShape shape = choice.shape();
+    shape.hessian = RandomShape::Hessian::indefinite;
+    RandomStructuredProgram program(shape, seed);
+    const auto kkt = IntervalKkt::make(program).value();
+    const KktNumbers numbers = choice.numbers(program, shape.hessian);
+    if (dense_verdict(DenseKkt(program, numbers), 1e-6) != DenseVerdict::indefinite) continue;
+    ++refusals;
+    EXPECT_EQ(verdict_of(*kkt, numbers), FactorisationStatus::wrong_inertia)
+        << "seed " << seed << ": " << shape.label();
+    if (kkt->eliminations() == 1) ++by_one_sweep;
+  }
+  EXPECT_GT(refusals, 250);
+  EXPECT_GT(by_one_sweep, refusals * 9 / 10);
+}
+
 /// How many shifts of the Hessian too many a solver would try that raises it until the system is solved, with one
 /// object for all its systems; `needs_shift` tells whether the first of them is indefinite.
 int shifts_too_many(IntervalKkt& kkt, const NonlinearProgram& program, KktNumbers numbers, bool& needs_shift) {

@@ -2,11 +2,12 @@
 
 #include "methods/solvers/kkt/intervals/segment_chain.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -49,10 +50,16 @@ LinearQuadraticSteps random_steps(RandomPoints& random, Eigen::Index states, Eig
   return steps;
 }
 
-/// The value of steps begin .. end - 1 with the weights ρ at their end, from one dense quadratic form in (u, X, 1) of
-/// all controls; none if it has no minimum in u.
-std::optional<SegmentValue> dense_value(const LinearQuadraticSteps& steps, std::size_t begin, std::size_t end,
-                                        const Eigen::VectorXd& weights) {
+/// A quadratic form where its derivative with respect to all controls vanishes.
+struct StationaryValue {
+  SegmentValue value;
+  Eigen::Index negative = 0;  ///< eigenvalues in the controls
+  double smallest = 0.0;      ///< magnitude of these eigenvalues
+};
+
+/// Of steps begin .. end - 1 with the weights ρ at their end, from one dense quadratic form in (u, X, 1).
+StationaryValue dense_stationary(const LinearQuadraticSteps& steps, std::size_t begin, std::size_t end,
+                                 const Eigen::VectorXd& weights) {
   const Eigen::Index n = weights.size();
   const Eigen::Index m = steps[begin].B.cols();
   const Eigen::Index controls = m * static_cast<Eigen::Index>(end - begin);
@@ -73,16 +80,26 @@ std::optional<SegmentValue> dense_value(const LinearQuadraticSteps& steps, std::
     state.col(columns - 1) += step.c;
   }
   form += state.transpose() * weights.asDiagonal() * state;
-  const Eigen::LLT<Eigen::MatrixXd> factor(form.topLeftCorner(controls, controls));
-  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd hessian = form.topLeftCorner(controls, controls);
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian).eigenvalues();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(hessian);
   const Eigen::MatrixXd mixed = form.block(controls, 0, n, controls);
   const Eigen::MatrixXd reached = state.leftCols(controls);
   const Eigen::VectorXd constant = form.col(columns - 1).head(controls);
-  return SegmentValue{.P = form.block(controls, controls, n, n) - mixed * factor.solve(mixed.transpose()),
-                      .p = form.col(columns - 1).segment(controls, n) - mixed * factor.solve(constant),
-                      .Phi = (state.middleCols(controls, n) - reached * factor.solve(mixed.transpose())).transpose(),
-                      .Gamma = reached * factor.solve(reached.transpose()),
-                      .gamma = state.col(columns - 1) - reached * factor.solve(constant)};
+  return {{.P = form.block(controls, controls, n, n) - mixed * factor.solve(mixed.transpose()),
+           .p = form.col(columns - 1).segment(controls, n) - mixed * factor.solve(constant),
+           .Phi = (state.middleCols(controls, n) - reached * factor.solve(mixed.transpose())).transpose(),
+           .Gamma = reached * factor.solve(reached.transpose()),
+           .gamma = state.col(columns - 1) - reached * factor.solve(constant)},
+          (eigenvalues.array() < 0.0).count(),
+          eigenvalues.cwiseAbs().minCoeff()};
+}
+
+/// The value of steps begin .. end - 1; none if it has no minimum in the controls.
+std::optional<SegmentValue> dense_value(const LinearQuadraticSteps& steps, std::size_t begin, std::size_t end,
+                                        const Eigen::VectorXd& weights) {
+  const StationaryValue stationary = dense_stationary(steps, begin, end, weights);
+  return stationary.negative == 0 ? std::optional(stationary.value) : std::nullopt;
 }
 
 SegmentValue dense_minimum(const LinearQuadraticSteps& steps, std::size_t begin, std::size_t end,
@@ -92,9 +109,9 @@ SegmentValue dense_minimum(const LinearQuadraticSteps& steps, std::size_t begin,
   return *value;
 }
 
-void expect_same_value(const SegmentValue& found, const SegmentValue& wanted) {
-  const auto expect_close = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char* name) {
-    EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-11 * (1.0 + b.lpNorm<Eigen::Infinity>())) << name;
+void expect_same_value(const SegmentValue& found, const SegmentValue& wanted, double relative = 1e-11) {
+  const auto expect_close = [&](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const char* name) {
+    EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), relative * (1.0 + b.lpNorm<Eigen::Infinity>())) << name;
   };
   expect_close(found.P, wanted.P, "P");
   expect_close(found.p, wanted.p, "p");
@@ -177,6 +194,53 @@ TEST(SegmentChain, RefusesToJoinExactlyWhereTheWholeHasNoMinimum) {
   }
   EXPECT_GT(minima, 100);
   EXPECT_GT(refusals, 100);
+}
+
+/// Three segments, of which any may be a saddle: the negative eigenvalues of all parts are those of the whole.
+TEST(SegmentChain, CountsTheNegativeEigenvaluesOfSaddles) {
+  constexpr double far_from_zero = 1e-3;
+  RandomPoints random;
+  int saddles = 0;
+  int counts = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Index n = 1 + i % 3;
+    const auto steps = random_steps(random, n, 1, 6, random.number(-2.0, 0.5));
+    const Eigen::VectorXd weights = random.vector(n, 0.1, 2.0);
+    const StationaryValue first = dense_stationary(steps, 0, 2, weights);
+    const StationaryValue middle = dense_stationary(steps, 2, 4, weights);
+    const StationaryValue last = dense_stationary(steps, 4, 6, weights);
+    const StationaryValue end = dense_stationary(steps, 2, 6, weights);
+    const StationaryValue whole = dense_stationary(steps, 0, 6, weights);
+    if (std::min({first.smallest, middle.smallest, last.smallest, end.smallest, whole.smallest}) < far_from_zero)
+      continue;
+    SegmentChain chain;
+    chain.start(last.value, weights);
+    ASSERT_TRUE(chain.join_and_count(middle.value)) << "number " << i;
+    ASSERT_TRUE(chain.join_and_count(first.value)) << "number " << i;
+    EXPECT_EQ(first.negative + middle.negative + last.negative + chain.negative(), whole.negative) << "number " << i;
+    expect_same_value(chain.total(), whole.value, 1e-6);
+    if (whole.negative > 0) ++saddles;
+    if (chain.negative() != 0) ++counts;
+  }
+  EXPECT_GT(saddles, 500);
+  EXPECT_GT(counts, 100);
+}
+
+TEST(SegmentChain, DoesNotCountWhereAnEigenvalueOfAJoinIsZero) {
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(1);
+  const auto segment = [](double stiffness, double reachability) {
+    const auto one = [](double number) { return Eigen::MatrixXd::Constant(1, 1, number); };
+    return SegmentValue{.P = one(stiffness),
+                        .p = Eigen::VectorXd::Zero(1),
+                        .Phi = one(1.0),
+                        .Gamma = one(reachability),
+                        .gamma = Eigen::VectorXd::Zero(1)};
+  };
+  // 1 + (P - ρ) Γ = 0.
+  SegmentChain chain;
+  chain.start(segment(-1.0, 0.5), weights);
+  EXPECT_FALSE(chain.join_and_count(segment(1.0, 0.5)));
+  EXPECT_TRUE(chain.join_and_count(segment(1.0, 0.25)));
 }
 
 }  // namespace

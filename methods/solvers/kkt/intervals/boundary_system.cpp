@@ -1,85 +1,9 @@
 #include "methods/solvers/kkt/intervals/boundary_system.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <type_traits>
-
-#include <lapacke.h>
 
 namespace dmocbench::kkt {
-
-namespace {
-
-static_assert(std::is_same_v<lapack_int, int>);
-
-/// Multiplies rows and columns, of which the lower triangle is there, by factors that bring the largest entries near 1.
-void equilibrate(Eigen::MatrixXd& lower, Eigen::VectorXd& factors) {
-  const Eigen::Index n = lower.rows();
-  factors.setZero(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) {
-      factors[i] = std::max(factors[i], std::abs(lower(i, j)));
-      factors[j] = std::max(factors[j], std::abs(lower(i, j)));
-    }
-  }
-  for (double& factor : factors) factor = factor > 0.0 ? 1.0 / std::sqrt(factor) : 1.0;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) lower(i, j) = factors[i] * lower(i, j) * factors[j];
-  }
-}
-
-/// Smallest magnitude of the eigenvalues of a symmetric block (a, b; b, c).
-double smallest_eigenvalue(double a, double b, double c) {
-  const double largest = 0.5 * (std::abs(a + c) + std::hypot(a - c, 2.0 * b));
-  return largest > 0.0 ? std::abs(a * c - b * b) / largest : 0.0;
-}
-
-/// From the blocks of one or two rows of D; a block of two has one eigenvalue of either sign.
-DenseInertia inertia_of(const Eigen::MatrixXd& factors, const std::vector<int>& pivots) {
-  const Eigen::Index n = factors.rows();
-  constexpr double far_from_zero = 1e-11;  // hundreds of times the rounding of dependent rows
-  // Elimination turns a dependent row into a few units of rounding per row.
-  const double rounding = 10.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
-  DenseInertia inertia;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (pivots[static_cast<std::size_t>(i)] < 0) {
-      smallest = std::min(smallest, smallest_eigenvalue(factors(i, i), factors(i + 1, i), factors(i + 1, i + 1)));
-      ++inertia.negative;
-      ++i;
-    } else {
-      smallest = std::min(smallest, std::abs(factors(i, i)));
-      if (factors(i, i) < 0.0) ++inertia.negative;
-    }
-  }
-  inertia.is_singular = !(smallest > rounding);
-  inertia.is_certain = smallest > far_from_zero;
-  return inertia;
-}
-
-}  // namespace
-
-DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side, SymmetricWork& work) {
-  const Eigen::Index n = matrix.rows();
-  if (n == 0) return {.is_certain = true};
-  if (!matrix.allFinite() || !right_hand_side.allFinite()) return {.is_singular = true};
-  equilibrate(matrix, work.scale);
-  right_hand_side.array() *= work.scale.array();
-  constexpr Eigen::Index columns_at_once = 64;
-  work.pivots.resize(static_cast<std::size_t>(n));
-  work.numbers.resize(n * columns_at_once);
-  // Not LAPACKE's usual functions, which allocate and look for NaN once more.
-  const auto order = static_cast<lapack_int>(n);
-  const lapack_int info = LAPACKE_dsytrf_work(LAPACK_COL_MAJOR, 'L', order, matrix.data(), order, work.pivots.data(),
-                                              work.numbers.data(), static_cast<lapack_int>(work.numbers.size()));
-  if (info != 0) return {.is_singular = true};
-  LAPACKE_dsytrs_work(LAPACK_COL_MAJOR, 'L', order, 1, matrix.data(), order, work.pivots.data(), right_hand_side.data(),
-                      order);
-  right_hand_side.array() *= work.scale.array();
-  return inertia_of(matrix, work.pivots);
-}
 
 BoundarySystem::Made BoundarySystem::make(const NonlinearProgram& program, const IntervalEntries& entries) {
   BoundarySystem system(entries);
@@ -121,7 +45,7 @@ void BoundarySystem::number_lines(const IntervalEntries& entries) {
   append(entries.end_rows, rows_);
 }
 
-/// False if an entry belongs to neither end.
+/// Every entry in its turn, until one belongs to neither end: then false.
 bool BoundarySystem::place(const IntervalEntries& entries) {
   using Lines = std::map<Eigen::Index, Eigen::Index>;
   const auto lines_of = [](const auto&... lists) {
@@ -133,7 +57,7 @@ bool BoundarySystem::place(const IntervalEntries& entries) {
   };
   const Lines unknown_at = lines_of(unknowns_, last_unknowns_);
   const Lines row_at = lines_of(first_rows_, rows_);
-  for (const EndEntry& entry : entries.ends) {
+  return std::ranges::all_of(entries.ends, [&](const EndEntry& entry) {
     const bool is_row = entry.source == Source::jacobian;
     const Lines& lines = is_row ? row_at : unknown_at;
     const auto row = lines.find(entry.row);
@@ -142,8 +66,8 @@ bool BoundarySystem::place(const IntervalEntries& entries) {
     const auto [lower, upper] = std::minmax(row->second, column->second);
     const double sign = is_row && defines_carry(row->second) ? -1.0 : 1.0;
     placed_.push_back({entry.source, entry.entry, upper, lower, sign});
-  }
-  return true;
+    return true;
+  });
 }
 
 void BoundarySystem::drop_what_is_fixed(const NonlinearProgram& program) {
@@ -211,7 +135,7 @@ FactorisationStatus BoundarySystem::solve(const KktMatrix& matrix, const KktRigh
   const DenseInertia inertia = solve_symmetric(reduced_, reduced_solution_, work_);
   is_certain_ = inertia.is_certain;
   if (inertia.is_singular) return FactorisationStatus::singular;
-  if (inertia.negative != rows) return FactorisationStatus::wrong_inertia;
+  if (inertia.negative + horizon.negative != rows) return FactorisationStatus::wrong_inertia;
   solution_.setZero(size_);
   for (Eigen::Index j = 0; j < count; ++j) solution_[kept(j)] = reduced_solution_[j];
   state_ = solution_.head(state_size_);

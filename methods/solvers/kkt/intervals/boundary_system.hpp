@@ -8,30 +8,12 @@
 #include <tl/expected.hpp>
 
 #include "methods/program/nonlinear_program.hpp"
+#include "methods/solvers/kkt/intervals/dense_inertia.hpp"
 #include "methods/solvers/kkt/intervals/interval_entries.hpp"
 #include "methods/solvers/kkt/intervals/segment_chain.hpp"
 #include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::kkt {
-
-/// The inertia that the factorisation of a small symmetric matrix shows.
-struct DenseInertia {
-  bool is_singular = false;
-  bool is_certain = false;  ///< no eigenvalue of the scaled matrix is near zero
-  Eigen::Index negative = 0;
-};
-
-/// Memory for `solve_symmetric`, used again from system to system.
-struct SymmetricWork {
-  Eigen::VectorXd scale;
-  std::vector<int> pivots;
-  Eigen::VectorXd numbers;
-};
-
-/// Solves a dense symmetric, possibly indefinite system in place (LAPACK's Bunch-Kaufman factors, after scaling rows
-/// and columns alike), and counts negative eigenvalues. `matrix`: its lower triangle is read, then overwritten.
-[[nodiscard]] DenseInertia solve_symmetric(Eigen::MatrixXd& matrix, Eigen::VectorXd& right_hand_side,
-                                           SymmetricWork& work);
 
 /// The dense system that is left once all intervals are eliminated. Its unknowns are the states at both ends of the
 /// horizon, their further unknowns, unknowns of the whole horizon, and the multipliers of boundary conditions, of rows
@@ -47,6 +29,7 @@ class BoundarySystem {
     const SegmentValue& value;
     const Eigen::MatrixXd& last_carry;  ///< s_N lacks `last_carry` x_N (node_sums x node, see `moves_by_increment`)
     const Eigen::VectorXd& terminal_weights;
+    Eigen::Index negative;  ///< how many eigenvalues of what was eliminated are negative, beyond those of a minimum
   };
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const Horizon& horizon);

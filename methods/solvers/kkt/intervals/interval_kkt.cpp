@@ -60,10 +60,14 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     arrays.terminal_weights = weights_.values().data();
     for_each_part(groups_.size(), [&](std::size_t g) { kernel_.backward(plan_, arrays, groups_[g].group()); });
     ++eliminations_;
-    const Elimination found = join(arrays, matrix, right_hand_side);
-    if (found.status == FactorisationStatus::solved) break;
-    if (found.status == FactorisationStatus::untrusted) {
-      if (!may_choose_order) return found.status;
+    found_ = join(arrays, matrix, right_hand_side);
+    if (found_.status == FactorisationStatus::solved) {
+      // Positive pivots keep more digits.
+      if (!is_minimum_in_parts_) weights_.raise();
+      break;
+    }
+    if (found_.status == FactorisationStatus::untrusted) {
+      if (!may_choose_order) return found_.status;
       // A pivot that is large in one interval may be zero in another, where a velocity changes its sign, say.
       std::vector<Eigen::Index> intervals{middle};
       for (Eigen::Index i = 0; i < sampled_intervals; ++i)
@@ -73,8 +77,8 @@ FactorisationStatus IntervalKkt::solve(const KktMatrix& matrix, const KktRightHa
     }
     // A conjugate point of a segment with a free end, or a sign lost to rounding, is no reason to change the Hessian.
     // To try the other weights costs less than the sparse factorisation that is asked about a singular system.
-    if (found.status == FactorisationStatus::singular) weights_.distrust_next_failure();
-    if (found.is_certain || !weights_.next_multiple()) return found.status;
+    if (found_.status == FactorisationStatus::singular) weights_.distrust_next_failure();
+    if (found_.is_certain || !weights_.next_multiple()) return found_.status;
   }
   substitute(arrays, step);
   return is_finite(step.primal) && is_finite(step.multipliers) ? FactorisationStatus::solved
@@ -90,12 +94,18 @@ IntervalKkt::Elimination IntervalKkt::join(const NewtonArrays& arrays, const Kkt
   if (any_group([](const SegmentGroup& group) { return !(group.smallest_ratio > smallest_trusted_ratio); })) {
     return {FactorisationStatus::untrusted};
   }
-  if (any_group([](const SegmentGroup& group) { return !group.pivots_hold; }) || !join_segments()) {
+  if (any_group([](const SegmentGroup& group) { return group.pivots == FreePivots::too_many_negative; })) {
+    return {FactorisationStatus::wrong_inertia, true};
+  }
+  if (any_group([](const SegmentGroup& group) { return group.pivots == FreePivots::near_zero; }) || !join_segments()) {
     return {FactorisationStatus::wrong_inertia};
   }
   find_last_carry(arrays);
   const FactorisationStatus status =
-      boundary_.solve(matrix, right_hand_side, {chain_.total(), last_carry_, weights_.values()});
+      boundary_.solve(matrix, right_hand_side, {chain_.total(), last_carry_, weights_.values(), negative_});
+  // A minimum that shows only in the sum of all inertias is one where the sum leaves no doubt.
+  const bool is_doubtful = !is_minimum_in_parts_ && !boundary_.is_certain();
+  if (status == FactorisationStatus::solved && is_doubtful) return {FactorisationStatus::wrong_inertia};
   return {status, boundary_.is_certain()};
 }
 
@@ -110,11 +120,17 @@ void IntervalKkt::find_last_carry(const NewtonArrays& arrays) {
   }
 }
 
-/// From the last segment to the first; false if a state between two is no minimum.
+/// From the last segment to the first. Counts the negative eigenvalues of what is eliminated, beyond those of a
+/// minimum; false if rounding hides them.
 bool IntervalKkt::join_segments() {
   const Eigen::Index X = state_size(entries_.shape);
   bool is_last = true;
+  negative_ = 0;
+  is_minimum_in_parts_ = true;
   for (std::size_t g = groups_.size(); g-- > 0;) {
+    const bool has_minima = groups_[g].group().pivots == FreePivots::positive;
+    if (!has_minima) negative_ += groups_[g].group().negative_pivots;
+    is_minimum_in_parts_ = is_minimum_in_parts_ && has_minima;
     for (int segment = lane_count - 1; segment >= 0; --segment) {
       const auto columns = [&](const double* numbers, Eigen::Index first, Eigen::Index count) {
         using Strides = Eigen::Stride<Eigen::Dynamic, lane_count>;
@@ -127,15 +143,16 @@ bool IntervalKkt::join_segments() {
       segment_value_.Phi = columns(group.value, X + 1, X);
       segment_value_.gamma = columns(group.reachability, 0, 1);
       segment_value_.Gamma = columns(group.reachability, 1, X);
-      weights_.observe(segment_value_.Gamma);
-      if (is_last) {
+      if (has_minima) weights_.observe(segment_value_.Gamma);
+      if (std::exchange(is_last, false)) {
         chain_.start(segment_value_, weights_.values());
-      } else if (!chain_.join(segment_value_)) {
-        return false;
+      } else if (!has_minima || !chain_.join(segment_value_)) {
+        if (!chain_.join_and_count(segment_value_)) return false;
+        is_minimum_in_parts_ = false;
       }
-      is_last = false;
     }
   }
+  negative_ += chain_.negative();
   return true;
 }
 

@@ -32,6 +32,7 @@ class IntervalKkt : public KktSystem {
   void begin_solve() override { weights_.forget(); }
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
+  [[nodiscard]] bool is_certain() const noexcept override { return found_.is_certain; }
 
   [[nodiscard]] const Shape& shape() const noexcept { return entries_.shape; }
   /// Backward sweeps so far, with those for other terminal weights and other orders of elimination.
@@ -40,7 +41,7 @@ class IntervalKkt : public KktSystem {
  private:
   struct Elimination {
     FactorisationStatus status = FactorisationStatus::untrusted;
-    bool is_certain = false;  ///< of the inertia: other terminal weights would find the same
+    bool is_certain = false;  ///< other terminal weights would find the same inertia
   };
 
   [[nodiscard]] NewtonArrays arrays_of(const KktMatrix& matrix, const KktRightHandSide& right_hand_side);
@@ -56,6 +57,7 @@ class IntervalKkt : public KktSystem {
   SegmentKernelChoice choose_;
   SegmentKernel kernel_{};
   bool has_plan_ = false;
+  Elimination found_;  // by the last sweep
   int eliminations_ = 0;
   EliminationPlan plan_;
   TerminalWeights weights_;
@@ -65,7 +67,9 @@ class IntervalKkt : public KktSystem {
   std::vector<GroupMemory> groups_;
   SegmentValue segment_value_;
   SegmentChain chain_;
-  Eigen::MatrixXd states_;  // at the first nodes of the segments, one column each
+  Eigen::Index negative_ = 0;         // eigenvalues of what was eliminated, beyond those of a minimum
+  bool is_minimum_in_parts_ = false;  // the pivots of every segment and every joint are those of a minimum
+  Eigen::MatrixXd states_;            // at the first nodes of the segments, one column each
   Eigen::MatrixXd multipliers_;
 };
 

@@ -91,20 +91,49 @@ void SegmentChain::start(const SegmentValue& last, const Eigen::VectorXd& termin
   terminal_weights_ = terminal_weights;
   total_ = last;
   count_ = 0;
+  negative_ = 0;
+  // So that `join_and_count` takes no memory.
+  const Eigen::Index both = 2 * last.P.rows();
+  between_.resize(both, both);
+  no_side_.resize(both);
+  work_.make(both);
 }
 
-bool SegmentChain::join(const SegmentValue& segment) {
+bool SegmentChain::join(const SegmentValue& segment) { return join(segment, Between::must_be_minimum); }
+
+/// The state y between and the multiplier ν' of the segment in front make (S, -I; -I, -Γ). Measured by √ρ, both S and Γ
+/// are about 1. A minimum has as many positive eigenvalues as negative ones.
+bool SegmentChain::join_and_count(const SegmentValue& segment) {
+  const Eigen::Index n = total_.P.rows();
+  between_.setZero();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j; i < n; ++i) {
+      const double measure = std::sqrt(terminal_weights_[i] * terminal_weights_[j]);
+      between_(i, j) = total_.P(i, j) / measure - (i == j ? 1.0 : 0.0);
+      between_(n + i, n + j) = -segment.Gamma(i, j) * measure;
+    }
+    between_(n + j, j) = -1.0;
+  }
+  no_side_.setZero();
+  const DenseInertia inertia = solve_symmetric(between_, no_side_, work_);
+  if (!inertia.is_certain || inertia.is_singular) return false;
+  negative_ += inertia.negative - n;
+  return join(segment, Between::may_be_saddle);
+}
+
+bool SegmentChain::join(const SegmentValue& segment, Between between) {
   // A size that the compiler knows, or a bound of it, needs no memory from the heap, which would take longer than the
   // arithmetic. Every further size costs compile time.
   constexpr int usual = 4;
   constexpr int most = 16;
   const Eigen::Index n = total_.P.rows();
-  if (n == usual) return join_sized<usual, usual>(segment);
-  return n <= most ? join_sized<Eigen::Dynamic, most>(segment) : join_sized<Eigen::Dynamic, Eigen::Dynamic>(segment);
+  if (n == usual) return join_sized<usual, usual>(segment, between);
+  return n <= most ? join_sized<Eigen::Dynamic, most>(segment, between)
+                   : join_sized<Eigen::Dynamic, Eigen::Dynamic>(segment, between);
 }
 
 template <int size, int most>
-bool SegmentChain::join_sized(const SegmentValue& segment) {
+bool SegmentChain::join_sized(const SegmentValue& segment, Between between) {
   // Columns (X, ν, 1), and one of zeros: an even number fills vector registers.
   constexpr int wide = size == Eigen::Dynamic ? Eigen::Dynamic : 2 * size + 2;
   constexpr int widest = most == Eigen::Dynamic ? Eigen::Dynamic : 2 * most + 2;
@@ -120,12 +149,14 @@ bool SegmentChain::join_sized(const SegmentValue& segment) {
   const Vector constant = total_.p;
   Matrix stiffness = total_.P;
   stiffness.diagonal() -= terminal_weights_;
-  // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
-  // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
-  const auto factor = semidefinite_factor<Matrix>(reachability);
-  const Matrix weighed = product<most>(stiffness, factor);
-  Matrix between = identity + product<most>(factor.transpose(), weighed);
-  if (!is_positive_definite(between)) return false;
+  if (between == Between::must_be_minimum) {
+    // The state y between and the multiplier ν' of the segment in front make (stiffness, -I; -I, -Γ): two such blocks
+    // have the inertia of a minimum exactly if I + Lᵀ stiffness L is positive definite.
+    const auto factor = semidefinite_factor<Matrix>(reachability);
+    const Matrix weighed = product<most>(stiffness, factor);
+    Matrix form = identity + product<most>(factor.transpose(), weighed);
+    if (!is_positive_definite(form)) return false;
+  }
   // y as a function of (X, ν, 1).
   Matrix system = identity + product<most>(reachability, stiffness);
   Wide state(n, 2 * n + 2);

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "methods/solvers/kkt/intervals/dense_inertia.hpp"
+
 namespace dmocbench::kkt {
 
 /// A stretch of the horizon as seen from its ends: the value of its inside as a function of the state X at its
@@ -26,8 +28,14 @@ class SegmentChain {
  public:
   /// `terminal_weights` are the ρ_i (terminal_weights.hpp).
   void start(const SegmentValue& last, const Eigen::VectorXd& terminal_weights);
-  /// Puts a segment in front. False if eliminating the state between is no minimum.
+  /// Puts a segment in front whose pivots were all positive. False if eliminating the state between is no minimum;
+  /// then the chain stays as it was.
   [[nodiscard]] bool join(const SegmentValue& segment);
+  /// Puts any segment in front, and counts. False if rounding hides the inertia of what is eliminated; then the chain
+  /// stays as it was.
+  [[nodiscard]] bool join_and_count(const SegmentValue& segment);
+  /// How many eigenvalues of what the joins eliminated are negative, beyond those of a minimum.
+  [[nodiscard]] Eigen::Index negative() const noexcept { return negative_; }
 
   [[nodiscard]] const SegmentValue& total() const noexcept { return total_; }
 
@@ -46,13 +54,19 @@ class SegmentChain {
     Eigen::VectorXd constant;
   };
 
+  enum class Between : unsigned char { must_be_minimum, may_be_saddle };
+  [[nodiscard]] bool join(const SegmentValue& segment, Between between);
+  template <int size, int most>
+  [[nodiscard]] bool join_sized(const SegmentValue& segment, Between between);
+
   Eigen::VectorXd terminal_weights_;
   SegmentValue total_;
-  template <int size, int most>
-  [[nodiscard]] bool join_sized(const SegmentValue& segment);
-
   std::vector<Join> joins_;  // last to first; the first `count_` of them are of this chain
   std::size_t count_ = 0;
+  Eigen::Index negative_ = 0;
+  Eigen::MatrixXd between_;  // of `join_and_count`
+  Eigen::VectorXd no_side_;
+  SymmetricWork work_;
 };
 
 }  // namespace dmocbench::kkt

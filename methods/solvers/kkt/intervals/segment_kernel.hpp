@@ -38,6 +38,16 @@ struct Scatter {
 
 /// A pivot of the free unknowns' Hessian below this share of its diagonal entry is rounding.
 inline constexpr double smallest_pivot_share = 1e-13;
+/// Above this share rounding leaves no doubt about its sign, nor about those of the pivots that follow.
+inline constexpr double certain_pivot_share = 1e-6;
+
+/// What the pivots of the free unknowns' Hessians in a group of segments tell.
+enum class FreePivots : unsigned char {
+  positive,           ///< all are positive, beyond rounding
+  some_negative,      ///< some are negative, none is near zero: their number tells the inertia
+  too_many_negative,  ///< of a segment more than its state has entries: whatever its end is, there is no minimum
+  near_zero,          ///< some are not positive, and some so near zero that rounding decides
+};
 
 /// How the intervals of a program are eliminated; the same for all of them.
 struct EliminationPlan {
@@ -77,9 +87,9 @@ struct SegmentGroup {
   std::array<double, lane_count> lane_pivots_hold{};     ///< of interleaved lanes: 1, or -1 where one did not
   std::array<double, lane_count> lane_smallest_ratio{};  ///< of interleaved lanes
 
-  bool pivots_hold = false;     ///< all pivots of the free unknowns' Hessians are positive, beyond rounding; if
-                                ///< not, the sweep ended early and left no value
-  double smallest_ratio = 0.0;  ///< smallest pivot of the equalities, relative to the usual one
+  FreePivots pivots = FreePivots::near_zero;  ///< in the last two cases the sweep ended early and left no value
+  int negative_pivots = 0;                    ///< of all segments, if `some_negative`
+  double smallest_ratio = 0.0;                ///< smallest pivot of the equalities, relative to the usual one
 };
 
 /// The input of a backward sweep: the arrays by `Source`, and the weights at the end of a segment

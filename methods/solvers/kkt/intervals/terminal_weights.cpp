@@ -144,6 +144,10 @@ void TerminalWeights::take(std::size_t level) {
 
 void TerminalWeights::prefer_middle() noexcept { level_ = middle; }
 
+void TerminalWeights::raise() noexcept {
+  if (level_ < middle) ++level_;
+}
+
 void TerminalWeights::observe(const Eigen::MatrixXd& Gamma) {
   for (Eigen::Index i = 0; i < values_.size(); ++i) {
     if (!(Gamma(i, i) > 0.0)) continue;

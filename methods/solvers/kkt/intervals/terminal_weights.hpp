@@ -49,6 +49,8 @@ class TerminalWeights {
   /// Begins with the multiple that is neither small nor the largest. For a segment that is the whole horizon: nothing
   /// is joined, so fewer of the digits that a large weight takes from the reachability are missed.
   void prefer_middle() noexcept;
+  /// The next matrix begins with a larger multiple, unless this one is the middle one or larger.
+  void raise() noexcept;
   /// All multiples are to be tried after the next failure.
   void distrust_next_failure() noexcept { believed_ = 0; }
   /// Reads the stiffness off the reachability Γ of a segment that was eliminated with these weights.
