@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/options.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/primitives/planned_motion.hpp"
 #include "bench/primitives/roadmap_file.hpp"
@@ -71,8 +71,7 @@ const Columns<PlannedMotion> columns{
 
 /// The choices of a user.
 struct PrimitivesOptions {
-  std::vector<std::string> problems = all_names();
-  std::vector<std::string> settings = {};
+  ProblemOptions asked{.problems = all_names()};
   std::filesystem::path roadmap = {};
   std::filesystem::path store = {};
   PlanOptions plan = {};
@@ -85,8 +84,7 @@ struct PrimitivesOptions {
 };
 
 void add_options(CommandLine& line, PrimitivesOptions& options) {
-  line.list("--problem", options.problems, "problems that have primitives");
-  line.option("--set", options.settings, "parameter=value of a problem; may be repeated");
+  options.asked.add_to(line);
   line.option("--roadmap", options.roadmap, "reads the roadmap from this file instead of building it; one problem");
   line.option("--store", options.store, "stores the roadmap in this file; one problem");
   line.number("--repeats", options.plan.repeats, 1, 100000, "searches that are timed");
@@ -123,11 +121,10 @@ int measure_all(CommandLine& line) {
   PrimitivesOptions options;
   add_options(line, options);
   TableRun run("primitives", line);
-  const auto problems = selected_problems(options.problems, options.settings);
+  const auto problems = options.asked.selected();
   if (problems.size() != 1 && !(options.roadmap.empty() && options.store.empty())) {
     throw Error("--roadmap and --store are about the roadmap of one problem: name it by --problem");
   }
-  for (const auto& problem : problems) static_cast<void>(roadmap_system(problem->name()));
   if (!options.store.empty()) require_writable(options.store);
   std::vector<PlannedMotion> rows;
   std::vector<PicturePoint> points;

@@ -26,7 +26,7 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
     set autoscale
     set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
     set xlabel is_lattice ? "q_1" : "first coordinate of the picture"
-    set ylabel is_lattice ? "q_2" : "second coordinate of the picture"
+    set ylabel is_lattice ? "q_2, or the velocity of a single q" : "second coordinate of the picture"
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\

@@ -9,13 +9,16 @@ namespace dmocbench {
 
 namespace {
 
+/// (q, v) of a single configuration.
+ExpressionVector with_velocity(const ControlledState& x) { return ExpressionVector{{x.q[0], x.v[0]}}; }
+
 /// Where states are in the plane.
 class PicturePlane {
  public:
   PicturePlane(const Problem& problem, bool shows_configurations)
       : name_(problem.name()),
         function_(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
-          if (shows_configurations) return ExpressionVector(x.q.head(2));
+          if (shows_configurations) return x.q.size() > 1 ? ExpressionVector(x.q.head(2)) : with_velocity(x);
           const Picture all = pictured_quantities(problem, x);
           return ExpressionVector{{all.at(0).value, all.at(1).value}};
         }) {}
@@ -49,7 +52,7 @@ Columns<PicturePoint> picture_columns() {
            &PicturePoint::part},
           {"t", "", "time in the problem's unit; empty for nodes", &PicturePoint::t},
           {"x", "", "first quantity of the problem's picture, or q_1 where states lie on a lattice", &PicturePoint::x},
-          {"y", "", "second quantity, or q_2", &PicturePoint::y},
+          {"y", "", "second quantity, or q_2, or the velocity of a single q", &PicturePoint::y},
           {"u", "", "first control; empty for nodes", &PicturePoint::u}};
 }
 

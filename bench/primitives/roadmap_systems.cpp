@@ -1,6 +1,6 @@
 #include "bench/primitives/roadmap_systems.hpp"
 
-#include "methods/choose.hpp"
+#include <algorithm>
 
 namespace dmocbench {
 
@@ -18,7 +18,9 @@ const std::vector<RoadmapSystem>& roadmap_systems() {
 }
 
 const RoadmapSystem& roadmap_system(const std::string& problem) {
-  return one_of(roadmap_systems(), &RoadmapSystem::problem, problem, "there is no roadmap of");
+  static const RoadmapSystem any{"", "lattice of states", roadmap_along_a_motion, 64, 2, true};
+  const auto found = std::ranges::find(roadmap_systems(), problem, &RoadmapSystem::problem);
+  return found != roadmap_systems().end() ? *found : any;
 }
 
 }  // namespace dmocbench

@@ -20,13 +20,14 @@ struct RoadmapSystem {
   BuildRoadmap build;
   int intervals = 64;  ///< of the full solve
   int stages = 2;      ///< of its Gauss tableau
-  /// Its picture is the plane of q_1 and q_2, not that of the first two quantities of `ProblemCard::picture`.
+  /// Its picture is the plane of q_1 and q_2, or of q_1 and its velocity where there is no other configuration; not
+  /// that of the first two quantities of `ProblemCard::picture`.
   bool shows_configurations = false;
 };
 
-/// All problems that have primitives. To add one, write its function below and a line into the list.
+/// All problems whose primitives are chosen by hand. To add one, write its function below and a line into the list.
 [[nodiscard]] const std::vector<RoadmapSystem>& roadmap_systems();
-/// The one of that name. Throws `Error` that lists the names if there is none.
+/// The one of that name; for any other problem `roadmap_along_a_motion`.
 [[nodiscard]] const RoadmapSystem& roadmap_system(const std::string& problem);
 
 /// Problems whose trims turn about an axis (`Problem::symmetry`) at any rate: circular orbits, the cones of a spherical
@@ -41,5 +42,10 @@ struct RoadmapSystem {
 [[nodiscard]] StoredRoadmap two_link_roadmap(const Problem& problem, const PrimitiveOptions& options);
 [[nodiscard]] StoredRoadmap cart_pole_roadmap(const Problem& problem, const PrimitiveOptions& options);
 [[nodiscard]] StoredRoadmap acrobot_roadmap(const Problem& problem, const PrimitiveOptions& options);
+
+/// Any problem: a lattice of states, whose cells are a share of the ranges of the motion that DMOC finds from the
+/// problem's guess, and whose controls go a little beyond those of that motion. Throws `Error` if there is none, or as
+/// `lattice_roadmap`.
+[[nodiscard]] StoredRoadmap roadmap_along_a_motion(const Problem& problem, const PrimitiveOptions& options);
 
 }  // namespace dmocbench

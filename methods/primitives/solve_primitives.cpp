@@ -46,13 +46,7 @@ class PrimitiveBatch {
         horizon_(library.step * duration),
         program_(problem, *make_element("dmoc"), gauss_tableau(1),
                  Grid::uniform(static_cast<long long>(duration) * library.intervals_per_step)) {
-    const ProblemBounds bounds = problem.bounds();
-    if (!bounds.first.all_fixed() || !bounds.last.all_fixed() || bounds.horizon.is_free() || program_.end_functions()) {
-      throw Error(
-          fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost or "
-                      "boundary conditions",
-                      problem.name()));
-    }
+    require_primitives(program_);
     program_.set_horizon(horizon_);
     usual_ = sample(program_, guessed_motion(problem));
   }
@@ -121,6 +115,16 @@ void require_possible(const PrimitiveRequest& request, const PrimitiveLibrary& l
 }
 
 }  // namespace
+
+void require_primitives(const Transcription& program) {
+  const ProblemBounds bounds = program.problem().bounds();
+  if (bounds.first.all_fixed() && bounds.last.all_fixed() && !bounds.horizon.is_free() && !program.end_functions())
+    return;
+  throw Error(
+      fmt::format("{} has no primitives: both ends and the horizon must be fixed, without a final cost or boundary "
+                  "conditions",
+                  program.problem().name()));
+}
 
 void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest>& requests, PrimitiveLibrary& library,
                       const PrimitiveOptions& options) {

@@ -11,6 +11,7 @@
 #include "methods/primitives/displacement.hpp"
 #include "methods/primitives/primitive_library.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/transcription.hpp"
 
 namespace dmocbench {
 
@@ -37,11 +38,15 @@ struct PrimitiveOptions {
   std::function<bool()> stop_requested = {};
 };
 
+/// Throws `Error` if the problem has no primitives: if it has other ends than fixed ones, a free horizon, a final cost
+/// or boundary conditions. `program` is any transcription of it.
+void require_primitives(const Transcription& program);
+
 /// Solves primitives by DMOC with the midpoint rule and appends those that are solved to the library, in the order of
 /// the requests. All of one duration are one batch (`solve_batch`): eight side by side, on all threads.
 ///
-/// Bounds and path constraints are those of the problem. Throws `Error` if the problem has other ends than fixed ones,
-/// a free horizon, a final cost or boundary conditions, if a state does not exist, or a duration is less than a step.
+/// Bounds and path constraints are those of the problem. Throws `Error` as `require_primitives`, if a state does not
+/// exist, or a duration is less than a step.
 void solve_primitives(const Problem& problem, const std::vector<PrimitiveRequest>& requests, PrimitiveLibrary& library,
                       const PrimitiveOptions& options = {});
 
