@@ -6,6 +6,7 @@ eval require("primitives", "problem,states,nodes,edges,cost_before,cost_after,re
 eval require("primitives_picture", "problem,part,t,x,y,u")
 
 cost_text(label, text) = strlen(text) == 0 ? label.": not solved" : sprintf("%s: J = %.5g", label, number(text))
+number_text(text, otherwise) = strlen(text) == 0 ? otherwise : sprintf("%.5g", number(text))
 
 do for [problem_word in problems_of("primitives", "cost_before")] {
   problem = entry(problem_word, "problem")
@@ -20,8 +21,8 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
         entry(told_of, "nodes")." nodes, ".entry(told_of, "edges")." edges; a plan takes "\
         .sprintf("%.2g", number(entry(told_of, "plan_milliseconds")))." ms.",\
         "Best of ".entry(told_of, "starts")." starts in the same total time: "\
-        .sprintf("%.5g", number(entry(told_of, "best_of_starts")))."; best known cost: "\
-        .sprintf("%.5g", number(entry(told_of, "reference_cost"))).".")\
+        .number_text(entry(told_of, "best_of_starts"), "no motion")."; best known cost: "\
+        .number_text(entry(told_of, "reference_cost"), "none").".")\
         offset 0, -0.4 margins 0.105, 0.985, 0.24, 0.79 spacing 0.12, 0.1
     set autoscale
     set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
