@@ -129,7 +129,6 @@ bool IntervalKkt::join_segments() {
   is_minimum_in_parts_ = true;
   for (std::size_t g = groups_.size(); g-- > 0;) {
     const bool has_minima = groups_[g].group().pivots == FreePivots::positive;
-    if (!has_minima) negative_ += groups_[g].group().negative_pivots;
     is_minimum_in_parts_ = is_minimum_in_parts_ && has_minima;
     for (int segment = lane_count - 1; segment >= 0; --segment) {
       const auto columns = [&](const double* numbers, Eigen::Index first, Eigen::Index count) {
@@ -144,9 +143,11 @@ bool IntervalKkt::join_segments() {
       segment_value_.gamma = columns(group.reachability, 0, 1);
       segment_value_.Gamma = columns(group.reachability, 1, X);
       if (has_minima) weights_.observe(segment_value_.Gamma);
+      const int negative = has_minima ? 0 : group.negative[static_cast<std::size_t>(segment)];
+      negative_ += negative;
       if (std::exchange(is_last, false)) {
         chain_.start(segment_value_, weights_.values());
-      } else if (!has_minima || !chain_.join(segment_value_)) {
+      } else if (negative > 0 || !chain_.join(segment_value_)) {
         if (!chain_.join_and_count(segment_value_)) return false;
         is_minimum_in_parts_ = false;
       }

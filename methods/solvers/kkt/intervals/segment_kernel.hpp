@@ -88,7 +88,7 @@ struct SegmentGroup {
   std::array<double, lane_count> lane_smallest_ratio{};  ///< of interleaved lanes
 
   FreePivots pivots = FreePivots::near_zero;  ///< in the last two cases the sweep ended early and left no value
-  int negative_pivots = 0;                    ///< of all segments, if `some_negative`
+  std::array<int, lane_count> negative{};     ///< how many pivots of each segment are negative, if `some_negative`
   double smallest_ratio = 0.0;                ///< smallest pivot of the equalities, relative to the usual one
 };
 
