@@ -85,7 +85,7 @@ class StructureAdvantage final : public Experiment {
 
   void check(const std::vector<Case>& cases) override {
     for (const Case& the_case : cases) static_cast<void>(solver_for(the_case, solver_options(options())));
-    reference_.emplace(options().out);
+    reference_ = IndirectReference(options().out);
   }
 
   /// The indirect solution.
@@ -106,25 +106,25 @@ class StructureAdvantage final : public Experiment {
     measured_.half_bandwidth = count.half_bandwidth;
     if (!is_usable(solved) || !solved.trajectory) return;
     try {
-      const double exact = reference_->near(*solved.the_case.problem, *solved.trajectory).cost();
+      const double exact = reference_.near(*solved.the_case.problem, *solved.trajectory).cost();
       measured_.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
     } catch (const Error& error) {
       solved.note(error.what());
     }
   }
 
-  [[nodiscard]] nlohmann::ordered_json findings() const override { return reference_->findings(); }
-  void add_findings(const nlohmann::ordered_json& findings) override { reference_->add_findings(findings); }
+  [[nodiscard]] nlohmann::ordered_json findings() const override { return reference_.findings(); }
+  void add_findings(const nlohmann::ordered_json& findings) override { reference_.add_findings(findings); }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
     write_table(prefix.string() + "_ratios.csv", advantage_ratios(table), metadata);
-    metadata["references"] = reference_->metadata();
+    metadata["references"] = reference_.metadata();
   }
 
  private:
   std::vector<std::string> factorisations_ = all_factorisations;
-  std::optional<IndirectReference> reference_;
+  IndirectReference reference_{std::filesystem::path()};  // of the folder of the run, once it is known
   struct {
     std::optional<double> per_iteration;
     std::optional<double> linear_algebra_per_iteration;

@@ -65,8 +65,8 @@ bool CaseBatch::share_program(const Case& a, const Case& b) {
          a.grid.relative_times() == b.grid.relative_times();
 }
 
-CaseBatch::CaseBatch(const Case& any, const SolverOptions& options)
-    : options_(options),
+CaseBatch::CaseBatch(const Case& any, SolverOptions options)
+    : options_(std::move(options)),
       problem_(program_problem(any)),
       program_(any.nominal ? transcribed(any, *problem_) : any.transcribe()),
       has_instances_(any.nominal != nullptr),
@@ -134,7 +134,7 @@ void CaseBatch::solve(std::span<BatchedCase> cases) {
 
 SolvedCase CaseBatch::judged(const BatchedCase& one) {
   give_values_of(*one.the_case);
-  SolvedCase solved{.the_case = *one.the_case, .program = program_, .solution = one.solution.value()};
+  SolvedCase solved{.the_case = *one.the_case, .program = program_, .solution = one.solution.value_or(Solution())};
   solved.start = one.instance.start;
   solved.tolerance = options_.tolerance;
   solved.is_timed = false;

@@ -38,7 +38,7 @@ class CaseBatch {
   [[nodiscard]] static bool share_program(const Case& a, const Case& b);
 
   /// The program of all cases that share it with this one. Throws `Error` as `Case::transcribe` does.
-  CaseBatch(const Case& any, const SolverOptions& options);
+  CaseBatch(const Case& any, SolverOptions options);
 
   /// Solves cases from their starts. Those that the batch cannot take are left without a solution: all of them where
   /// the program does not fit (`is_refused`), else the ones whose parameters formulas or bounds contain.

@@ -314,6 +314,7 @@ class Run {
     std::vector<CaseSpan> spans = spans_of_problems(cases_, is_own_);
     if (experiment_.card().takes_batches && options_.batch) spans = spans_of_programs(cases_, spans, parts_.groups());
     std::vector<std::filesystem::path> files;  // named by this process
+    files.reserve(spans.size());
     for (const CaseSpan& span : spans) {
       files.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), span.first)));
     }

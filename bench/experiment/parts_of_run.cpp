@@ -112,12 +112,13 @@ void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
   columns.insert(columns.end(), columns_.begin(), columns_.end());
   Table table(columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i]) continue;
-    Row row = *rows[i];
+    const std::optional<Row>& measured = rows[i];
+    if (!measured) continue;
+    Row row = *measured;
     row.set(case_column, i + 1);
     table.append(std::move(row));
   }
-  const Json description{{"part", part_->in_words()},
+  const Json description{{"part", part_.value_or(Part()).in_words()},
                          {"commit", metadata.at("commit")},
                          {"identity", identity_},
                          {"rows", table.rows().size()},

@@ -327,11 +327,12 @@ bool is_judged(Status status) { return is_solved(status) || status == Status::to
 IndependentChecks shared_checks(SolvedCase& solved) {
   SolvedCase& judged = solved.answer->judged;
   const std::string before = judged.solution.message;
-  if (!solved.answer->checks) solved.answer->checks = check_independently(judged);
+  std::optional<IndependentChecks>& checks = solved.answer->checks;
+  if (!checks) checks = check_independently(judged);
   const std::string& now = judged.solution.message;
   solved.solution.status = judged.solution.status;
   solved.solution.message = now.starts_with(before) ? solved.solution.message + now.substr(before.size()) : now;
-  return *solved.answer->checks;
+  return *checks;
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ class Instances {
     }
   }
 
-  [[nodiscard]] Transcription& program() { return *made_.program; }
+  [[nodiscard]] Transcription& program() const { return *made_.program; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return made_.start; }
   /// What was drawn for an instance, between -1 and 1.
   [[nodiscard]] const Eigen::VectorXd& place(std::size_t index) const { return states_[index].place; }

@@ -196,8 +196,8 @@ struct MeasuredChange {
   std::optional<Factor> factor;
   std::size_t round_count = 0;
 
-  MeasuredChange(const SharedProgram& program, Change changed, const TimesByWay& times)
-      : of(program), change(std::move(changed)) {
+  MeasuredChange(SharedProgram program, Change changed, const TimesByWay& times)
+      : of(std::move(program)), change(std::move(changed)) {
     const Times& from = times.at(change.from);
     const Times& to = times.at(change.to);
     if (!are_same(from, to)) return;
@@ -209,7 +209,8 @@ struct MeasuredChange {
     if (!factor) return "not both solved with equal costs";
     if (is_busy()) return "not judged on a busy machine";
     if (round_count < fewest_rounds) return "too few rounds";
-    return *factor->rounds.lower > 1.0 || *factor->rounds.upper < 1.0 ? "apart from 1" : "not apart from 1";
+    const bool is_apart = factor->rounds.lower.value_or(1.0) > 1.0 || factor->rounds.upper.value_or(1.0) < 1.0;
+    return is_apart ? "apart from 1" : "not apart from 1";
   }
 };
 

@@ -70,6 +70,7 @@ double seconds_per_interval(const RepeatedSolve& solve) {
   const StartedProgram long_one({solve.problem, solve.method, many, false});
   PreparedSolve prepared(*long_one.made.program);
   std::vector<double> seconds;
+  seconds.reserve(turns);
   for (int i = 0; i < turns; ++i) seconds.push_back(prepared.solve(long_one.start).seconds);
   entry->second = median(seconds) / many / prepared.solution().major_iterations.value_or(1);
   return entry->second;

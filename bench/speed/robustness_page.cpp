@@ -61,10 +61,11 @@ std::string iterations_in_words(const std::vector<SolvePair>& pairs) {
   const std::vector<double> ratios = iteration_ratios(pairs);
   if (ratios.empty()) return "No program is solved by both.\n\n";
   const auto above = std::ranges::count_if(ratios, [](double ratio) { return ratio > bearable; });
+  const auto at = [&](double share) { return quantile(ratios, share).value_or(ratios.back()); };
   return fmt::format(
       "Iterations of interior_point over those of Ipopt, of the {} that both solve: median {:.3g}, quartiles {:.3g} "
       "and {:.3g}, largest {:.3g}; above {} in {:.1f} %.\n\n",
-      ratios.size(), *quantile(ratios, 0.5), *quantile(ratios, 0.25), *quantile(ratios, 0.75), ratios.back(), bearable,
+      ratios.size(), at(0.5), at(0.25), at(0.75), ratios.back(), bearable,
       100.0 * static_cast<double>(above) / static_cast<double>(ratios.size()));
 }
 

@@ -48,8 +48,9 @@ struct Evaluation : Benchmark {
 
   Evaluation(const Benchmark& benchmark, const std::vector<Benchmark>& machine)
       : Benchmark(benchmark), time(median_of(ns_per_interval).value_or(0.0)) {
-    if (!bytes()) return;
-    const double working_set = *bytes() * number_in_label(*this, "intervals", 0.0);
+    const std::optional<double> moved = bytes();
+    if (!moved) return;
+    const double working_set = *moved * number_in_label(*this, "intervals", 0.0);
     const auto time_at = [&](double amount, const auto& limits) -> std::optional<Roof> {
       const auto found = std::ranges::find_if(machine, [&](const Benchmark& level) {
         return level.label("instruction_set") == label("instruction_set") && limits(level);
@@ -59,7 +60,7 @@ struct Evaluation : Benchmark {
     };
     const auto computing =
         time_at(operations(), [](const Benchmark& level) { return level.label("limit") == "arithmetic"; });
-    const auto moving = time_at(*bytes(), [&](const Benchmark& level) {
+    const auto moving = time_at(*moved, [&](const Benchmark& level) {
       return working_set > number_in_label(level, "more_than_bytes", working_set) &&
              working_set <= number_in_label(level, "up_to_bytes", 0.0);
     });

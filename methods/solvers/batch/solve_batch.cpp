@@ -203,6 +203,7 @@ BatchSummary solve_batch(NonlinearProgram& program, const MakeLanes& make_lanes,
   batch::SharedBatchQueue queue(program, lanes.front()->parameter_count(), next, take, options);
   // All of them read the program, which belongs to one thread at a time as soon as threads work.
   std::vector<std::unique_ptr<batch::LaneRun>> runs;
+  runs.reserve(lanes.size());
   for (std::unique_ptr<LaneProgram>& mine : lanes) {
     runs.push_back(
         std::make_unique<batch::LaneRun>(program, std::move(mine), batch::make_kkt(program, usual), options, queue));

@@ -66,7 +66,8 @@ class DmocStep {
   [[nodiscard]] std::vector<Expression> inputs(const IntervalUnknowns& interval, const ExpressionVector& roots) const {
     std::vector<ExpressionVector> parts{inputs_, interval.left_q, roots.tail(n_), roots.head(roots.size() - n_)};
     parts.insert(parts.end(), interval.controls.begin(), interval.controls.end());
-    parts.push_back(ExpressionVector{{interval.h, interval.t}});
+    const ExpressionVector step{{interval.h, interval.t}};
+    parts.push_back(step);
     parts.push_back(interval.left_second);
     const ExpressionVector all = stacked(parts);
     return {all.begin(), all.end()};
