@@ -39,6 +39,8 @@ std::optional<double> cost_of(const std::optional<Trajectory>& motion) {
 const Columns<PlannedMotion> columns{
     {"problem", "", "name of the problem", [](const PlannedMotion& p) { return p.problem->name(); }},
     {"states", "", "what the nodes are", [](const PlannedMotion& p) { return p.system->nodes; }},
+    {"horizontal", "", "x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
+    {"vertical", "", "y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},
     {"primitives", "", "in the library", [](const PlannedMotion& p) { return stored_of(p).library.primitives.size(); }},
     {"nodes", "", "of the roadmap", [](const PlannedMotion& p) { return stored_of(p).roadmap.nodes().size(); }},
     {"edges", "", "of the roadmap", [](const PlannedMotion& p) { return stored_of(p).roadmap.edges().size(); }},

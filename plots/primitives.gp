@@ -2,7 +2,8 @@
 #   gnuplot -e "results='results'" plots/primitives.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-eval require("primitives", "problem,states,nodes,edges,cost_before,cost_after,reference_cost,starts,best_of_starts,plan_milliseconds")
+shown = "horizontal,vertical,nodes,edges,cost_before,cost_after,reference_cost,starts,best_of_starts,plan_milliseconds"
+eval require("primitives", "problem,".shown)
 eval require("primitives_picture", "problem,part,t,x,y,u")
 
 cost_text(label, text) = strlen(text) == 0 ? label.": not solved" : sprintf("%s: J = %.5g", label, number(text))
@@ -10,9 +11,7 @@ number_text(text, otherwise) = strlen(text) == 0 ? otherwise : sprintf("%.5g", n
 
 do for [problem_word in problems_of("primitives", "cost_before")] {
   problem = entry(problem_word, "problem")
-  told_of = distinct("primitives", "nodes,edges,cost_before,cost_after,reference_cost,starts,best_of_starts,plan_milliseconds",\
-                     problem_word, "cost_before")
-  is_lattice = strstrt(distinct("primitives", "states", problem_word, "cost_before"), "lattice") > 0
+  told_of = distinct("primitives", shown, problem_word, "cost_before")
   points(part) = rows("primitives_picture", problem_word.",part=".part, "")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_primitives", 1080, 620)
@@ -26,8 +25,8 @@ do for [problem_word in problems_of("primitives", "cost_before")] {
         offset 0, -0.4 margins 0.105, 0.985, 0.24, 0.79 spacing 0.12, 0.1
     set autoscale
     set key at screen 0.5, screen 0.01 center bottom horizontal maxrows 1 width 1
-    set xlabel is_lattice ? "q_1" : "first coordinate of the picture"
-    set ylabel is_lattice ? "q_2, or the velocity of a single q" : "second coordinate of the picture"
+    set xlabel entry(told_of, "horizontal") noenhanced
+    set ylabel entry(told_of, "vertical") noenhanced
     unset title
     plot points("node") using "x":"y" with points pointtype 7 pointsize 0.25 linecolor rgb "#B8B8B8" title "nodes",\
          points("before") using "x":"y" with lines linetype 3 title cost_text("path", entry(told_of, "cost_before")),\

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <fmt/format.h>
+
 #include "methods/mechanics/point_function.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 
@@ -9,8 +11,20 @@ namespace dmocbench {
 
 namespace {
 
-/// (q, v) of a single configuration.
-ExpressionVector with_velocity(const ControlledState& x) { return ExpressionVector{{x.q[0], x.v[0]}}; }
+/// The two quantities of the plane. Of a single q on a lattice its velocity is the second.
+Picture plane_of(const Problem& problem, bool shows_configurations, const ControlledState& x) {
+  if (!shows_configurations) {
+    const Picture all = pictured_quantities(problem, x);
+    return {all.at(0), all.at(1)};
+  }
+  const std::vector<std::string> names = problem.configuration_names();
+  if (names.size() > 1) return {{names[0], "", x.q[0]}, {names[1], "", x.q[1]}};
+  return {{names[0], "", x.q[0]}, {"velocity of " + names[0], "", x.v[0]}};
+}
+
+std::string with_unit(const PictureQuantity& quantity) {
+  return quantity.unit.empty() ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit);
+}
 
 /// Where states are in the plane.
 class PicturePlane {
@@ -18,9 +32,8 @@ class PicturePlane {
   PicturePlane(const Problem& problem, bool shows_configurations)
       : name_(problem.name()),
         function_(problem.configuration_size(), problem.control_size(), [&](const ControlledState& x) {
-          if (shows_configurations) return x.q.size() > 1 ? ExpressionVector(x.q.head(2)) : with_velocity(x);
-          const Picture all = pictured_quantities(problem, x);
-          return ExpressionVector{{all.at(0).value, all.at(1).value}};
+          const Picture plane = plane_of(problem, shows_configurations, x);
+          return ExpressionVector{{plane[0].value, plane[1].value}};
         }) {}
 
   [[nodiscard]] PicturePoint at(const std::string& part, const BoundaryState& state, std::optional<double> t,
@@ -54,6 +67,16 @@ Columns<PicturePoint> picture_columns() {
           {"x", "", "first quantity of the problem's picture, or q_1 where states lie on a lattice", &PicturePoint::x},
           {"y", "", "second quantity, or q_2, or the velocity of a single q", &PicturePoint::y},
           {"u", "", "first control; empty for nodes", &PicturePoint::u}};
+}
+
+PictureAxes picture_axes(const PlannedMotion& planned) {
+  const Problem& problem = *planned.problem;
+  InputCounter counter;
+  const ExpressionVector q = counter.take(problem.configuration_size());
+  const ExpressionVector v = counter.take(problem.configuration_size());
+  const ExpressionVector u = counter.take(problem.control_size());
+  const Picture plane = plane_of(problem, planned.system->shows_configurations, {q, v, u, counter.take()});
+  return {.x = with_unit(plane[0]), .y = with_unit(plane[1])};
 }
 
 std::vector<PicturePoint> picture_of(const PlannedMotion& planned) {

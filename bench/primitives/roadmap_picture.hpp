@@ -22,6 +22,13 @@ struct PicturePoint {
 
 [[nodiscard]] Columns<PicturePoint> picture_columns();
 
+/// What x and y of the points of a plan are, in words with their unit.
+struct PictureAxes {
+  std::string x;
+  std::string y;
+};
+[[nodiscard]] PictureAxes picture_axes(const PlannedMotion& planned);
+
 /// Nodes (evenly chosen ones, if they are very many), path and motions.
 [[nodiscard]] std::vector<PicturePoint> picture_of(const PlannedMotion& planned);
 
