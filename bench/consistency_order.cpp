@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/measured_or_reason.hpp"
 #include "bench/experiment/options.hpp"
 #include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/process_pool.hpp"
@@ -113,19 +114,6 @@ std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
   return fit_order(points);
 }
 
-/// The errors of every tableau for one step, or why there are none.
-tl::expected<std::vector<ConsistencyErrors>, std::string> errors_of_step(const ConsistencyOrder& order,
-                                                                         const std::vector<Tableau>& tableaus,
-                                                                         double h) {
-  try {
-    return order.errors(tableaus, h);
-  } catch (const Stopped&) {
-    throw;
-  } catch (const Error& error) {
-    return tl::unexpected<std::string>(error.what());
-  }
-}
-
 /// Steps T/N, coarsest first.
 void measure(const Problem& problem, const std::vector<long long>& intervals, Results& results) {
   const std::vector<Tableau> tableaus = one_step_tableaus();
@@ -134,7 +122,7 @@ void measure(const Problem& problem, const std::vector<long long>& intervals, Re
   const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
   for (std::size_t k = 0; k < intervals.size(); ++k) {
     throw_if_interrupted();
-    errors.push_back(errors_of_step(order, tableaus, step(k)));
+    errors.push_back(measured_or_reason([&] { return order.errors(tableaus, step(k)); }));
   }
   for (std::size_t i = 0; i < tableaus.size(); ++i) {
     for (const auto& [quantity, error] : quantities) {

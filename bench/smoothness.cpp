@@ -4,57 +4,15 @@
 #include <memory>
 
 #include "bench/experiment/column.hpp"
-#include "bench/experiment/restated_problem.hpp"
+#include "bench/experiment/problem_options.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/smoothness/optimum_error.hpp"
+#include "bench/smoothness/situation.hpp"
+#include "methods/error.hpp"
 #include "methods/transcription/elements/element.hpp"
-#include "problems/registry.hpp"
 
 namespace dmocbench::smoothness_program {
-
-/// A problem whose optimum is smooth or has kinks.
-struct Situation {
-  std::string name;
-  std::string active;  ///< which bounds are: those of the "control", of the "state", or "nothing"
-  std::string end;     ///< "fixed" or "free"
-  std::shared_ptr<const Problem> base;
-  std::shared_ptr<const Problem> problem;
-  bool has_closed_form = false;
-};
-
-std::shared_ptr<Problem> with_parameter(const char* name, const char* parameter, double value) {
-  std::shared_ptr<Problem> problem = make_problem(name);
-  problem->set_parameter(parameter, value);
-  return problem;
-}
-
-/// Bounds of the force are about two thirds of the largest one without them. The kinks of the closed forms are at 1/6
-/// and 5/6 (force), 1/3 and 2/3 (beam) of the horizon.
-std::vector<Situation> situations() {
-  const std::shared_ptr<const Problem> integrator = make_problem("double_integrator");
-  const std::shared_ptr<const Problem> beam = with_parameter("beam", "bound", 1.0 / 9.0);
-  const std::shared_ptr<const Problem> links = make_problem("two_link_manipulator");
-  const std::shared_ptr<const Problem> quadrotor = make_problem("planar_quadrotor");
-  const std::shared_ptr<const Problem> bounded = with_parameter("double_integrator", "largest_force", 108.0 / 23.0);
-  const std::shared_ptr<const Problem> touching = with_parameter("beam", "bound", 0.2);
-  const auto restated = [](const auto& base, RestatedProblem::Changes changes) {
-    return std::make_shared<RestatedProblem>(base, std::move(changes));
-  };
-  return {
-      {"double_integrator", "nothing", "fixed", integrator, integrator, true},
-      {"double_integrator_bounded", "control", "fixed", bounded, bounded, true},
-      {"beam_touching", "state", "fixed", touching, touching, true},
-      {"beam", "state", "fixed", beam, beam, true},
-      {"two_link", "nothing", "fixed", links, links, false},
-      {"two_link_free_end", "nothing", "free", links, restated(links, {.final_weight = 100.0}), false},
-      {"two_link_bounded", "control", "fixed", links, restated(links, {.control = Bounds::all(2, -13.0, 13.0)}), false},
-      {"two_link_bounded_free_end", "control", "free", links,
-       restated(links, {.control = Bounds::all(2, -13.0, 13.0), .final_weight = 100.0}), false},
-      {"quadrotor_bounded", "control", "fixed", quadrotor, restated(quadrotor, {.control = Bounds::all(2, 1.6, 3.2)}),
-       false},
-  };
-}
 
 constexpr std::array quantities{
     std::pair{"state", &OptimumError::state},         std::pair{"costate_q", &OptimumError::costate_q},
@@ -122,8 +80,10 @@ class Smoothness {
  public:
   explicit Smoothness(const TableRun& run) : run_(run) {}
 
-  void measure(const Situation& situation) {
+  /// Fills in which bounds are active where the situation does not tell.
+  void measure(Situation& situation) {
     const Trajectory finer = finest(situation);
+    if (situation.active.empty()) situation.active = active_bounds(*situation.problem, finer);
     const KnownOptimum optimum(*situation.problem, situation.has_closed_form ? std::nullopt : std::optional(finer));
     const Start start{smooth_motion(finer)};
     for (const std::string& method : element_names()) {
@@ -200,11 +160,23 @@ class Smoothness {
   std::vector<MeasuredOrder> orders_;
 };
 
+std::vector<Situation> asked_situations(const ProblemOptions& asked) {
+  if (asked.problems.empty()) {
+    if (!asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
+    return example_situations();
+  }
+  std::vector<Situation> situations;
+  for (const auto& problem : asked.selected()) situations.push_back(situation_of(problem));
+  return situations;
+}
+
 int measure_all(CommandLine& line) {
+  ProblemOptions asked;
+  asked.add_to(line);
   TableRun run("smoothness", line);
+  std::vector<Situation> situations = asked_situations(asked);
   Smoothness smoothness(run);
-  const std::vector<Situation> all = situations();
-  for (const Situation& situation : all) smoothness.measure(situation);
+  for (Situation& situation : situations) smoothness.measure(situation);
   run.add("smoothness", error_columns, smoothness.errors());
   run.add("smoothness_slopes", order_columns, smoothness.orders());
   return run.write();
@@ -216,7 +188,7 @@ int run(int argc, char** argv) {
       "Orders of state, costate, control and cost where bounds are active and the optimal control has kinks, beside "
       "optima that are smooth, with fixed and with free final state: smoothness.csv, fitted orders in "
       "smoothness_slopes.csv. Errors are those against the closed form, or against DMOC with two stages on 1280 "
-      "intervals.",
+      "intervals. With --problem no examples, but these problems, as they are.",
       argc, argv, measure_all);
 }
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/measured_or_reason.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/step_control/controlled_steps.hpp"
 #include "bench/step_control/optimal_steps.hpp"
 #include "bench/structure/energy_columns.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
-#include "methods/error.hpp"
 
 namespace dmocbench::step_control_program {
 
@@ -145,13 +145,8 @@ std::vector<StepChoice> choices(const std::vector<SigmaReads>& sigmas, const std
 }
 
 std::optional<ControlledSteps::PeriodError> error_if_solved(const ControlledSteps& steps) {
-  try {
-    return steps.error_of_a_period();
-  } catch (const Stopped&) {
-    throw;
-  } catch (const Error&) {
-    return std::nullopt;
-  }
+  const auto error = measured_or_reason([&] { return steps.error_of_a_period(); });
+  return error ? std::optional(*error) : std::nullopt;
 }
 
 class Measurement {

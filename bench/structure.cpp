@@ -1,6 +1,8 @@
 // What the discrete flows preserve: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation
 // of a Modified Energy").
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/problem_options.hpp"
+#include "bench/experiment/start_provider.hpp"
 #include "bench/experiment/table_run.hpp"
 #include "bench/structure/energy_columns.hpp"
 #include "bench/structure/energy_tables.hpp"
@@ -10,7 +12,8 @@
 #include "bench/structure/rotations.hpp"
 #include "bench/structure/simulated_tables.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/error.hpp"
+#include "problems/registry.hpp"
 
 namespace dmocbench::structure_program {
 
@@ -83,40 +86,94 @@ void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results)
   if (const auto order = fit_order(points)) results.orders.push_back({on_ellipse(method), "oscillation", *order});
 }
 
-int write_tables(CommandLine& line) {
+/// The choices of a user.
+struct StructureOptions {
   int steps = 400;
   int steps_per_period = 64;
   long long periods = 10000;
-  line.number("--steps", steps, 1, 1000000, "steps of the forced maps");
-  line.number("--steps-per-period", steps_per_period, 16, 100000, "steps per period of the orbit");
-  line.number("--periods", periods, 3, 10000000, "periods of the orbit");
-  TableRun run("structure", line);
-  run.show("momentum against the work of forces");
-  run.add("structure_momentum", noether_table(steps));
-  run.show("momentum along motions with orthogonal forces");
-  run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options()));
-  run.show("rotations");
-  run.add("structure_rotations", rotations_table(steps));
-  run.show("the symplectic form");
-  run.add("structure_symplecticity", symplecticity_table());
-  run.show("modified energies");
-  const ModifiedEnergyTables modified = modified_energy_tables();
-  run.add("structure_modified_energy", modified.drifts);
-  run.add("structure_modified_energy_slopes", modified.orders);
+  ProblemOptions asked = {};  ///< without problems the examples
+};
+
+void add_options(CommandLine& line, StructureOptions& options) {
+  line.number("--steps", options.steps, 1, 1000000, "steps of the forced maps of the examples");
+  line.number("--steps-per-period", options.steps_per_period, 16, 100000, "steps per period of the orbit");
+  line.number("--periods", options.periods, 3, 10000000, "periods of the orbit");
+  options.asked.add_to(line);
+}
+
+void add_symplecticity(TableRun& run, const std::vector<MappedStates>& systems) {
+  const SymplecticityTable symplecticity = symplecticity_table(systems);
+  run.add("structure_symplecticity", symplecticity.table, symplecticity.unsolved);
+}
+
+void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
   run.show("energies against the work of forces");
-  const EnergyWorkTables work = energy_work_tables(TableRun::solver_options());
-  run.add("structure_energy_work", work.plain);
+  const EnergyWorkTables work = energy_work_tables(problems, TableRun::solver_options());
+  run.add("structure_energy_work", work.plain, work.unsolved);
   run.add("structure_modified_work", work.modified);
   run.add("structure_energy_work_slopes", work.orders);
+}
+
+void add_long_time_energy(TableRun& run, const StructureOptions& options) {
   EnergyResults results;
   for (const LongTimeMethod& method : long_time_methods()) {
     run.show("energy over many periods: " + method.name);
-    follow(method, steps_per_period, periods, true, results);
+    follow(method, options.steps_per_period, options.periods, true, results);
     if (method.name == "dmoc") oscillation_over_step(method, results);
   }
   run.add("structure_energy", period_columns, results.periods);
   run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
   run.add("structure_energy_slopes", order_columns, results.orders);
+}
+
+/// What is asked of examples that were chosen for it.
+void add_examples(TableRun& run, const StructureOptions& options) {
+  run.show("momentum against the work of forces");
+  run.add("structure_momentum", noether_table(options.steps));
+  run.show("momentum along motions with orthogonal forces");
+  run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options()));
+  run.show("rotations");
+  run.add("structure_rotations", rotations_table(options.steps));
+  run.show("the symplectic form");
+  add_symplecticity(run, example_states());
+  run.show("modified energies");
+  const ModifiedEnergyTables modified = modified_energy_tables();
+  run.add("structure_modified_energy", modified.drifts);
+  run.add("structure_modified_energy_slopes", modified.orders);
+  std::vector<std::shared_ptr<const Problem>> problems;
+  for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
+  add_energy_against_work(run, problems);
+  add_long_time_energy(run, options);
+}
+
+/// What can be asked of any problem, along its optimal motions.
+void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
+  StartProvider starts({}, TableRun::solver_options());
+  std::vector<MappedStates> systems;
+  for (const auto& problem : problems) {
+    run.show(problem->name() + ": the symplectic form along an optimal motion");
+    const Case fine{.problem = problem,
+                    .method = "dmoc",
+                    .tableau = "gauss",
+                    .stages = 2,
+                    .solver = "ipopt",
+                    .grid = Grid::uniform(256)};
+    systems.push_back(states_along(problem, starts.solve(fine)));
+  }
+  add_symplecticity(run, systems);
+  add_energy_against_work(run, problems);
+}
+
+int write_tables(CommandLine& line) {
+  StructureOptions options;
+  add_options(line, options);
+  TableRun run("structure", line);
+  if (!options.asked.problems.empty()) {
+    add_problems(run, options.asked.selected());
+  } else {
+    if (!options.asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
+    add_examples(run, options);
+  }
   return run.write();
 }
 
@@ -129,7 +186,9 @@ int run(int argc, char** argv) {
       "(structure_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
       "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
       "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
-      "paper's problems (structure_energy_work.csv, structure_modified_work.csv).",
+      "paper's problems (structure_energy_work.csv, structure_modified_work.csv). With --problem no examples, but of "
+      "each of these problems the symplectic form at states of an optimal motion, and energy and modified energy "
+      "against work along optimal motions.",
       argc, argv, write_tables);
 }
 

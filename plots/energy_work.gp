@@ -3,8 +3,12 @@
 #   gnuplot -e "results='results'" plots/energy_work.gp
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
-eval require("structure_modified_energy", "problem,method,tableau,stages,h,truncation,drift")
-eval require("structure_modified_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+# Runs about problems of a user have no free motions.
+has_free_motions = exists_table("structure_modified_energy")
+if (has_free_motions) {
+  eval require("structure_modified_energy", "problem,method,tableau,stages,h,truncation,drift")
+  eval require("structure_modified_energy_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
+}
 eval require("structure_energy_work", "problem,method,tableau,stages,h,largest_gap")
 eval require("structure_modified_work", "problem,method,tableau,stages,h,truncation,gap_to_modified_work")
 eval require("structure_energy_work_slopes", "problem,method,tableau,stages,quantity,slope,standard_error")
@@ -19,7 +23,7 @@ of_truncation(problem, method, truncation) = scheme(problem, method).",truncatio
 step_tics = "set xtics autofreq; set format x '%g'; set xtics add (0.003, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5)"
 
 # One panel of truncated energies: filled discs of DMOC, open triangles of tangent-space collocation.
-do for [where in problems_of("structure_modified_energy", "drift")] {
+do for [where in has_free_motions ? problems_of("structure_modified_energy", "drift") : ""] {
   problem = entry(where, "problem")
   do for [kind in kinds] {
     eval begin_figure(kind, problem."_modified_energy", 900, 760)

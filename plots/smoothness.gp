@@ -23,8 +23,8 @@ do for [kind in kinds] {
   eval begin_figure(kind, "smoothness", 1200, 840)
   set multiplot layout 1, 2 title title_text(\
       "State error of DMOC over the step, with and without active bounds",\
-      "Blue: smooth optima; red: a bound on the control is active, green: one on the state; broken lines: the final state is free.",\
-      "Double integrator and beam against their closed forms, the others against DMOC with s = 2 on 1280 intervals.")\
+      "Blue: no bound is active; red: one on the control is, green: one on the state; broken lines: the final state is free.",\
+      "Against the closed form where there is one, otherwise against DMOC with s = 2 on 1280 intervals.")\
       offset 0, -0.4 margins 0.075, 0.985, 0.42, 0.84 spacing 0.1
   do for [stages = 1:2] {
     eval power_axis("xy")

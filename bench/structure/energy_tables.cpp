@@ -2,15 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/measured_or_reason.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/experiment/start_provider.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/modified_energy.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
+#include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "problems/registry.hpp"
@@ -20,6 +27,10 @@ namespace dmocbench {
 namespace {
 
 constexpr std::array truncations{2, 4, 6};
+/// Below these shares of the largest work a gap is what solver and rounding leave: that of the solved motion, and that
+/// of its replay in long double.
+constexpr double share_of_solver = 1e-10;
+constexpr double share_of_rounding = 1e-16;
 
 /// The midpoint rule of one family of elements on one problem, in long double, with all that is asked of its energy.
 class FollowedEnergy {
@@ -95,7 +106,8 @@ class Curves {
   void add(const std::string& quantity, double h, double error) { points_[quantity].push_back({h, error}); }
   void fit_into(std::vector<FittedQuantity>& fits, const Scheme& scheme) const {
     for (const auto& [quantity, points] : points_) {
-      if (const auto order = fit_order(points)) fits.push_back({scheme, quantity, *order});
+      const auto order = fit_order(points);
+      if (order && order->points > 2) fits.push_back({scheme, quantity, *order});
     }
   }
 
@@ -159,7 +171,8 @@ struct PlainGap {
   Scheme scheme;
   long long intervals = 0;
   double h = 0.0;
-  EnergyBalance balance;
+  std::optional<EnergyBalance> balance;
+  std::string message;
 };
 
 constexpr auto balance_of = &PlainGap::balance;
@@ -170,9 +183,13 @@ const Columns<PlainGap> plain_columns =
         {"h", "", "step", &PlainGap::h},
         {"energy_change", "", "E(T) - E(0)", from(balance_of, &EnergyBalance::change)},
         {"work", "", "virtual work of the control forces", from(balance_of, &EnergyBalance::work)},
-        {"gap", "", "their difference", [](const PlainGap& e) { return e.balance.change - e.balance.work; }},
+        {"gap", "", "their difference",
+         [](const PlainGap& e) {
+           return e.balance ? std::optional(e.balance->change - e.balance->work) : std::nullopt;
+         }},
         {"largest_gap", "", "largest difference over the nodes", from(balance_of, &EnergyBalance::largest_gap)},
-        {"largest_work", "", "largest work over the nodes", from(balance_of, &EnergyBalance::largest_work)}};
+        {"largest_work", "", "largest work over the nodes", from(balance_of, &EnergyBalance::largest_work)},
+        {"message", "", "why there is no energy", &PlainGap::message}};
 
 /// The rows of all tables before they are written.
 struct EnergyWorkRows {
@@ -180,6 +197,21 @@ struct EnergyWorkRows {
   std::vector<Gap> modified;
   std::vector<FittedQuantity> fits;
 };
+
+/// What is measured along one optimal motion.
+struct EnergyAlongMotion {
+  double h = 0.0;
+  EnergyBalance balance;
+  FollowedEnergy::Deviations gaps;
+};
+
+EnergyAlongMotion energy_along(const Trajectory& motion, const Problem& problem, const FollowedEnergy& followed) {
+  const double h = motion.step(0);
+  const MotionPoint first = motion.node(0);
+  return {.h = h,
+          .balance = energy_balance(problem, motion),
+          .gaps = followed.along({first.q, first.v}, motion.stage_u, h)};
+}
 
 /// One problem by one method: the optimal controls are replayed by the method's own map in long double, so that the
 /// rounding of the solve does not hide the small gaps.
@@ -192,15 +224,22 @@ void follow_optimal_motions(const std::shared_ptr<const Problem>& problem, const
   for (const long long intervals : {32, 48, 64, 96, 128, 192, 256}) {
     throw_if_interrupted();
     the_case.grid = Grid::uniform(intervals);
-    const Trajectory motion = starts.solve(the_case);
-    const double h = problem->horizon() / static_cast<double>(intervals);
-    rows.plain.push_back({scheme, intervals, h, energy_balance(*problem, motion)});
-    curves.add("gap", h, rows.plain.back().balance.largest_gap);
-    const FollowedEnergy::Deviations gaps = followed.along(problem->initial_state(), motion.stage_u, h);
+    const auto measured = measured_or_reason([&] { return energy_along(starts.solve(the_case), *problem, followed); });
+    if (!measured) {
+      const double guessed = problem->horizon() / static_cast<double>(intervals);
+      rows.plain.push_back({scheme, intervals, guessed, std::nullopt, measured.error()});
+      continue;
+    }
+    const auto& [h, balance, gaps] = *measured;
+    rows.plain.push_back({scheme, intervals, h, balance, {}});
+    const auto add = [&, h = h, work = balance.largest_work](const std::string& quantity, double gap, double share) {
+      if (gap > share * work) curves.add(quantity, h, gap);
+    };
+    add("gap", balance.largest_gap, share_of_solver);
     for (std::size_t i = 0; i < truncations.size(); ++i) {
       rows.modified.push_back({scheme, intervals, h, truncations[i], gaps.from_work[i], gaps.from_modified_work[i]});
-      curves.add(fmt::format("gap_to_work_{}", truncations[i]), h, gaps.from_work[i]);
-      curves.add(fmt::format("gap_to_modified_work_{}", truncations[i]), h, gaps.from_modified_work[i]);
+      add(fmt::format("gap_to_work_{}", truncations[i]), gaps.from_work[i], share_of_rounding);
+      add(fmt::format("gap_to_modified_work_{}", truncations[i]), gaps.from_modified_work[i], share_of_rounding);
     }
   }
   curves.fit_into(rows.fits, scheme);
@@ -231,14 +270,15 @@ ModifiedEnergyTables modified_energy_tables() {
   return {.drifts = table_of(drift_columns, drifts), .orders = table_of(fitted_columns, fits)};
 }
 
-EnergyWorkTables energy_work_tables(const SolverOptions& options) {
+EnergyWorkTables energy_work_tables(const std::vector<std::shared_ptr<const Problem>>& problems,
+                                    const SolverOptions& options) {
   StartProvider starts({}, options);
   EnergyWorkRows rows;
-  for (const std::string& name : paper_problem_names()) {
-    const std::shared_ptr<const Problem> problem = make_problem(name);
+  for (const auto& problem : problems) {
     for (const std::string& method : element_names()) follow_optimal_motions(problem, method, starts, rows);
   }
-  return {.plain = table_of(plain_columns, rows.plain),
+  return {.unsolved = std::ranges::count_if(rows.plain, [](const PlainGap& row) { return !row.balance; }),
+          .plain = table_of(plain_columns, rows.plain),
           .modified = table_of(gap_columns, rows.modified),
           .orders = table_of(fitted_columns, rows.fits)};
 }

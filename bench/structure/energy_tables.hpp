@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
 #include "bench/experiment/solve_case.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/tables/table.hpp"
@@ -13,14 +17,16 @@ struct ModifiedEnergyTables {
 };
 [[nodiscard]] ModifiedEnergyTables modified_energy_tables();
 
-/// Energy against the virtual work of the forces along the optimal motions of the paper's problems, by the midpoint
-/// rule in every family of elements.
+/// Energy against the virtual work of the forces along the optimal motions of some problems, by the midpoint rule in
+/// every family of elements.
 struct EnergyWorkTables {
-  Table plain;     ///< the energy itself, a row per problem, method and grid
-  Table modified;  ///< the truncated modified energies, a row per order of truncation too
-  Table orders;    ///< fitted orders of the gaps of both
+  std::ptrdiff_t unsolved = 0;  ///< rows of `plain` whose motion was not solved on the common branch: they say why
+  Table plain;                  ///< the energy itself, a row per problem, method and grid
+  Table modified;               ///< the truncated modified energies, a row per order of truncation too
+  Table orders;                 ///< fitted orders of the gaps of both, where solver and rounding leave less
 };
-/// Throws `Error` if a motion is not solved on the common branch.
-[[nodiscard]] EnergyWorkTables energy_work_tables(const SolverOptions& options);
+/// Throws `Error` if the Lagrangian of a problem depends on time.
+[[nodiscard]] EnergyWorkTables energy_work_tables(const std::vector<std::shared_ptr<const Problem>>& problems,
+                                                  const SolverOptions& options);
 
 }  // namespace dmocbench

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/experiment/column.hpp"
+#include "bench/experiment/measured_or_reason.hpp"
 #include "bench/experiment/process_pool.hpp"
 #include "bench/structure/example_systems.hpp"
 #include "bench/structure/one_step_tableaus.hpp"
@@ -115,36 +116,79 @@ Forced simulate(const Invariant& system, const Element& element, const Tableau& 
   return result;
 }
 
-struct Unforced {
-  Scheme scheme;
-  double h = 0.0;
-  double defect = 0.0;
+struct SymplecticityDefect {
+  double largest = 0.0;
   double rounding = 0.0;
 };
 
-Unforced unforced(const Problem& problem, const BoundaryState& start, double h, const Element& element,
-                  const Tableau& tableau) {
-  constexpr int states = 8;
+struct Unforced {
+  Scheme scheme;
+  double h = 0.0;
+  std::optional<SymplecticityDefect> defect = {};
+  std::string message = {};
+};
+
+SymplecticityDefect unforced_defect(const MappedStates& system, const Element& element, const Tableau& tableau) {
+  const Problem& problem = *system.problem;
   const TracedProblem traced(problem);
   const OneStepMap<double> map(traced, element, tableau);
   LegendreTransform legendre(traced);
   const Eigen::MatrixXd no_control = Eigen::MatrixXd::Zero(tableau.stages(), problem.control_size());
-  Unforced result{.scheme = {problem.name(), element.name(), tableau.family, tableau.stages()}, .h = h};
-  for (int k = 0; k < states; ++k) {
-    Eigen::VectorXd q = start.q;
-    Eigen::VectorXd v = start.v;
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
-      v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
-    }
-    const Eigen::MatrixXd d = map.jacobian(map.advance(q, legendre.momentum(q, v, 0.0), v, no_control, h, 0.0));
-    result.defect = std::max(result.defect, symplecticity_defect(d));
+  SymplecticityDefect result;
+  for (const auto& [q, v] : system.states) {
+    throw_if_interrupted();
+    const Eigen::VectorXd p = legendre.momentum(q, v, 0.0);
+    const Eigen::MatrixXd d = map.jacobian(map.advance(q, p, v, no_control, system.step, 0.0));
+    result.largest = std::max(result.largest, symplecticity_defect(d));
     result.rounding = std::max(result.rounding, std::numeric_limits<double>::epsilon() * d.cwiseAbs2().maxCoeff());
   }
   return result;
 }
 
+Unforced unforced(const MappedStates& system, const Element& element, const Tableau& tableau) {
+  Unforced result{.scheme = {system.problem->name(), element.name(), tableau.family, tableau.stages()},
+                  .h = system.step};
+  const auto defect = measured_or_reason([&] { return unforced_defect(system, element, tableau); });
+  if (defect) {
+    result.defect = *defect;
+  } else {
+    result.message = defect.error();
+  }
+  return result;
+}
+
+constexpr int mapped_states = 8;
+
+/// States around one, neither on a line nor random.
+std::vector<BoundaryState> states_around(const BoundaryState& centre) {
+  std::vector<BoundaryState> states(mapped_states, centre);
+  for (int k = 0; k < mapped_states; ++k) {
+    auto& [q, v] = states[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      q[i] += 0.1 * std::cos(k * (1.0 + static_cast<double>(i)));
+      v[i] += 0.1 * std::sin(k * (2.0 + static_cast<double>(i)));
+    }
+  }
+  return states;
+}
+
 }  // namespace
+
+std::vector<MappedStates> example_states() {
+  const auto kepler = std::make_shared<Kepler>();
+  return {{kepler, states_around(kepler->initial_state()), 0.1},
+          {make_problem("orbital_transfer"), states_around(RadialThrust().initial_state()), 0.2},
+          {make_problem("two_link_manipulator"), states_around(bent_links()), 0.1}};
+}
+
+MappedStates states_along(const std::shared_ptr<const Problem>& problem, const Trajectory& motion) {
+  MappedStates system{.problem = problem, .states = {}, .step = motion.step(0)};
+  for (Eigen::Index k = 0; k < mapped_states; ++k) {
+    const MotionPoint node = motion.node(k * motion.intervals() / mapped_states);
+    system.states.push_back({node.q, node.v});
+  }
+  return system;
+}
 
 Table noether_table(int steps) {
   std::vector<Forced> rows;
@@ -169,22 +213,20 @@ Table noether_table(int steps) {
   return table_of(scheme_columns<Forced>() + columns, rows);
 }
 
-Table symplecticity_table() {
+SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems) {
   std::vector<Unforced> rows;
-  const auto add = [&rows](const Problem& problem, const BoundaryState& start, double h) {
-    for_all_maps([&](const Element& element, const Tableau& tableau) {
-      rows.push_back(unforced(problem, start, h, element, tableau));
-    });
-  };
-  add(Kepler(), Kepler().initial_state(), 0.1);
-  add(*make_problem("orbital_transfer"), RadialThrust().initial_state(), 0.2);
-  add(*make_problem("two_link_manipulator"), bent_links(), 0.1);
-  const Columns<Unforced> columns{
-      {"h", "", "step", &Unforced::h},
-      {"defect", "", "largest entry of D^T Omega D - Omega over some states", &Unforced::defect},
-      {"rounding", "", "machine epsilon times the largest square of an entry of D", &Unforced::rounding},
-  };
-  return table_of(scheme_columns<Unforced>() + columns, rows);
+  for (const MappedStates& system : systems) {
+    for_all_maps(
+        [&](const Element& element, const Tableau& tableau) { rows.push_back(unforced(system, element, tableau)); });
+  }
+  const Columns<Unforced> columns{{"h", "", "step", &Unforced::h},
+                                  {"defect", "", "largest entry of D^T Omega D - Omega over some states",
+                                   from(&Unforced::defect, &SymplecticityDefect::largest)},
+                                  {"rounding", "", "machine epsilon times the largest square of an entry of D",
+                                   from(&Unforced::defect, &SymplecticityDefect::rounding)},
+                                  {"message", "", "why there is no defect", &Unforced::message}};
+  return {.table = table_of(scheme_columns<Unforced>() + columns, rows),
+          .unsolved = std::ranges::count_if(rows, [](const Unforced& row) { return !row.defect; })};
 }
 
 }  // namespace dmocbench

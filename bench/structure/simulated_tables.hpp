@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "methods/mechanics/problem.hpp"
 #include "methods/tables/table.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
 
 namespace dmocbench {
 
@@ -9,7 +15,22 @@ namespace dmocbench {
 /// source.
 [[nodiscard]] Table noether_table(int steps);
 
-/// The unforced one-step map's |DᵀΩD - Ω|, the largest over some states. A row per system, method and tableau.
-[[nodiscard]] Table symplecticity_table();
+/// Where one-step maps are asked whether they are symplectic.
+struct MappedStates {
+  std::shared_ptr<const Problem> problem;
+  std::vector<BoundaryState> states;  ///< where a step begins, at t = 0
+  double step = 0.0;                  ///< h
+};
+/// Eight states around one of each of three example systems.
+[[nodiscard]] std::vector<MappedStates> example_states();
+/// Eight nodes of a motion, evenly spread, with its first step.
+[[nodiscard]] MappedStates states_along(const std::shared_ptr<const Problem>& problem, const Trajectory& motion);
+
+/// The unforced one-step map's |DᵀΩD - Ω|, the largest over the states.
+struct SymplecticityTable {
+  Table table;                  ///< a row per system, method and tableau; columns are declared in the source
+  std::ptrdiff_t unsolved = 0;  ///< rows without a number because a step cannot be solved: they say why
+};
+[[nodiscard]] SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems);
 
 }  // namespace dmocbench

@@ -2,7 +2,9 @@
 
 #include "bench/experiment/restated_problem.hpp"
 #include "bench/smoothness/optimum_error.hpp"
+#include "bench/smoothness/situation.hpp"
 #include "problems/closed_form.hpp"
+#include "problems/double_integrator.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
@@ -83,6 +85,51 @@ TEST(RestatedProblem, LeavesTheFinalStateFreeAtThePriceOfItsDistance) {
   const Trajectory motion = tests::solve(problem, {"dmoc", 2}, Grid::uniform(4), guessed_motion(problem)).trajectory;
   EXPECT_NEAR(motion.q(4, 0), 0.25, 1e-9);
   EXPECT_NEAR(motion.v(4, 0), 0.25, 1e-9);
+}
+
+/// Which bounds are active at the optimum that DMOC finds on 40 intervals.
+std::string active_at_optimum(const Problem& problem) {
+  return active_bounds(problem,
+                       tests::solve(problem, {"dmoc", 1}, Grid::uniform(40), guessed_motion(problem)).trajectory);
+}
+
+TEST(ActiveBounds, AreThoseThatTheExamplesAreToldToHave) {
+  for (const Situation& situation : example_situations()) {
+    if (!situation.has_closed_form) continue;
+    EXPECT_EQ(active_at_optimum(*situation.problem), situation.active) << situation.name;
+  }
+}
+
+/// The double integrator with path constraints: a largest force and a largest speed.
+class ConstrainedIntegrator : public DoubleIntegrator {
+ public:
+  explicit ConstrainedIntegrator(double most_force, double most_speed) : force_(most_force), speed_(most_speed) {}
+  [[nodiscard]] ExpressionVector path_constraints(const ControlledState& x) const override {
+    return ExpressionVector{{force_ - x.u[0], force_ + x.u[0], speed_ - x.v[0]}};
+  }
+
+ private:
+  double force_;
+  double speed_;
+};
+
+TEST(ActiveBounds, CountPathConstraintsByWhatTheyRead) {
+  EXPECT_EQ(active_at_optimum(ConstrainedIntegrator(5.0, 9.0)), "control");
+  EXPECT_EQ(active_at_optimum(ConstrainedIntegrator(9.0, 1.4)), "state");
+  EXPECT_EQ(active_at_optimum(ConstrainedIntegrator(5.5, 1.45)), "control and state");
+  EXPECT_EQ(active_at_optimum(ConstrainedIntegrator(9.0, 9.0)), "nothing");
+}
+
+TEST(SituationOf, TellsEndsAndClosedFormsAndRefusesFreeHorizons) {
+  const Situation integrator = situation_of(bounded_integrator());
+  EXPECT_EQ(integrator.end, "fixed");
+  EXPECT_TRUE(integrator.has_closed_form);
+  const Situation links = situation_of(std::make_shared<RestatedProblem>(
+      make_problem("two_link_manipulator"), RestatedProblem::Changes{.final_weight = 1.0}));
+  EXPECT_EQ(links.end, "free");
+  EXPECT_FALSE(links.has_closed_form);
+  tests::expect_error_naming({"particle_steering", "free horizon"},
+                             [] { static_cast<void>(situation_of(make_problem("particle_steering"))); });
 }
 
 }  // namespace
