@@ -40,7 +40,7 @@ class LateCode {
   struct Source {
     Schedule schedule;
     TapeSeries series;
-    InstructionSet set;
+    InstructionSet set{};
   };
   void make();
 

@@ -31,7 +31,10 @@ TEST(Lifetime, TracingEndsWithItsStopScopeAndLeavesNothing) {
     const StopScope scope(nullptr, 1e-9);
     const Expression x = Expression::input(0);
     Expression sum;
-    EXPECT_THROW(for (int i = 0; i < million; ++i) sum += i * sin(i * x), Stopped);
+    const auto add_many = [&] {
+      for (int i = 0; i < million; ++i) sum += i * sin(i * x);
+    };
+    EXPECT_THROW(add_many(), Stopped);
   }
   EXPECT_EQ(live_nodes(), before);
 }

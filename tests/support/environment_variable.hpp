@@ -12,6 +12,8 @@ class EnvironmentVariable {
   explicit EnvironmentVariable(const char* name) : name_(name), before_(value()) {}
   EnvironmentVariable(const EnvironmentVariable&) = delete;
   EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+  EnvironmentVariable(EnvironmentVariable&&) = delete;
+  EnvironmentVariable& operator=(EnvironmentVariable&&) = delete;
   ~EnvironmentVariable() {
     unset();
     if (before_) set(*before_);
@@ -20,7 +22,7 @@ class EnvironmentVariable {
   // NOLINTBEGIN(concurrency-mt-unsafe): one thread
   void set(const std::string& value) const { setenv(name_, value.c_str(), 1); }
   void unset() const { unsetenv(name_); }
-  std::optional<std::string> value() const {
+  [[nodiscard]] std::optional<std::string> value() const {
     const char* const text = std::getenv(name_);
     return text == nullptr ? std::nullopt : std::optional<std::string>(text);
   }
