@@ -165,18 +165,18 @@ Eigen::VectorXd found_multipliers(NonlinearProgram& program, const Eigen::Vector
 }  // namespace
 
 void evaluate_kkt(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
-                  KktMemory& at) {
+                  KktMemory& memory) {
   require_size(primal.size(), program.variable_count(), "variables");
   require_size(multipliers.size(), program.constraint_count(), "multipliers");
-  resize_unwritten(at.constraints, multipliers.size());
-  resize_unwritten(at.gradient_of_cost, primal.size());
-  resize_unwritten(at.jacobian, static_cast<Eigen::Index>(program.jacobian_structure().size()));
-  program.constraints(primal, at.constraints);
-  program.gradient(primal, at.gradient_of_cost);
-  program.jacobian(primal, at.jacobian);
-  copy_to(at.gradient, at.gradient_of_cost);
+  resize_unwritten(memory.constraints, multipliers.size());
+  resize_unwritten(memory.gradient_of_cost, primal.size());
+  resize_unwritten(memory.jacobian, static_cast<Eigen::Index>(program.jacobian_structure().size()));
+  program.constraints(primal, memory.constraints);
+  program.gradient(primal, memory.gradient_of_cost);
+  program.jacobian(primal, memory.jacobian);
+  copy_to(memory.gradient, memory.gradient_of_cost);
   program.jacobian_structure().for_each(
-      [&](Eigen::Index e, int row, int column) { at.gradient[column] += at.jacobian[e] * multipliers[row]; });
+      [&](Eigen::Index e, int row, int column) { memory.gradient[column] += memory.jacobian[e] * multipliers[row]; });
 }
 
 KktResidual kkt_residual(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,

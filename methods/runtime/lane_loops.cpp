@@ -12,7 +12,7 @@ constexpr std::ptrdiff_t lanes = 8;
 static_assert(lanes == instance_lanes);
 
 inline Lanes load(const double* from) {
-  Lanes values;
+  Lanes values{};
   __builtin_memcpy(&values, from, sizeof values);
   return values;
 }
