@@ -11,6 +11,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/compound_steps.hpp"
 #include "methods/expression/late_code.hpp"
+#include "methods/expression/staged_outputs.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {
@@ -144,14 +145,22 @@ Tape::Workspace::Workspace(const Tape& tape)
   }
   for (std::size_t i = 0; i < tape.constants_.size(); ++i) std::fill_n(series_[i], block_width, tape.constants_[i]);
   if (const NativeCode* code = tape.late_code_ ? tape.late_code_->get() : nullptr) {
-    add_slots_for(*code, tape.series_count());
+    make_room_for(*code, tape);
   }
 }
 
-void Tape::Workspace::add_slots_for(const NativeCode& code, std::size_t series_before) {
+Tape::Workspace::Workspace(Workspace&&) noexcept = default;
+Tape::Workspace& Tape::Workspace::operator=(Workspace&&) noexcept = default;
+Tape::Workspace::~Workspace() = default;
+
+void Tape::Workspace::make_room_for(const NativeCode& code, const Tape& tape) {
+  const std::size_t first_slot = tape.series_count();
+  const std::size_t first_column = first_slot + code.slots;
   slots_of_code_ = std::make_unique_for_overwrite<Series[]>(code.slots);  // NOLINT(*-avoid-c-arrays)
-  series_.resize(series_before + code.slots);
-  for (std::size_t i = 0; i < code.slots; ++i) series_[series_before + i] = slots_of_code_[i].numbers.data();
+  series_.resize(first_column + tape.output_count_);
+  for (std::size_t i = 0; i < code.slots; ++i) series_[first_slot + i] = slots_of_code_[i].numbers.data();
+  staged_outputs_ = std::make_unique<StagedOutputs>(tape.output_count_, tape.first_output(),
+                                                    static_cast<std::uint32_t>(first_column));
 }
 
 bool Tape::is_native() const noexcept { return late_code_ && late_code_->get() != nullptr; }
@@ -174,15 +183,18 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
     workspace.series_[input.position] = spread;
   }
   const NativeCode* code = late_code_ ? late_code_->get_for(end - begin) : nullptr;
-  if (code != nullptr && workspace.series_.size() != series_count() + code->slots) {
-    workspace.add_slots_for(*code, series_count());
-  }
+  if (code != nullptr && !workspace.staged_outputs_) workspace.make_room_for(*code, *this);
+  StagedOutputs* const staged = code != nullptr && StagedOutputs::are_needed(outputs.first(output_count_))
+                                    ? workspace.staged_outputs_.get()
+                                    : nullptr;
   const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);
     const std::size_t width = std::min(block_width, end - first);
     if (code != nullptr && width >= code->vector_width) {
+      if (staged != nullptr) staged->redirect(workspace.series_);
       code->run(kernel, workspace.series_.data(), width);
+      if (staged != nullptr) kernel(staged->copies().data(), staged->copies().size(), workspace.series_.data(), width);
     } else {
       kernel(instructions_.data(), instructions_.size(), workspace.series_.data(), width);
     }

@@ -17,6 +17,7 @@ namespace dmocbench {
 class LateCode;
 struct CompoundStep;
 struct NativeCode;
+class StagedOutputs;
 
 /// A schedule compiled for evaluation over all intervals of a grid.
 ///
@@ -45,13 +46,13 @@ class Tape {
     // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
-    Workspace(Workspace&&) noexcept = default;
-    Workspace& operator=(Workspace&&) noexcept = default;
-    ~Workspace() = default;
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
 
    private:
     friend class Tape;
-    void add_slots_for(const NativeCode& code, std::size_t series_before);
+    void make_room_for(const NativeCode& code, const Tape& tape);
     // Aligned to cache lines, which are as long as the widest registers: a load or store across two lines takes twice
     // as long.
     struct alignas(64) Series {
@@ -62,6 +63,7 @@ class Tape {
     std::unique_ptr<Series[]> memory_;         // NOLINT(*-avoid-c-arrays)
     std::unique_ptr<Series[]> slots_of_code_;  // NOLINT(*-avoid-c-arrays): once there is machine code
     std::vector<double*> series_;
+    std::unique_ptr<StagedOutputs> staged_outputs_;  // once there is machine code
   };
 
   Tape() = default;
@@ -113,8 +115,8 @@ class Tape {
   void point_to_block(std::size_t first, std::span<const Input> inputs, std::span<double* const> outputs,
                       Workspace& workspace) const;
 
-  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots, at last
-  // those of machine code.
+  // The table of series holds first the constants, then the inputs that are read, the outputs, and the slots; once
+  // there is machine code its slots, and columns of outputs that are staged.
   std::vector<TapeInstruction> instructions_;
   std::vector<double> constants_;
   std::vector<ReadInput> read_inputs_;
