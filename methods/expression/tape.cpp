@@ -184,9 +184,10 @@ void Tape::evaluate(std::size_t begin, std::size_t end, std::span<const Input> i
   }
   const NativeCode* code = late_code_ ? late_code_->get_for(end - begin) : nullptr;
   if (code != nullptr && !workspace.staged_outputs_) workspace.make_room_for(*code, *this);
-  StagedOutputs* const staged = code != nullptr && StagedOutputs::are_needed(outputs.first(output_count_))
-                                    ? workspace.staged_outputs_.get()
-                                    : nullptr;
+  // On short grids all columns together are hardly longer than the cache.
+  const bool stages =
+      code != nullptr && end - begin >= 2 * block_width && StagedOutputs::are_needed(outputs.first(output_count_));
+  StagedOutputs* const staged = stages ? workspace.staged_outputs_.get() : nullptr;
   const TapeKernel kernel = compiled_for(set_, kernels);
   for (std::size_t first = begin; first < end; first += block_width) {
     point_to_block(first, inputs, outputs, workspace);

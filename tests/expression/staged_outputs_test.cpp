@@ -69,7 +69,7 @@ TEST(StagedOutputs, ReachTheirColumnsAndNothingBesideThem) {
     Tape::Workspace of_native(native);
     Tape::Workspace of_interpreted(interpreted);
     // Whole blocks, a last block shorter than others, and one that is shorter than a vector.
-    for (const auto& [begin, end] : {std::pair{0, 1024}, {0, 200}, {100, 1000}, {7, 138}, {5, 8}}) {
+    for (const auto& [begin, end] : {std::pair{0, 1024}, {0, 300}, {100, 1000}, {7, 266}, {5, 8}}) {
       const Columns found(count, apart, apart);
       const Columns expected(count, apart, apart);
       ASSERT_TRUE(StagedOutputs::are_needed(found.get()));
