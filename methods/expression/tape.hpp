@@ -46,8 +46,8 @@ class Tape {
     // The table of series points into this workspace's own memory, which stays in place when it is moved.
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
-    Workspace(Workspace&&) noexcept;
-    Workspace& operator=(Workspace&&) noexcept;
+    Workspace(Workspace&&) noexcept;             ///< takes the memory of the other
+    Workspace& operator=(Workspace&&) noexcept;  ///< takes the memory of the other
     ~Workspace();
 
    private:
