@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/step_control/controlled_steps.hpp"
 #include "bench/step_control/ellipse_transfer.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/solvers/solver.hpp"
