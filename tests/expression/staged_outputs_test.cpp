@@ -36,13 +36,13 @@ TEST(StagedOutputs, AreNeededWhereManyColumnsBeginAMultipleOf4096BytesApart) {
   const auto are_needed = [](std::size_t count, std::size_t apart) {
     return StagedOutputs::are_needed(Columns(count, apart, 1).get());
   };
-  for (const std::size_t apart : {512, 1024, 2048, 5120}) {
+  for (const std::size_t apart : {512U, 1024U, 2048U, 5120U}) {
     EXPECT_TRUE(are_needed(30, apart)) << apart;
     EXPECT_FALSE(are_needed(12, apart)) << apart;
   }
   EXPECT_TRUE(are_needed(60, 256));
   EXPECT_TRUE(are_needed(30, 1025)) << "a number more spreads them over four places only";
-  for (const std::size_t apart : {1000, 1032, 1088}) EXPECT_FALSE(are_needed(30, apart)) << apart;
+  for (const std::size_t apart : {1000U, 1032U, 1088U}) EXPECT_FALSE(are_needed(30, apart)) << apart;
 }
 
 /// x + j and a sine of it: code with several stages, and more outputs than a cache has ways.
