@@ -19,13 +19,7 @@ StagedOutputs::StagedOutputs(std::size_t count, std::uint32_t first_output, std:
       first_column_(first_column),
       series_(std::make_unique_for_overwrite<Series[]>(count)) {  // NOLINT(*-avoid-c-arrays)
   copies_.reserve(count);
-  for (std::uint32_t j = 0; j < count; ++j) {
-    copies_.push_back({.code = static_cast<std::uint32_t>(instruction_code::of(Operation::input)),
-                       .result = first_column + j,
-                       .second_result = first_column + j,
-                       .operands = {first_output + j},
-                       .exponent = 0.0});
-  }
+  for (std::uint32_t j = 0; j < count; ++j) copies_.push_back(copy_instruction(first_output + j, first_column + j));
 }
 
 bool StagedOutputs::are_needed(std::span<double* const> columns) noexcept {

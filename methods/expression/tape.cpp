@@ -96,12 +96,7 @@ Tape::Tape(const Schedule& schedule, InstructionSet set, NativeCodeUse use)
   for (std::uint32_t j = 0; j < output_count_; ++j) {
     const std::uint32_t source = places[schedule.outputs()[j]];
     const std::uint32_t output = first_output() + j;
-    if (source == output) continue;
-    instructions_.push_back({.code = static_cast<std::uint32_t>(instruction_code::of(Operation::input)),
-                             .result = output,
-                             .second_result = output,
-                             .operands = {source},
-                             .exponent = 0.0});
+    if (source != output) instructions_.push_back(copy_instruction(source, output));
   }
   const bool has_code = use != NativeCodeUse::never && has_native_code(set);
   if (!has_code || operation_count_ == 0 || operation_count_ > LateCode::most_operations) return;

@@ -68,6 +68,15 @@ struct TapeInstruction {
   double exponent;                                    ///< of a power
 };
 
+/// The instruction that copies a series.
+[[nodiscard]] constexpr TapeInstruction copy_instruction(std::uint32_t from, std::uint32_t to) {
+  return {.code = static_cast<std::uint32_t>(instruction_code::of(Operation::input)),
+          .result = to,
+          .second_result = to,
+          .operands = {from},
+          .exponent = 0.0};
+}
+
 /// Carries out `instructions` on the first `width` (<= tape_block_width) numbers of the series that they name. Nothing
 /// is read or written beyond `width`.
 using TapeKernel = void (*)(const TapeInstruction* instructions, std::size_t count, double* const* series,
