@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "bench/claims/claims_table.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/experiment.hpp"
+#include "bench/run/result_file.hpp"
 
 namespace dmocbench::claims_program {
 

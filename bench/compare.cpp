@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "bench/compare/comparison.hpp"
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/result_file.hpp"
 
 namespace dmocbench::compare_program {
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "bench/experiment/command_line.hpp"
+#include "bench/run/command_line.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/claims/claims_table.hpp"
-#include "bench/experiment/experiment.hpp"
-#include "bench/experiment/meanings.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/problem_card_json.hpp"
-#include "bench/experiment/problem_libraries.hpp"
+#include "bench/run/experiment.hpp"
+#include "bench/run/meanings.hpp"
+#include "bench/run/metadata.hpp"
+#include "bench/run/problem_card_json.hpp"
+#include "bench/run/problem_libraries.hpp"
 #include "methods/error.hpp"
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/part_file.hpp"
-#include "bench/merge/joining_run.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/joining_run.hpp"
+#include "bench/run/part_file.hpp"
 
 namespace dmocbench::merge_program {
 

@@ -26,7 +26,8 @@ install(
   TARGETS dmocbench_experiment
   EXPORT dmocbenchExperimentTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench
+  FILE_SET umbrella DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(
   EXPORT dmocbenchExperimentTargets
   NAMESPACE dmocbench::

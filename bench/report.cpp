@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/problem_libraries.hpp"
-#include "bench/experiment/result_file.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/page.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/problem_libraries.hpp"
+#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench::report_program {

@@ -8,8 +8,12 @@ install(
   EXPORT dmocbenchTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dmocbench)
+set(umbrellas dmocbench_version dmocbench_dmocbench)
+if(DMOCBENCH_EXTENSIONS)
+  list(APPEND umbrellas dmocbench_extensions)
+endif()
 install(
-  TARGETS dmocbench_version dmocbench_dmocbench
+  TARGETS ${umbrellas}
   EXPORT dmocbenchTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bench/claims/claim.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
 

@@ -16,20 +16,28 @@ Claims joined(std::initializer_list<Claims> topics) {
   return all;
 }
 
+/// Chapters that `add_claims` has added.
+std::vector<Claims>& added_chapters() {
+  static std::vector<Claims> chapters;
+  return chapters;
+}
+
 /// The claims in the order of the table: chapter by chapter, in each of them problem by problem.
 std::vector<Claims> chapters() {
-  return {joined({solution_claims(), grid_claims(), accuracy_claims(), iteration_claims(), cost_claims(),
-                  derivative_claims()}),
-          joined({energy_claims(), coercivity_claims()}),
-          joined({consistency_order_claims(), order_theorem_claims()}),
-          order_claims(),
-          joined({minima_claims(), cold_start_claims(), warm_start_claims(), primitives_claims()}),
-          shooting_claims(),
-          joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
-                  rotation_claims(), step_control_claims()}),
-          joined({optimal_momentum_claims(), smoothness_claims(), low_thrust_claims()}),
-          adaptive_claims(),
-          library_claims()};
+  std::vector<Claims> all{joined({solution_claims(), grid_claims(), accuracy_claims(), iteration_claims(),
+                                  cost_claims(), derivative_claims()}),
+                          joined({energy_claims(), coercivity_claims()}),
+                          joined({consistency_order_claims(), order_theorem_claims()}),
+                          order_claims(),
+                          joined({minima_claims(), cold_start_claims(), warm_start_claims()}),
+                          shooting_claims(),
+                          joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
+                                  rotation_claims()}),
+                          joined({optimal_momentum_claims(), smoothness_claims()}),
+                          adaptive_claims(),
+                          library_claims()};
+  all.insert(all.end(), added_chapters().begin(), added_chapters().end());
+  return all;
 }
 
 std::vector<std::string> problems_of(const Claims& claims) {
@@ -182,6 +190,11 @@ std::string unsolved_behind(const ResultTables& tables, std::string_view table, 
 
 Selection midpoint(const Selection& rows, const std::string& method) {
   return rows.where(is_midpoint).where("method", method);
+}
+
+void add_claims(ClaimTopic topic) {
+  added_chapters().push_back(std::move(topic.claims));
+  for (DeclaredTable& table : topic.tables) declare_table(std::move(table));
 }
 
 std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {

@@ -127,10 +127,21 @@ struct JudgedClaim {
 [[nodiscard]] std::vector<JudgedClaim> judge_claims(const ResultTables& tables,
                                                     const std::function<bool(const std::string& id)>& is_chosen);
 
-// The claims by topic, each topic's predicates and the numbers that decide in one file.
-
 /// Claims of one topic.
 using Claims = std::vector<Claim>;
+
+/// The claims that an experiment adds to those of the core: a chapter of its own at the end of the written table.
+struct ClaimTopic {
+  Claims claims;
+  std::vector<DeclaredTable> tables;  ///< that they read, besides those of the core
+};
+
+/// From now on `judge_claims` judges these claims too, and `ResultTables::read` reads their tables. For extensions and
+/// for experiments of your own: call it in `main`, before a program runs.
+void add_claims(ClaimTopic topic);
+
+// The claims of the core by topic, each topic's predicates and the numbers that decide in one file.
+
 [[nodiscard]] Claims solution_claims();           ///< momentum-force consistency, methods with equal solutions
 [[nodiscard]] Claims coincidence_claims();        ///< where tangent-space collocation has the solutions of DMOC
 [[nodiscard]] Claims grid_claims();               ///< section 4.2: convergence, cost and variables over the grids
@@ -149,11 +160,8 @@ using Claims = std::vector<Claim>;
 [[nodiscard]] Claims coercivity_claims();         ///< the assumption of coercivity
 [[nodiscard]] Claims smoothness_claims();         ///< optima that are not smooth, free final states
 [[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
-[[nodiscard]] Claims step_control_claims();       ///< step sizes tied to the motion
-[[nodiscard]] Claims low_thrust_claims();         ///< many revolutions with few steps in each
 [[nodiscard]] Claims minima_claims();             ///< local minima
 [[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
-[[nodiscard]] Claims primitives_claims();         ///< roadmaps of DMOC primitives
 [[nodiscard]] Claims shooting_claims();           ///< direct shooting beside DMOC
 [[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers
 [[nodiscard]] Claims adaptive_claims();           ///< grids that an estimate of the error chooses

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/experiment/column.hpp"
+#include "bench/run/column.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {

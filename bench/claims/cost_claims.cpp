@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "bench/claims/timed_ratios.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
 

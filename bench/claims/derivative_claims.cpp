@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/claims/timed_ratios.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
 

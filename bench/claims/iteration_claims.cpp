@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bench/claims/claim.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
 

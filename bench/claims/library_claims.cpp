@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/claims/claim.hpp"
-#include "bench/summary/profile_tables.hpp"
+#include "bench/tables/profile_tables.hpp"
 #include "methods/runtime/counted.hpp"
 #include "methods/transcription/elements/element.hpp"
 

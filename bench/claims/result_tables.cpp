@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/part_file.hpp"
-#include "bench/experiment/result_file.hpp"
-#include "bench/experiment/written_tables.hpp"
+#include "bench/run/part_file.hpp"
+#include "bench/run/result_file.hpp"
+#include "bench/run/written_tables.hpp"
 
 namespace dmocbench {
 
@@ -23,7 +23,6 @@ const ColumnNames solve{"problem", "method", "tableau", "stages", "solver", "der
 const ColumnNames status{"status", "branch"};
 const ColumnNames fit{"problem", "method", "tableau", "stages", "quantity"};
 const ColumnNames scheme{"problem", "method", "tableau", "stages"};
-const ColumnNames step_choice{"problem", "eccentricity", "rule", "sigma", "stages"};
 
 /// Columns of keys that count or measure something.
 bool is_number(const std::string& column) {
@@ -91,10 +90,9 @@ void check_run(const std::filesystem::path& folder, const std::string& run, cons
   }
 }
 
-}  // namespace
-
-const std::vector<DeclaredTable>& declared_tables() {
-  static const std::vector<DeclaredTable> tables{
+/// The tables of the core, and those that were declared later.
+std::vector<DeclaredTable>& all_tables() {
+  static std::vector<DeclaredTable> tables{
       {"consistency", "consistency", columns(solve, {"tolerance"}), status},
       {"consistency_tolerances", "consistency_tolerances", columns(solve, {"tolerance"}), status},
       {"objective", "objective", solve, status},
@@ -127,13 +125,6 @@ const std::vector<DeclaredTable>& declared_tables() {
       {"structure_rotations", "structure", columns(scheme, {"axis"}), {"action"}},
       {"consistency_order_transforms", "consistency_order", {"problem", "h"}},
       {"smoothness_slopes", "smoothness", {"situation", "method", "tableau", "stages", "quantity"}, {"active", "end"}},
-      {"low_thrust", "low_thrust", columns(scheme, {"revolutions", "steps_per_revolution"}), status},
-      {"step_control_symplecticity", "step_control", step_choice},
-      {"step_control_momentum", "step_control", step_choice},
-      {"step_control_energy_behaviour", "step_control", step_choice},
-      {"step_control", "step_control", columns(step_choice, {"steps_per_period"}), {"status"}},
-      {"step_control_transfer", "step_control", columns(step_choice, {"intervals"}), {"status"}},
-      {"step_control_slopes", "step_control", step_choice},
       {"coercivity", "coercivity", columns(scheme, {"intervals"}), {"status"}},
       {"structure_advantage_ratios", "structure_advantage",
        columns(scheme, {"solver", "factorisation", "intervals", "quantity"})},
@@ -143,7 +134,6 @@ const std::vector<DeclaredTable>& declared_tables() {
        {"is_motion"}},
       {"local_minima_shares", "local_minima", solve},
       {"cold_start_shares", "cold_start", solve},
-      {"primitives", "primitives", {"problem"}, {"status"}},
       {"sequence", "sequence", columns(scheme, {"intervals", "sequence", "step"}), {"status"}},
       {"adaptive", "adaptive", columns(scheme, {"grid"}), {"status"}},
       {"adaptive_effectivity", "adaptive", columns(scheme, {"grid", "intervals", "quantity"}), {"status", "verdict"}},
@@ -157,6 +147,12 @@ const std::vector<DeclaredTable>& declared_tables() {
   };
   return tables;
 }
+
+}  // namespace
+
+const std::vector<DeclaredTable>& declared_tables() { return all_tables(); }
+
+void declare_table(DeclaredTable table) { all_tables().push_back(std::move(table)); }
 
 ResultTables ResultTables::read(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/summary/selection.hpp"
+#include "bench/tables/selection.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
@@ -21,6 +21,9 @@ struct DeclaredTable {
 
 /// The tables that claims read; they read no other.
 [[nodiscard]] const std::vector<DeclaredTable>& declared_tables();
+
+/// Adds a table that claims read.
+void declare_table(DeclaredTable table);
 
 /// There is no such table at all; any other `Error` says what is wrong with one that is there.
 class MissingTable : public Error {

@@ -6,7 +6,7 @@
 
 #include "bench/claims/cold_start_counts.hpp"
 #include "bench/claims/timed_ratios.hpp"
-#include "bench/summary/ratios.hpp"
+#include "bench/tables/ratios.hpp"
 
 namespace dmocbench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/summary/ratio_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 

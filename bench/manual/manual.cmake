@@ -2,7 +2,10 @@
 # targets of the package, and the Markdown pages beside the code.
 get_property(targets GLOBAL PROPERTY DMOCBENCH_TARGETS)
 set(inputs)
-foreach(target IN LISTS targets ITEMS dmocbench_experiment dmocbench_c)
+if(DMOCBENCH_EXTENSIONS)
+  list(APPEND targets dmocbench_c)
+endif()
+foreach(target IN LISTS targets ITEMS dmocbench_experiment)
   get_target_property(headers ${target} HEADER_SET)
   get_target_property(folder ${target} SOURCE_DIR)
   foreach(header IN LISTS headers)

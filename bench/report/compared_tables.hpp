@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/report/results_folder.hpp"
-#include "bench/summary/ratio_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 
 namespace dmocbench {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {

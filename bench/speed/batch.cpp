@@ -17,7 +17,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/experiment/even_draws.hpp"
+#include "bench/run/even_draws.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/result_file.hpp"
-#include "bench/experiment/table_run.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/metadata.hpp"
+#include "bench/run/result_file.hpp"
+#include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/environment.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "bench/experiment/even_draws.hpp"
+#include "bench/run/even_draws.hpp"
 #include "methods/expression/replay.hpp"
 #include "methods/transcription/elements/element.hpp"
 #include "methods/transcription/elements/tableau.hpp"

@@ -12,9 +12,9 @@
 #include "bench/speed/measured_page.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
+#include "methods/kkt/intervals/interval_kkt.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
-#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {

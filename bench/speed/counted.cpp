@@ -8,16 +8,16 @@
 #include <fmt/format.h>
 #include <valgrind/callgrind.h>
 
-#include "bench/experiment/command_line.hpp"
-#include "bench/experiment/metadata.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/metadata.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/program/forwarding_program.hpp"
 #include "methods/runtime/environment.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/runtime/parsed.hpp"
-#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/solver.hpp"
 #include "problems/registry.hpp"
 

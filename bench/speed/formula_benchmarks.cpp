@@ -6,7 +6,7 @@
 #include "bench/speed/interval_benchmark.hpp"
 #include "bench/speed/kernels.hpp"
 #include "methods/error.hpp"
-#include "methods/expression/native_code.hpp"
+#include "methods/expression/native/native_code.hpp"
 #include "methods/expression/replay.hpp"
 #include "problems/registry.hpp"
 

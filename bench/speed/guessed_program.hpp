@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/transcription/start.hpp"

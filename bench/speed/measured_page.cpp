@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/metadata.hpp"
-#include "bench/experiment/result_file.hpp"
-#include "bench/experiment/table_run.hpp"
+#include "bench/run/metadata.hpp"
+#include "bench/run/result_file.hpp"
+#include "bench/run/table_run.hpp"
 
 namespace dmocbench::speed {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/experiment/column.hpp"
-#include "bench/experiment/command_line.hpp"
-#include "bench/summary/ratio_interval.hpp"
+#include "bench/run/column.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/tables/ratio_interval.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {

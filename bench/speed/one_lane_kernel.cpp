@@ -63,7 +63,7 @@ struct Lanes {
   }
 };
 
-#include "methods/solvers/kkt/intervals/segment_kernel.inc"
+#include "methods/kkt/intervals/segment_kernel.inc"
 
 }  // namespace dmocbench::kkt::one_lane
 

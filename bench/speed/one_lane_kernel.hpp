@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/solvers/kkt/intervals/segment_kernel.hpp"
+#include "methods/kkt/intervals/segment_kernel.hpp"
 
 namespace dmocbench::speed {
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiment/column.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/column.hpp"
+#include "bench/run/result_file.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/measured_page.hpp"
 #include "methods/diagnostics/convergence_order.hpp"

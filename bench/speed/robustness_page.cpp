@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/experiment/command_line.hpp"
+#include "bench/run/command_line.hpp"
 #include "bench/speed/measured_page.hpp"
-#include "bench/summary/paired_solves.hpp"
+#include "bench/tables/paired_solves.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/quantile.hpp"
 #include "methods/tables/table_file.hpp"

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/summary/selection.hpp"
+#include "bench/tables/selection.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/runtime/parsed.hpp"
 

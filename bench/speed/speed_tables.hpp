@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/compare/benchmark_file.hpp"
-#include "bench/experiment/column.hpp"
+#include "bench/run/column.hpp"
 
 namespace dmocbench::speed {
 

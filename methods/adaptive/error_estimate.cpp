@@ -6,8 +6,8 @@
 
 #include "methods/adaptive/interval_conditions.hpp"
 #include "methods/error.hpp"
-#include "methods/program/linearised_conditions.hpp"
-#include "methods/solvers/kkt_of_conditions.hpp"
+#include "methods/judgement/kkt_of_conditions.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
 
 namespace dmocbench {
 

@@ -10,8 +10,8 @@
 
 #include "methods/error.hpp"
 #include "methods/expression/compound_steps.hpp"
-#include "methods/expression/late_code.hpp"
-#include "methods/expression/staged_outputs.hpp"
+#include "methods/expression/native/late_code.hpp"
+#include "methods/expression/native/staged_outputs.hpp"
 #include "methods/expression/tape_kernel.hpp"
 
 namespace dmocbench {

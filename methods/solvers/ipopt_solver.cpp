@@ -33,10 +33,10 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/judgement/stop_rule.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
-#include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
 

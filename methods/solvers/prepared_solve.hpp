@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
+#include "methods/judgement/confirm.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
-#include "methods/solvers/confirm.hpp"
-#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/judgement/least_violation.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/solvers/confirm.hpp"
-#include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/least_violation.hpp"
 
 namespace dmocbench {
 
@@ -39,18 +39,6 @@ class RunWithoutMemory final : public PreparedRun {
 };
 
 }  // namespace
-
-void SolverOptions::validate() const {
-  if (!(tolerance > 0.0) || !(tolerance < 1.0)) {
-    throw Error(fmt::format("the tolerance must lie between 0 and 1, got {}", tolerance));
-  }
-  if (most_iterations < 1) {
-    throw Error(fmt::format("the largest number of iterations must be at least 1, got {}", most_iterations));
-  }
-  if (!(most_seconds >= 0.0) || std::isinf(most_seconds)) {
-    throw Error(fmt::format("the time limit must be a number of seconds, or 0 for none, got {}", most_seconds));
-  }
-}
 
 Solver::Solver(SolverOptions options) : options_(std::move(options)) { options_.validate(); }
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "methods/error.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "methods/numerics/dense_solve.hpp"
-#include "methods/program/kkt_residual.hpp"
 #include "methods/transcription/derivatives/point_derivatives.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"

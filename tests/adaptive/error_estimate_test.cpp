@@ -6,7 +6,7 @@
 
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/solvers/polish.hpp"
+#include "methods/judgement/polish.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"

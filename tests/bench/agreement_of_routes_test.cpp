@@ -1,4 +1,4 @@
-#include "bench/summary/agreement_of_routes.hpp"
+#include "bench/tables/agreement_of_routes.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "bench/structure_advantage/banded_kkt.hpp"
+#include "bench/experiments/banded_kkt.hpp"
 
 #include <cmath>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 

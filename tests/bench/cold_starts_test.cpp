@@ -1,10 +1,10 @@
-#include "bench/summary/cold_starts.hpp"
+#include "bench/tables/cold_starts.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "bench/summary/share_interval.hpp"
+#include "bench/tables/share_interval.hpp"
 
 namespace dmocbench {
 namespace {

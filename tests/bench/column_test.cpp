@@ -1,10 +1,10 @@
-#include "bench/experiment/column.hpp"
+#include "bench/run/column.hpp"
 
 #include <memory>
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bench/summary/ratios.hpp"
+#include "bench/tables/ratios.hpp"
 #include "tests/bench/curves_for_tests.hpp"
 
 namespace dmocbench {

@@ -1,4 +1,4 @@
-#include "bench/summary/fitted_orders.hpp"
+#include "bench/tables/fitted_orders.hpp"
 
 #include <gtest/gtest.h>
 

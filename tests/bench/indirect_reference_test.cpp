@@ -1,11 +1,11 @@
-#include "bench/experiment/indirect_reference.hpp"
+#include "bench/run/indirect_reference.hpp"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"

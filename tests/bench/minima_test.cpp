@@ -1,4 +1,4 @@
-#include "bench/summary/minima.hpp"
+#include "bench/tables/minima.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/start_provider.hpp"
+#include "bench/run/start_provider.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {

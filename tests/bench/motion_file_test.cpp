@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/result_file.hpp"
-#include "bench/experiment/start_provider.hpp"
-#include "bench/experiment/written_tables.hpp"
+#include "bench/run/result_file.hpp"
+#include "bench/run/start_provider.hpp"
+#include "bench/run/written_tables.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "bench/experiment/options.hpp"
+#include "bench/run/options.hpp"
 
 #include <filesystem>
 #include <new>
@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "bench/experiment/command_line.hpp"
+#include "bench/run/command_line.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/motions/grid.hpp"
 #include "tests/support/sentence_of_error.hpp"

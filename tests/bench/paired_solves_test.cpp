@@ -1,4 +1,4 @@
-#include "bench/summary/paired_solves.hpp"
+#include "bench/tables/paired_solves.hpp"
 
 #include <gtest/gtest.h>
 

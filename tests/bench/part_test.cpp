@@ -1,4 +1,4 @@
-#include "bench/experiment/part.hpp"
+#include "bench/run/part.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "bench/experiment/case_batch.hpp"
-#include "bench/experiment/part_file.hpp"
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/case_batch.hpp"
+#include "bench/run/part_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"

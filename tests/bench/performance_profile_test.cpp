@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/summary/profile_tables.hpp"
+#include "bench/tables/profile_tables.hpp"
 
 namespace dmocbench {
 namespace {

@@ -1,5 +1,5 @@
 // Ratios of times that were measured in rounds: the interval of their median.
-#include "bench/summary/ratio_interval.hpp"
+#include "bench/tables/ratio_interval.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 
 #include <array>
 #include <csignal>

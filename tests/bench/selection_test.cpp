@@ -1,4 +1,4 @@
-#include "bench/summary/selection.hpp"
+#include "bench/tables/selection.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "bench/summary/share_interval.hpp"
+#include "bench/tables/share_interval.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bench/experiment/restated_problem.hpp"
-#include "bench/smoothness/optimum_error.hpp"
-#include "bench/smoothness/situation.hpp"
+#include "bench/experiments/optimum_error.hpp"
+#include "bench/experiments/situation.hpp"
+#include "bench/run/restated_problem.hpp"
 #include "problems/closed_form.hpp"
 #include "problems/double_integrator.hpp"
 #include "problems/registry.hpp"

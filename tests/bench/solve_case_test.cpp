@@ -1,4 +1,4 @@
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "bench/experiment/start_provider.hpp"
+#include "bench/run/start_provider.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bench/experiment/process_pool.hpp"
+#include "bench/run/process_pool.hpp"
 #include "methods/diagnostics/replay_error.hpp"
 #include "tests/robustness/chain_on_cart.hpp"
 #include "tests/support/restated_problems.hpp"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/structure_advantage/advantage_ratios.hpp"
-#include "bench/structure_advantage/operation_count.hpp"
+#include "bench/experiments/advantage_ratios.hpp"
+#include "bench/experiments/operation_count.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/structure/energy_tables.hpp"
-#include "bench/structure/long_time_energy.hpp"
-#include "bench/structure/orthogonal_forces.hpp"
-#include "bench/structure/rotations.hpp"
-#include "bench/structure/simulated_tables.hpp"
+#include "bench/experiments/energy_tables.hpp"
+#include "bench/experiments/long_time_energy.hpp"
+#include "bench/experiments/orthogonal_forces.hpp"
+#include "bench/experiments/rotations.hpp"
+#include "bench/experiments/simulated_tables.hpp"
 
 namespace dmocbench {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/experiment/solve_case.hpp"
+#include "bench/run/solve_case.hpp"
 
 namespace dmocbench::tests {
 

@@ -1,9 +1,9 @@
-#include "bench/experiment/written_tables.hpp"
+#include "bench/run/written_tables.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 

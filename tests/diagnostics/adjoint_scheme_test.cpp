@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/solvers/polish.hpp"
+#include "methods/judgement/polish.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"

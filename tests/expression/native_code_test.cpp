@@ -1,5 +1,5 @@
 // Tapes as machine code: what the interpreter computes, bit by bit.
-#include "methods/expression/native_code.hpp"
+#include "methods/expression/native/native_code.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/derivatives.hpp"
-#include "methods/expression/late_code.hpp"
-#include "methods/expression/register_allocation.hpp"
-#include "methods/expression/step_order.hpp"
+#include "methods/expression/native/late_code.hpp"
+#include "methods/expression/native/register_allocation.hpp"
+#include "methods/expression/native/step_order.hpp"
 #include "tests/expression/operations.hpp"
 #include "tests/expression/random_program.hpp"
 #include "tests/expression/series_table.hpp"

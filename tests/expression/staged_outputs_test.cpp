@@ -1,5 +1,5 @@
 // Outputs of machine code whose columns compete for the first-level cache.
-#include "methods/expression/staged_outputs.hpp"
+#include "methods/expression/native/staged_outputs.hpp"
 
 #include <algorithm>
 #include <cmath>

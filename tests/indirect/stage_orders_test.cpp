@@ -8,7 +8,7 @@
 #include "methods/diagnostics/trajectory_error.hpp"
 #include "methods/indirect/control_from_costate.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/solvers/polish.hpp"
+#include "methods/judgement/polish.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 

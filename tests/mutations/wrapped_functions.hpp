@@ -5,8 +5,8 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/replay_error.hpp"
-#include "methods/program/kkt_residual.hpp"
-#include "methods/solvers/confirm.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "methods/transcription/costates.hpp"
 
 // The functions whose callers tests_under_mutation diverts (ld, option --wrap): in all other object files a call of the

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/tape.hpp"
+#include "methods/kkt/intervals/segment_group.hpp"
 #include "methods/runtime/vector_loops.hpp"
-#include "methods/solvers/kkt/intervals/segment_group.hpp"
 
 namespace dmocbench {
 namespace {

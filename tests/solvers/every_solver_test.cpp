@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/program/kkt_residual.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "methods/runtime/stop_scope.hpp"
-#include "methods/solvers/confirm.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"

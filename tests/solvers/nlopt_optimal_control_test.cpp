@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/program/kkt_residual.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 

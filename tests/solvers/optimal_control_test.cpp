@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
-#include "methods/solvers/confirm.hpp"
+#include "methods/judgement/confirm.hpp"
 #include "methods/solvers/solver.hpp"
 #include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/solvers/confirm.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
-#include "methods/solvers/kkt/sparse_kkt.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/value_of.hpp"

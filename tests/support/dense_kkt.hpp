@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "methods/kkt/kkt_system.hpp"
 #include "methods/program/nonlinear_program.hpp"
-#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::tests {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/program/kkt_residual.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/solving.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/solvers/polish.hpp"
+#include "methods/judgement/polish.hpp"
 #include "methods/transcription/single_shooting.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"

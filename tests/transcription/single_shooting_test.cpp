@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "methods/program/kkt_residual.hpp"
+#include "methods/judgement/kkt_residual.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/random_points.hpp"

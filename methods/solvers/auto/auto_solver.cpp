@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "methods/solvers/counted_program.hpp"
+#include "methods/program/counted_program.hpp"
 
 namespace dmocbench {
 

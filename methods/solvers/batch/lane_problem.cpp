@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "methods/judgement/newton_correction.hpp"
+#include "methods/kkt/linearisation.hpp"
 #include "methods/runtime/vector_loops.hpp"
-#include "methods/solvers/kkt/linearisation.hpp"
-#include "methods/solvers/newton_correction.hpp"
 
 namespace dmocbench::batch {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "methods/error.hpp"
-#include "methods/solvers/confirm.hpp"
+#include "methods/judgement/confirm.hpp"
 #include "methods/solvers/interior_point/barrier_parameter.hpp"
 
 namespace dmocbench::batch {

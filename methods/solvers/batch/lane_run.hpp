@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "methods/judgement/stop_rule.hpp"
+#include "methods/kkt/intervals/lane_kkt.hpp"
 #include "methods/program/solution.hpp"
 #include "methods/program/status.hpp"
 #include "methods/solvers/batch/batch_queue.hpp"
@@ -14,8 +16,6 @@
 #include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
-#include "methods/solvers/kkt/intervals/lane_kkt.hpp"
-#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench::batch {
 

@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/kkt/intervals/lane_kkt.hpp"
 #include "methods/runtime/parallel.hpp"
 #include "methods/solvers/batch/batch_queue.hpp"
 #include "methods/solvers/batch/instance_program.hpp"
 #include "methods/solvers/batch/lane_run.hpp"
-#include "methods/solvers/confirm.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
-#include "methods/solvers/kkt/intervals/lane_kkt.hpp"
 
 namespace dmocbench {
 

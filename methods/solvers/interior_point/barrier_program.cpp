@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/kkt/linearisation.hpp"
 #include "methods/runtime/long_vectors.hpp"
-#include "methods/solvers/kkt/linearisation.hpp"
 
 namespace dmocbench::interior_point {
 

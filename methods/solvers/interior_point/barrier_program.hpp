@@ -4,11 +4,11 @@
 
 #include <Eigen/Core>
 
+#include "methods/judgement/stop_rule.hpp"
+#include "methods/kkt/matrix_product.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/barrier_bounds.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
-#include "methods/solvers/kkt/matrix_product.hpp"
-#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench::interior_point {
 

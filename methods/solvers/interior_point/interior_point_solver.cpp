@@ -11,17 +11,17 @@
 #include <fmt/format.h>
 
 #include "methods/choose.hpp"
+#include "methods/judgement/least_violation.hpp"
+#include "methods/judgement/stop_rule.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/runtime/long_vectors.hpp"
-#include "methods/solvers/counted_program.hpp"
 #include "methods/solvers/interior_point/barrier_parameter.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
 #include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/kkt_choice.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
-#include "methods/solvers/least_violation.hpp"
 #include "methods/solvers/named_options.hpp"
-#include "methods/solvers/stop_rule.hpp"
 
 namespace dmocbench {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "methods/solvers/kkt/intervals/interval_kkt.hpp"
-#include "methods/solvers/kkt/refined_kkt.hpp"
-#include "methods/solvers/kkt/sparse_kkt.hpp"
+#include "methods/kkt/intervals/interval_kkt.hpp"
+#include "methods/kkt/refined_kkt.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 
 namespace dmocbench::interior_point {
 

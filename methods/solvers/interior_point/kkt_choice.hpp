@@ -5,9 +5,9 @@
 
 #include <tl/expected.hpp>
 
+#include "methods/kkt/kkt_system.hpp"
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
-#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::interior_point {
 

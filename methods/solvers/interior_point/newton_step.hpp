@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "methods/kkt/kkt_system.hpp"
 #include "methods/solvers/interior_point/barrier_program.hpp"
-#include "methods/solvers/kkt/kkt_system.hpp"
 
 namespace dmocbench::interior_point {
 

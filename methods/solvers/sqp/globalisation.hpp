@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "methods/solvers/kkt/linearisation.hpp"
-#include "methods/solvers/kkt/symmetric_factorisation.hpp"
+#include "methods/kkt/linearisation.hpp"
+#include "methods/kkt/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

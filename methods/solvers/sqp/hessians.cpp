@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/solvers/kkt/linearisation.hpp"
+#include "methods/kkt/linearisation.hpp"
 
 namespace dmocbench::sqp {
 

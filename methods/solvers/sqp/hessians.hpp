@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/kkt/symmetric_factorisation.hpp"
+#include "methods/kkt/symmetric_factorisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "methods/choose.hpp"
-#include "methods/solvers/confirm.hpp"
-#include "methods/solvers/counted_program.hpp"
-#include "methods/solvers/kkt/linearisation.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/kkt/linearisation.hpp"
+#include "methods/program/counted_program.hpp"
 #include "methods/solvers/named_options.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"

@@ -1,9 +1,10 @@
 #pragma once
 
-// What a program that states and solves problems of its own reads: `#include <dmocbench/dmocbench.hpp>` and the target
-// dmocbench::dmocbench. Problems in libraries need methods/mechanics/problem.hpp alone, experiments of one's own
-// bench/experiment/experiment.hpp.
+// What a program that states and solves problems of its own includes: `#include <dmocbench/dmocbench.hpp>` and the
+// target dmocbench::dmocbench. A library of problems includes <dmocbench/problem.hpp> only, an experiment of your own
+// <dmocbench/experiment.hpp>.
 #include <Eigen/Geometry>
+#include <dmocbench/problem.hpp>
 #include <dmocbench/version.hpp>
 
 #include "methods/adaptive/adaptive_solve.hpp"
@@ -15,14 +16,11 @@
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/linear_solve.hpp"
 #include "methods/indirect/solve_indirect.hpp"
-#include "methods/mechanics/problem.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 #include "methods/solvers/prepared_solve.hpp"
-#include "methods/solvers/sensitivities.hpp"
 #include "methods/solvers/solver.hpp"
 #include "methods/tables/motion_file.hpp"
 #include "methods/transcription/describe_violation.hpp"
-#include "methods/transcription/feedback_gains.hpp"
 #include "methods/transcription/motions/moved_to_ends.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"

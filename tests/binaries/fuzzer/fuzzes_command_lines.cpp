@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "bench/experiment/command_line.hpp"
+#include "bench/run/command_line.hpp"
 #include "tests/binaries/fuzzer/grammar.hpp"
 #include "tests/binaries/fuzzer/judgement.hpp"
 

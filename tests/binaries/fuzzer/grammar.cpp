@@ -44,11 +44,10 @@ const Values& known_values() {
       {"--routes", {"gauss1", "gauss2,lobatto3", "gauss3,gauss3", "gauss03", "lobatto1", "gauss"}},
       {"--start", {"guess", "common", "start_nodes.csv", "torn_nodes.csv", "folder", "file", "none_nodes.csv"}},
       {"--tolerance", {"1e-6", "1e-12", "0.5", "1e-17"}},
-      {"--read-sol", {"file", "none", "folder", "dangling"}},
+      {"--sol", {"file", "none", "folder", "dangling"}},
       {"--roadmap", {"file", "none", "folder", "dangling"}},
       {"--store", {"roadmap.json", "out/roadmap.json", "folder", "file/inner"}},
-      {"--write-nl", {"program.nl", "out/program.nl", "folder", "file/inner.nl"}},
-      {"--to", {"report.html", "folder", "file/inner", "dangling"}},
+      {"--to", {"report.html", "program.nl", "out/program.nl", "folder", "file/inner", "file/inner.nl", "dangling"}},
       {"--trace", {"trace.csv", "out/trace.csv", "folder", "file/inner"}},
   };
   return values;

@@ -34,11 +34,11 @@ bool is_whole_table(const std::string& text) {
 /// The paths that a line names as places to write to, as they stand; "results" without any.
 std::vector<std::string> places_of(const std::vector<std::string>& line) {
   std::vector<std::string> places = {"results"};
-  for (const std::string name : {"--out", "--trace", "--csv", "--store", "--write-nl"}) {
+  for (const std::string name : {"--out", "--trace", "--csv", "--store", "--to"}) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i].starts_with(name + "=")) places.push_back(line[i].substr(name.size() + 1));
       if (line[i] == name && i + 1 < line.size()) places.push_back(line[i + 1]);
-      const bool is_model = name == "--write-nl" && line[i].starts_with(name) && places.back().ends_with(".nl");
+      const bool is_model = name == "--to" && line[i].starts_with(name) && places.back().ends_with(".nl");
       if (!is_model) continue;
       const std::string stub = places.back().substr(0, places.back().size() - 3);
       places.insert(places.end(), {stub + ".row", stub + ".col"});

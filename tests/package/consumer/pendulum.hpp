@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "methods/mechanics/problem.hpp"
+#include <dmocbench/problem.hpp>
 
 using namespace dmocbench;
 

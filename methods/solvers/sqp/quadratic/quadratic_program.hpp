@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "methods/solvers/kkt/linearisation.hpp"
+#include "methods/kkt/linearisation.hpp"
 
 namespace dmocbench::sqp {
 

@@ -1,0 +1,110 @@
+// Grids that the error chooses: how good the estimate of the error is, and how many intervals it saves.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/effectivity.hpp"
+#include "bench/experiments/needed_intervals.hpp"
+#include "bench/run/problem_options.hpp"
+#include "bench/run/table_run.hpp"
+#include "methods/error.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/start.hpp"
+
+namespace dmocbench::adaptive_program {
+
+/// Slow and fast by turns: what adaptive grids are for.
+const std::vector<std::string> uneven{"eccentric_transfer", "hypersensitive"};
+
+/// The paper's, with several minima near the guess.
+const std::vector<std::string> with_several_minima{"orbital_transfer", "two_link_manipulator"};
+
+/// The problems unless others are asked for: the paper's, the uneven ones and eight of the library.
+const std::vector<std::string> all_problems{"orbital_transfer",  "two_link_manipulator", "eccentric_transfer",
+                                            "hypersensitive",    "kepler_cartesian",     "link_chain",
+                                            "double_integrator", "forced_oscillator",    "cart_pole",
+                                            "planar_quadrotor",  "spherical_pendulum",   "hovercraft"};
+
+bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+struct Tables {
+  std::vector<MeasuredEffectivity> effectivity;
+  std::vector<NeededGrid> needed;
+  std::vector<StepOfGrid> steps;
+};
+
+/// Adapted grids and, if asked, uniform ones for the same accuracy.
+void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool with_uniform, int rounds,
+                   Tables& tables) {
+  constexpr double accuracy = 1e-8;
+  const std::string name = certified.problem().name();
+  const SolverOptions options = TableRun::solver_options();
+  const bool has_several_minima = is_one_of(with_several_minima, name);
+  // What is timed begins where a user begins.
+  const Motion start = has_several_minima ? smooth_motion(certified.motion()) : guessed_motion(certified.problem());
+  for (const std::string& method : element_names()) {
+    for (const int stages : {2, 3, 4}) {
+      const Scheme scheme{name, method, "gauss", stages};
+      run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
+      tables.needed.push_back(needed_adapted(certified, scheme, accuracy, start,
+                                             !has_several_minima && method == "dmoc" ? rounds : 0, options,
+                                             tables.steps));
+      if (!with_uniform) continue;
+      run.show(fmt::format("{} {} s = {}, uniform", name, method, stages));
+      tables.needed.push_back(needed_uniform(certified, scheme, accuracy, options));
+    }
+  }
+}
+
+void measure_effectivities(const TableRun& run, const CertifiedProblem& certified, Tables& tables) {
+  for (const std::string& method : element_names()) {
+    for (const int stages : {1, 2}) {
+      run.show(fmt::format("{} {} s = {}, effectivity", certified.problem().name(), method, stages));
+      const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());
+      tables.effectivity.insert(tables.effectivity.end(), rows.begin(), rows.end());
+    }
+  }
+}
+
+int measure_all(CommandLine& line) {
+  int rounds = 11;
+  bool is_quick = false;
+  ProblemOptions asked{.problems = all_problems};
+  asked.add_to(line);
+  line.number("--rounds", rounds, 0, 10000, "times that a whole way from the first grid to the last is timed");
+  line.flag("--quick", is_quick, "the uneven problems alone, unless others are asked for");
+  TableRun run("adaptive", line);
+  const bool is_named = asked.problems != all_problems;
+  Tables tables;
+  for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
+    const bool is_uneven = is_one_of(uneven, problem->name());
+    if (is_quick && !is_named && !is_uneven) continue;
+    run.show(problem->name() + ", certified");
+    const CertifiedProblem certified(problem, TableRun::solver_options());
+    measure_effectivities(run, certified, tables);
+    const bool with_uniform = is_named || is_uneven;
+    if (with_uniform || is_one_of(with_several_minima, problem->name())) {
+      compare_grids(run, certified, with_uniform, rounds, tables);
+    }
+  }
+  run.add("adaptive", needed_columns(), tables.needed);
+  run.add("adaptive_effectivity", effectivity_columns(), tables.effectivity);
+  run.add("adaptive_steps", step_columns(), tables.steps);
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "adaptive",
+      "Grids adapted to an accuracy by an estimate of the error: adaptive_effectivity.csv holds the estimate against "
+      "the true error, which is that against the indirect solution; adaptive.csv tells how many intervals reach 1e-8 "
+      "on adapted and on uniform grids, and how long the whole way takes; adaptive_steps.csv has the steps.",
+      argc, argv, measure_all);
+}
+
+}  // namespace dmocbench::adaptive_program

@@ -1,0 +1,87 @@
+#include "bench/experiments/advantage_ratios.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "bench/tables/ratio_interval.hpp"
+#include "bench/tables/ratios.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr double same_objective = 1e-6;
+/// Errors of the objective that are equal but for rounding, as logarithms.
+constexpr double same_error = 1e-4;
+
+struct Quantity {
+  const char* name = "";
+  const char* column = "";
+  bool is_per_interval = false;  ///< in the table
+  const char* rounds = "";       ///< column with the times of the rounds, and
+  const char* parts = "";        ///< what they are divided by, if anything
+
+  [[nodiscard]] std::optional<double> cost(const Row& row) const {
+    auto value = row.number(column);
+    if (value && is_per_interval) *value *= row.number("intervals", 0.0);
+    return value;
+  }
+  /// The ratios to another row, one of each round; none where the quantity is no time.
+  [[nodiscard]] std::vector<double> ratios(const Row& row, const Row& other) const {
+    std::vector<double> ratios = round_ratios(row.numbers(rounds), other.numbers(rounds));
+    const double divisor = std::string_view(parts).empty() ? 1.0 : row.needed(parts) / other.needed(parts);
+    for (double& ratio : ratios) ratio /= divisor;
+    return ratios;
+  }
+};
+
+constexpr std::array quantities{
+    Quantity{"seconds", "seconds", false, "round_seconds"},
+    Quantity{"seconds_per_iteration", "seconds_per_iteration", false, "round_seconds", "major_iterations"},
+    Quantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
+    Quantity{"seconds_per_linear_system", "seconds_per_linear_system", false, "round_linear_seconds", "linear_systems"},
+    Quantity{"iterations", "major_iterations"},
+    Quantity{"operations", "operations_per_interval", true},
+    Quantity{"elimination_operations", "elimination_operations_per_interval", true},
+};
+
+const ColumnNames program_columns{"problem", "method", "tableau", "stages", "intervals"};
+const ColumnNames line_columns{"problem", "method", "tableau", "stages", "solver", "factorisation"};
+
+/// The rows that count.
+Selection comparable_rows(const Selection& table) {
+  const Selection rows = table.usable().with_number("objective");
+  return rows.where([&](const Row& row) {
+    const double lowest = rows.matching(row, program_columns).min("objective");
+    return row.number("objective", 0.0) - lowest <= same_objective * std::abs(lowest);
+  });
+}
+
+}  // namespace
+
+Table advantage_ratios(const Selection& advantage) {
+  std::vector<ComparedCost> costs;
+  const Selection rows = comparable_rows(advantage);
+  for (const Selection& line : rows.group_by(line_columns)) {
+    const Selection dmoc = rows.where("method", "dmoc")
+                               .matching(line.front(), {"problem", "tableau", "stages", "solver", "factorisation"});
+    if (line.front().text("method") == "dmoc" || dmoc.empty()) continue;
+    for (const Quantity& quantity : quantities) {
+      const Cost cost = [&](const Row& row) { return quantity.cost(row); };
+      for (const Row& row : line.where([&](const Row& solved) { return cost(solved).has_value(); })) {
+        const Row& on_same_grid = dmoc.matching(row, {"intervals"}).front();
+        costs.push_back({.head = row,
+                         .name = quantity.name,
+                         .ratios = cost_ratios(row, dmoc, cost, "objective_error", same_error),
+                         .rounds = MedianOfRounds(quantity.ratios(row, on_same_grid))});
+      }
+    }
+  }
+  return table_of(
+      compared_cost_columns({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals"},
+                            "quantity", "what is compared"),
+      costs);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,111 @@
+// How often a solve from a guess, or from a perturbed one, succeeds: every problem by every method, as users meet them,
+// none from a solution. How many starts are solved, confirmed, on the best branch, and what that takes.
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/experiment.hpp"
+#include "bench/run/meanings.hpp"
+#include "bench/run/start_provider.hpp"
+#include "bench/tables/cold_starts.hpp"
+
+namespace dmocbench::cold_start_program {
+
+class ColdStart final : public Experiment {
+ public:
+  ColdStart()
+      : Experiment(
+            {.name = "cold_start",
+             .description =
+                 "Solves every case cold: from the problem's guess and from perturbed guesses, the same for all "
+                 "methods. NAME_shares.csv: how many starts are solved, confirmed by a replay of each interval, and on "
+                 "the best branch, with intervals of confidence, and quartiles of iterations, evaluations and seconds "
+                 "to there. NAME_profiles.csv: the share solved within a budget of evaluations or seconds (of "
+                 "evaluations alone where solves are those of a batch). A start that is lost keeps its row and counts.",
+             .options = {.problems = {"all"},
+                         .solvers = {"interior_point", "ipopt", "sqp"},
+                         .intervals = "64",
+                         .start = "guess",
+                         .tolerance = 1e-8,  // all solvers reach it
+                         .most_iterations = 200,
+                         .jobs = 2},
+             .tells_branches = false,
+             .problems_are_independent = true,
+             .takes_batches = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    return {
+        {"start", "", "number of the start, cold; 0 is the guess itself", from(&SolvedCase::the_case, &Case::variant)},
+        {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
+         from(&SolvedCase::solution, &Solution::total_evaluations)},
+        {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
+           const auto& reference = solved.the_case.problem->card().reference;
+           return reference ? std::optional(reference->objective) : std::nullopt;
+         }}};
+  }
+  void add_options(CommandLine& line) override {
+    constexpr long long most = 100000;
+    line.number("--starts", starts_, 1, most, "starts per case by interior_point on the paper's problems");
+    line.number("--library-starts", library_starts_, 0, most, "by interior_point on the other problems");
+    line.number("--other-starts", other_starts_, 0, most, "by other solvers on the paper's problems");
+    line.number("--other-library-starts", other_library_starts_, 0, most, "by other solvers on the other problems");
+    line.number("--seed", seed_, 0, 0xffffffffU, "of the random curves; the same seed gives the same starts");
+    line.number("--amplitude", amplitude_, 0.0, 10.0, "of the random curves, relative to the range of each coordinate");
+    line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
+                "largest excess of the cost over the reference, relative, of an answer on the best branch");
+  }
+  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+    std::vector<Case> all;
+    for (const Case& each : curve) {
+      const long long starts = starts_of(each);
+      for (long long start = 0; start < starts; ++start) all.emplace_back(each).variant = std::to_string(start);
+    }
+    return all;
+  }
+  /// All methods, solvers and grids start from the same curves.
+  [[nodiscard]] Motion start_for(const Case& the_case, Motion chosen) const override {
+    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(the_case.variant)));
+  }
+  void check(const std::vector<Case>& cases) override {
+    if (cases.empty()) throw Error("no case has a start; see --starts and the options like it");
+  }
+
+  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_shares.csv", "_profiles.csv"}; }
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    const Table shares = cold_start_shares(table, objective_tolerance_);
+    write_table(prefix.string() + "_shares.csv", shares, metadata);
+    write_table(prefix.string() + "_profiles.csv", cold_start_profiles(table), metadata);
+    metadata["start"] = "cold";
+    metadata["seed"] = seed_;
+    metadata["amplitude"] = amplitude_;
+    metadata["objective_tolerance"] = objective_tolerance_;
+    for (const Row& row : shares.rows()) {
+      fmt::print("{:<22} {:<12} {:<15} {:>5} cold starts: {} solved, {} confirmed, {} on the best branch\n",
+                 row.text("problem"), row.text("method"), row.text("solver"), row.text("starts"), row.text("solved"),
+                 row.text("confirmed"), row.text("best"));
+    }
+  }
+
+ private:
+  [[nodiscard]] long long starts_of(const Case& the_case) const {
+    const std::vector<std::string> paper = paper_problem_names();
+    const bool is_of_paper = std::ranges::find(paper, the_case.problem->name()) != paper.end();
+    if (the_case.solver == "interior_point") return is_of_paper ? starts_ : library_starts_;
+    return is_of_paper ? other_starts_ : other_library_starts_;
+  }
+
+  long long starts_ = 1000;
+  long long library_starts_ = 100;
+  long long other_starts_ = 50;
+  long long other_library_starts_ = 0;
+  std::uint64_t seed_ = 1;
+  double amplitude_ = 0.3;
+  double objective_tolerance_ = 0.02;
+};
+
+int run(int argc, char** argv) { return run_experiment(ColdStart(), argc, argv); }
+
+}  // namespace dmocbench::cold_start_program

@@ -1,0 +1,241 @@
+// The order of consistency of DMOC's discrete Lagrangian, forces, Legendre transforms and map: th:ordercalculation.
+#include "methods/diagnostics/consistency_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <tl/expected.hpp>
+
+#include "bench/experiments/one_step_tableaus.hpp"
+#include "bench/run/column.hpp"
+#include "bench/run/measured_or_reason.hpp"
+#include "bench/run/options.hpp"
+#include "bench/run/problem_options.hpp"
+#include "bench/run/process_pool.hpp"
+#include "bench/run/table_run.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+
+namespace dmocbench::consistency_order_program {
+
+/// The quantities that are compared with the exact ones, with their names in the tables.
+constexpr std::array<std::pair<const char*, double ConsistencyErrors::*>, 6> quantities{
+    {{"lagrangian", &ConsistencyErrors::lagrangian},
+     {"left_force", &ConsistencyErrors::left_force},
+     {"right_force", &ConsistencyErrors::right_force},
+     {"left_legendre", &ConsistencyErrors::left_legendre},
+     {"right_legendre", &ConsistencyErrors::right_legendre},
+     {"map", &ConsistencyErrors::map}}};
+
+/// u_j = 1/2 + sin(2πt/T + j): smooth, and nowhere stationary with all its derivatives.
+ControlFormula smooth_control(const Problem& problem) {
+  const double frequency = 2.0 * std::acos(-1.0) / problem.horizon();
+  const Eigen::Index m = problem.control_size();
+  return [=](const Expression& t) {
+    ExpressionVector u(m);
+    for (Eigen::Index j = 0; j < m; ++j) u[j] = 0.5 + sin(frequency * t + static_cast<double>(j));
+    return u;
+  };
+}
+
+/// Initial conditions around the guess a quarter of the way, so that no error vanishes by a coincidence of one motion.
+std::vector<BoundaryState> initial_conditions(const Problem& problem) {
+  constexpr int motions = 8;
+  constexpr double width = 0.1;
+  const MotionPoint centre = problem.guess(problem.horizon() / 4.0);
+  std::vector<BoundaryState> starts(motions, {centre.q, centre.v});
+  for (int k = 1; k < motions; ++k) {
+    BoundaryState& start = starts[static_cast<std::size_t>(k)];
+    for (Eigen::Index i = 0; i < centre.q.size(); ++i) {
+      start.q[i] += width * std::cos(k * (1.0 + static_cast<double>(i))) * std::max(1.0, std::abs(centre.q[i]));
+      start.v[i] += width * std::sin(k * (2.0 + static_cast<double>(i))) * std::max(1.0, std::abs(centre.v[i]));
+    }
+  }
+  return starts;
+}
+
+/// A measured error, or a fitted order, and what it is of.
+template <class Value>
+struct Measured {
+  std::string problem;
+  std::string tableau;
+  Eigen::Index stages = 0;
+  int order = 0;
+  std::string quantity;
+  Value value;
+};
+
+/// The columns that begin both tables.
+template <class Record>
+Columns<Record> first_columns() {
+  return {{"problem", "", "name of the problem", &Record::problem},
+          {"tableau", "", "family of Butcher tableaus", &Record::tableau},
+          {"stages", "", "number of stages", &Record::stages},
+          {"order", "", "the tableau's order", &Record::order},
+          {"quantity", "", "what is compared with the exact one", &Record::quantity}};
+}
+
+/// What was measured on one step; no error where an equation has no solution for it.
+struct ErrorOfStep {
+  double h = 0.0;
+  std::optional<double> error;
+  std::string message;
+};
+
+using MeasuredError = Measured<ErrorOfStep>;
+const Columns<MeasuredError> error_columns =
+    first_columns<MeasuredError>() +
+    Columns<MeasuredError>{
+        {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h)},
+        {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &ErrorOfStep::error)},
+        {"message", "", "why there is none", from(&MeasuredError::value, &ErrorOfStep::message)}};
+
+using MeasuredOrder = Measured<FittedOrder>;
+const Columns<MeasuredOrder> order_columns =
+    first_columns<MeasuredOrder>() + fitted_order_columns(&MeasuredOrder::value);
+
+struct Results {
+  std::vector<MeasuredError> errors;
+  std::vector<MeasuredOrder> orders;
+};
+
+/// A line through the finest six points that are clear of rounding. Errors below that are those of the tableau's
+/// coefficients, which are double. Six points span a factor of six in h; more would take in coarse steps, where the
+/// next power of h still counts.
+std::optional<FittedOrder> fit_finest(std::vector<GridError> points) {
+  constexpr double rounding = 1e-15;
+  constexpr std::size_t fitted = 6;
+  std::erase_if(points, [](const GridError& point) { return point.error < rounding; });
+  std::ranges::sort(points, {}, &GridError::step);
+  points.resize(std::min(points.size(), fitted));
+  return fit_order(points);
+}
+
+/// Steps T/N, coarsest first.
+void measure(const Problem& problem, const std::vector<long long>& intervals, Results& results) {
+  const std::vector<Tableau> tableaus = one_step_tableaus();
+  const ConsistencyOrder order(problem, smooth_control(problem), initial_conditions(problem));
+  std::vector<tl::expected<std::vector<ConsistencyErrors>, std::string>> errors;  // per step, then per tableau
+  const auto step = [&](std::size_t k) { return problem.horizon() / static_cast<double>(intervals[k]); };
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    throw_if_interrupted();
+    errors.push_back(measured_or_reason([&] { return order.errors(tableaus, step(k)); }));
+  }
+  for (std::size_t i = 0; i < tableaus.size(); ++i) {
+    for (const auto& [quantity, error] : quantities) {
+      const auto measured = [&, quantity = quantity]<class Value>(const Value& value) {
+        const Tableau& tableau = tableaus[i];
+        return Measured<Value>{problem.name(), tableau.family, tableau.stages(), tableau.order, quantity, value};
+      };
+      std::vector<GridError> points;
+      for (std::size_t k = 0; k < intervals.size(); ++k) {
+        if (!errors[k]) {
+          results.errors.push_back(measured(ErrorOfStep{step(k), std::nullopt, errors[k].error()}));
+          continue;
+        }
+        points.push_back({step(k), (*errors[k])[i].*error});
+        results.errors.push_back(measured(ErrorOfStep{step(k), points.back().error, ""}));
+      }
+      if (const auto fitted = fit_finest(points)) results.orders.push_back(measured(*fitted));
+    }
+  }
+}
+
+/// The Lemma 𝔽^{f±}L_d^E = 𝔽L: the largest distance of the exact forced discrete Legendre transforms, with derivatives
+/// of L_d^E by differences, from the momenta L_v at the ends of the exact motion.
+struct ExactTransform {
+  std::string problem;
+  double h = 0.0;
+  std::optional<double> left{};  ///< none of the three where the exact motion could not be found
+  std::optional<double> right{};
+  std::optional<double> momentum{};
+};
+
+const Columns<ExactTransform> transform_columns{
+    {"problem", "", "name of the problem", &ExactTransform::problem},
+    {"h", "", "step", &ExactTransform::h},
+    {"left_defect", "", "max of |-D_1 L_d^E - f_d^{E-} - L_v(0)|", &ExactTransform::left},
+    {"right_defect", "", "max of |D_2 L_d^E + f_d^{E+} - L_v(h)|", &ExactTransform::right},
+    {"largest_momentum", "", "largest entry of L_v, to compare with", &ExactTransform::momentum}};
+
+/// D_1 L_d^E and D_2 L_d^E along e_i by differences of order 4, from boundary value problems with moved ends.
+std::pair<long double, long double> derivatives_of_exact_lagrangian(const ExactDiscreteLagrangian& exact,
+                                                                    const ExactInterval& at, long double h,
+                                                                    Eigen::Index i) {
+  const long double e = 1e-3L * h;
+  const LongVector unit = LongVector::Unit(at.q_0.size(), i);
+  const auto lagrangian = [&](long double left, long double right) {
+    return exact.between(at.q_0 + left * unit, at.q_1 + right * unit, at.v_0, h).objects.lagrangian;
+  };
+  const auto derivative = [&](const auto& f) {
+    return (8.0L * (f(e) - f(-e)) - (f(2.0L * e) - f(-2.0L * e))) / (12.0L * e);
+  };
+  return {derivative([&](long double x) { return lagrangian(x, 0.0L); }),
+          derivative([&](long double x) { return lagrangian(0.0L, x); })};
+}
+
+ExactTransform exact_transform(const Problem& problem, long long intervals) {
+  ExactTransform result{.problem = problem.name(), .h = problem.horizon() / static_cast<double>(intervals)};
+  const ExactDiscreteLagrangian exact(problem, smooth_control(problem));
+  const auto raise = [](std::optional<double>& largest, long double value) {
+    largest = std::max(largest.value_or(0.0), static_cast<double>(std::abs(value)));
+  };
+  try {
+    for (const BoundaryState& start : initial_conditions(problem)) {
+      throw_if_interrupted();
+      const ExactInterval at = exact.along(start.q.cast<long double>(), start.v.cast<long double>(), result.h);
+      for (Eigen::Index i = 0; i < at.q_0.size(); ++i) {
+        const auto [by_left, by_right] = derivatives_of_exact_lagrangian(exact, at, result.h, i);
+        raise(result.left, -by_left - at.objects.left_force[i] - at.objects.left_momentum[i]);
+        raise(result.right, by_right + at.objects.right_force[i] - at.objects.right_momentum[i]);
+        raise(result.momentum, at.objects.left_momentum[i]);
+        raise(result.momentum, at.objects.right_momentum[i]);
+      }
+    }
+  } catch (const Stopped&) {
+    throw;
+  } catch (const Error&) {  // the errors of the same step, measured before, say why
+    result.left = result.right = result.momentum = std::nullopt;
+  }
+  return result;
+}
+
+int measure_all(CommandLine& line) {
+  ProblemOptions asked{.problems = {"all"}};
+  std::string intervals = "32,48,64,96,128,192,256,384,512,768,1024";
+  asked.add_to(line);
+  line.option("--intervals", intervals, "numbers N, h = T/N: a list or first:last by doubling");
+  TableRun run("consistency_order", line);
+  const std::vector<long long> steps = parse_intervals("--intervals", intervals);
+  const auto selected = asked.selected();
+  Results results;
+  std::vector<ExactTransform> transforms;
+  for (const auto& problem : selected) {
+    run.show(problem->name());
+    measure(*problem, steps, results);
+    for (const long long coarsest_and_finest : {steps.front(), steps.back()}) {
+      transforms.push_back(exact_transform(*problem, coarsest_and_finest));
+    }
+  }
+  const auto failures =
+      std::ranges::count_if(results.errors, [](const MeasuredError& row) { return !row.value.error; });
+  run.add("consistency_order", error_columns, results.errors, failures);
+  run.add("consistency_order_slopes", order_columns, results.orders);
+  run.add("consistency_order_transforms", transform_columns, transforms);
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "consistency_order",
+      "Order of consistency: DMOC's discrete Lagrangian, forces, Legendre transforms and one-step map against the "
+      "exact ones over the step h = T/N (consistency_order.csv), for every tableau, with fitted slopes "
+      "(consistency_order_slopes.csv); and the exact discrete Legendre transforms against those of L, on the coarsest "
+      "and the finest step (consistency_order_transforms.csv).",
+      argc, argv, measure_all);
+}
+
+}  // namespace dmocbench::consistency_order_program

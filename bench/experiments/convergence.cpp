@@ -1,0 +1,171 @@
+// Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and the cost of accuracy.
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/experiment.hpp"
+#include "bench/run/indirect_reference.hpp"
+#include "bench/run/meanings.hpp"
+#include "bench/tables/fitted_orders.hpp"
+#include "bench/tables/ratios.hpp"
+#include "methods/diagnostics/trajectory_error.hpp"
+#include "methods/error.hpp"
+#include "methods/indirect/control_from_costate.hpp"
+
+namespace dmocbench::convergence_program {
+
+/// The value of --reference: N, 0 for the finest grid of each curve, or `exact_reference`.
+long long parse_reference(const std::string& text) {
+  if (text.empty()) return 0;
+  if (text == "indirect") return exact_reference;
+  const auto intervals = parsed<long long>(text);
+  if (intervals && *intervals > 0) return *intervals;
+  throw Error(fmt::format("--reference must be a number of intervals or indirect, got {}", text));
+}
+
+long long intervals_of(const Case& the_case) { return static_cast<long long>(the_case.intervals()); }
+
+class Convergence final : public Experiment {
+ public:
+  Convergence()
+      : Experiment(
+            {.name = "convergence",
+             .description =
+                 "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
+                 "indirect solution (NAME_reference.csv, where stage values have errors too; NAME_jumps.csv holds the "
+                 "worst interval against the true error), with fitted slopes (NAME_slopes.csv) and the cost of equal "
+                 "accuracy (NAME_equal_accuracy.csv).",
+             .options = {.intervals = "16:1024"},
+             .polishes = true}) {}
+  [[nodiscard]] Columns<SolvedCase> columns() const override {
+    constexpr auto stages = &TrajectoryError::stages;
+    const Columns<SolvedCase> measured{
+        {"state_error", "", "largest error of q over the nodes", of(measured_.error, &TrajectoryError::state)},
+        {"control_error", "", "largest error of u over the stages", of(measured_.error, &TrajectoryError::control)},
+        {"momentum_error", "", "largest error of p over the nodes", of(measured_.error, &TrajectoryError::momentum)},
+        {"costate_error", "", "largest error of psi over the nodes", of(measured_.error, &TrajectoryError::costate)},
+        {"objective_error", "cost", "error of the cost", of(measured_.error, &TrajectoryError::objective)},
+        replay_error_column(measured_.replay),
+        {"control_from_costate_error", "",
+         "largest error of the control recomputed from state and costate at the nodes",
+         of(measured_.control_from_costate_error)},
+        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
+        {"stage_configuration_error", "", "largest error of Q_i",
+         of(measured_.error, stages, &StageError::configuration)},
+        {"stage_momentum_error", "", "largest error of P_i", of(measured_.error, stages, &StageError::momentum)},
+        {"stage_costate_q_error", "", "largest error of Psi^q_i", of(measured_.error, stages, &StageError::costate_q)},
+        {"stage_costate_p_error", "", "largest error of Psi^p_i", of(measured_.error, stages, &StageError::costate_p)},
+    };
+    return measured + columns_of_rounds();
+  }
+  void add_options(CommandLine& line) override {
+    line.option("--reference", reference_text_,
+                "what errors are measured against: N of a grid of the same method (default: the finest one of each "
+                "curve), or indirect, the solution of Pontryagin's boundary value problem, certified to 11 digits and "
+                "kept in the output folder");
+    line.flag("--polish,!--no-polish", card_.polishes,
+              "tighten answers by Newton steps, so that errors are those of the method and not of the solver");
+    line.option(
+        "--fit", fit_,
+        "slopes are fitted from N = a to b, written a:b; default: 32 (64 with more than one stage) to a quarter of "
+        "the reference, or to the finest grid against the indirect solution");
+  }
+
+  void check(const std::vector<Case>& cases) override {
+    reference_ = parse_reference(reference_text_);
+    if (!fit_.empty()) {
+      const std::vector<long long> range = parse_intervals("--fit", fit_);
+      fit_range_ = {range.front(), range.back()};
+    }
+    if (reference_ == exact_reference) indirect_.emplace(card_.options.out);
+    if (reference_ > 0 && std::ranges::count(cases, reference_, intervals_of) == 0) {
+      throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
+    }
+  }
+
+  [[nodiscard]] std::size_t solved_first(const std::vector<Case>& curve) const override {
+    const auto found = std::ranges::find(curve, reference_, intervals_of);
+    return found == curve.end() ? curve.size() - 1 : static_cast<std::size_t>(found - curve.begin());
+  }
+
+  /// The reference.
+  [[nodiscard]] std::string shared_by(const Case& the_case) const override {
+    return indirect_ ? the_case.problem->name() : label_of_curve(the_case);
+  }
+
+  void complete(SolvedCase& solved) override {
+    const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
+    if (is_first) reference_trajectory_.reset();
+    curve_ = solved.the_case;
+    measured_ = {};
+    if (!solved.trajectory) return;
+    measured_.replay = replay(solved);
+    // The error of an answer that is too coarse is drawn, hollow, but nothing is fitted to it or measured by it.
+    if (!is_discrete_optimum(solved)) return;
+    const Problem& problem = *solved.the_case.problem;
+    const Trajectory& trajectory = *solved.trajectory;
+    try {
+      if (indirect_) {
+        reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
+      } else if (is_first) {
+        if (is_usable(solved)) reference_trajectory_ = trajectory;
+        return;
+      }
+      if (!reference_trajectory_) return;
+      measured_.error = trajectory_error(trajectory, *reference_trajectory_);
+      if (!measured_.error->costate) return;
+      measured_.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
+    } catch (const Error& failure) {
+      solved.note(failure.what());
+    }
+  }
+
+  [[nodiscard]] nlohmann::ordered_json findings() const override { return indirect_ ? indirect_->findings() : nullptr; }
+  void add_findings(const nlohmann::ordered_json& findings) override {
+    if (indirect_) indirect_->add_findings(findings);
+  }
+
+  [[nodiscard]] std::vector<std::string> further_files() const override {
+    return {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"};
+  }
+  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+    FittedOrders orders = fit_orders(table, fit_range_, reference_);
+    write_table(prefix.string() + "_slopes.csv", orders.table, metadata);
+    write_table(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table), metadata);
+    metadata["reference"] = reference_ == exact_reference ? "the indirect solution"
+                            : reference_ > 0              ? fmt::format("N = {} of the same method", reference_)
+                                                          : "the finest grid of the same method";
+    if (indirect_) {
+      write_table(prefix.string() + "_reference.csv", indirect_->table(), metadata);
+      write_table(prefix.string() + "_jumps.csv", fit_jumps(table), metadata);
+      metadata["references"] = indirect_->metadata();
+      const std::vector<std::string> notes = indirect_->notes();
+      orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
+    }
+    for (const std::string& note : orders.notes) {
+      metadata["notes"].push_back(note);
+      fmt::print("convergence: {}\n", note);
+    }
+  }
+
+ private:
+  std::string reference_text_;
+  long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
+  std::optional<IndirectReference> indirect_;
+  std::string fit_;
+  std::optional<FitRange> fit_range_;
+  std::optional<Case> curve_;
+  std::optional<Trajectory> reference_trajectory_;
+  struct {
+    std::optional<TrajectoryError> error;
+    std::optional<double> control_from_costate_error;
+    std::optional<ReplayError> replay;
+  } measured_;  // of the case that is completed
+};
+
+int run(int argc, char** argv) { return run_experiment(Convergence(), argc, argv); }
+
+}  // namespace dmocbench::convergence_program

@@ -1,0 +1,165 @@
+// Problems that follow each other, each started from the answer of the one before: receding horizon and homotopy.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/solved_steps.hpp"
+#include "bench/run/column.hpp"
+#include "bench/run/experiment.hpp"
+#include "bench/run/problem_options.hpp"
+#include "bench/run/process_pool.hpp"
+#include "bench/run/start_provider.hpp"
+#include "bench/run/table_run.hpp"
+#include "methods/error.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::sequence_program {
+
+/// The choices of a user.
+struct SequenceOptions {
+  ProblemOptions problems{.problems = paper_problem_names()};
+  std::vector<std::string> methods = element_names();
+  int intervals = 64;
+  int steps = 200;
+  int cold_every = 5;
+  int repeats = 3;
+  double disturbance = 0.01;
+  double barrier = 0.0;
+  std::uint64_t seed = 1;
+  std::string over = {};
+};
+
+/// The homotopy of a problem: what the user names, else a parameter of the paper's problems; none of others.
+std::optional<SweptQuantity> homotopy_of(const SequenceOptions& options, const Problem& problem) {
+  if (!options.over.empty()) {
+    const SweptQuantity quantity = parse_over(options.over, true);
+    require_quantities(problem, {quantity});
+    return quantity;
+  }
+  if (problem.name() == "orbital_transfer") return SweptQuantity{"target_altitude", 330.0, 660.0};
+  if (problem.name() == "two_link_manipulator") return SweptQuantity{"mass_1", 1.0, 2.0};
+  return std::nullopt;
+}
+
+/// The first problem of each method solved from the common start. Throws `Error` if one is not.
+std::vector<SolvedCase> first_answers(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
+                                      StartProvider& starts, const SolverOptions& solver_options) {
+  const auto solver = make_solver("interior_point", solver_options);
+  std::vector<SolvedCase> answers;
+  for (const std::string& method : options.methods) {
+    const Case the_case{.problem = problem,
+                        .method = method,
+                        .tableau = "gauss",
+                        .solver = "interior_point",
+                        .grid = Grid::uniform(options.intervals)};
+    answers.push_back(solve_case(the_case, starts.start_for(the_case), *solver, solver_options.tolerance, 1));
+    throw_if_interrupted();
+    const SolvedCase& answer = answers.back();
+    if (answer.trajectory && is_solved(answer.solution.status)) continue;
+    throw Error(
+        fmt::format("{} is not solved, so that no sequence can begin: {}", the_case.label(), answer.solution.message));
+  }
+  return answers;
+}
+
+/// All methods through one kind of sequence, step by step in turn, so that other load of the machine slows all alike.
+void run_in_turn(std::vector<SequenceRun>& runs, const SequenceOptions& options, std::vector<SequenceStep>& steps) {
+  for (int step = 0; step < options.steps; ++step) {
+    for (std::size_t turn = 0; turn < runs.size(); ++turn) {
+      throw_if_interrupted();
+      SequenceRun& run = runs[(turn + static_cast<std::size_t>(step)) % runs.size()];
+      if (!run.is_at_end()) steps.push_back(run.next(options.cold_every > 0 && step % options.cold_every == 0));
+    }
+  }
+}
+
+std::vector<SequenceStep> run_problem(const SequenceOptions& options, const std::shared_ptr<const Problem>& problem,
+                                      StartProvider& starts, const SolverOptions& solver_options) {
+  if (problem->bounds().horizon.is_free()) {
+    throw Error(fmt::format("{} has a free horizon, which does not recede; choose another problem", problem->name()));
+  }
+  const std::optional<SweptQuantity> quantity = homotopy_of(options, *problem);
+  std::vector<SequenceStep> steps;
+  const std::vector<SolvedCase> answers = first_answers(options, problem, starts, solver_options);
+  // NOLINTNEXTLINE(bugprone-unchecked-optional-access): every one of them is solved
+  const Trajectory& motion = *answers.front().trajectory;
+  const SequenceChoices choices{
+      .repeats = options.repeats,
+      .barrier_parameter = options.barrier > 0.0 ? std::optional(options.barrier) : std::nullopt};
+  std::vector<SequenceRun> receding;
+  std::vector<SequenceRun> continued;
+  for (const SolvedCase& answer : answers) {
+    receding.emplace_back(answer, receding_horizon(problem, motion, options.disturbance, options.seed), solver_options,
+                          choices);
+    if (!quantity) continue;
+    continued.emplace_back(answer, homotopy(problem, options.problems.settings, *quantity, options.steps),
+                           solver_options, choices);
+  }
+  run_in_turn(receding, options, steps);
+  run_in_turn(continued, options, steps);
+  return steps;
+}
+
+void print_summary(const Table& summary) {
+  for (const Row& row : summary.rows()) {
+    fmt::print(
+        "{:<22} {:<12} {:<17} {:>3} of {} solved, iterations {} {} {}, microseconds {:.0f} {:.0f} {:.0f} "
+        "(median, 99th percentile, largest); cold {} iterations\n",
+        row.text("problem"), row.text("method"), row.text("sequence"), row.text("solved"), row.text("steps"),
+        row.text("median_iterations"), row.text("p99_iterations"), row.text("largest_iterations"),
+        row.number("median_microseconds", 0.0), row.number("p99_microseconds", 0.0),
+        row.number("largest_microseconds", 0.0), row.text("median_cold_iterations"));
+  }
+}
+
+void add_options(CommandLine& line, SequenceOptions& options) {
+  options.problems.add_to(line);
+  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent");
+  line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
+  line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
+  line.number("--cold-every", options.cold_every, 0, 100000,
+              "every how many steps the problem is solved cold too; 0: never");
+  line.number("--repeats", options.repeats, 1, 1000, "solves of every step; its time is the smallest of them");
+  line.number("--disturbance", options.disturbance, 0.0, 1.0,
+              "of the initial states of a receding horizon, a share of the range of the first motion");
+  line.number("--barrier", options.barrier, 0.0, 1.0,
+              "barrier parameter that warm solves begin with; 0: that with which the solve before ended");
+  line.number("--seed", options.seed, 0, 0xffffffffU, "of the disturbances");
+  line.option("--over", options.over, "NAME=LOWER:UPPER: the parameter or end state that a homotopy changes");
+}
+
+int run_sequences(CommandLine& line) {
+  SequenceOptions options;
+  add_options(line, options);
+  TableRun run("sequence", line);
+  options.methods = chosen_of("--method", element_names(), options.methods);
+  const auto problems = options.problems.selected();
+  for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
+  const SolverOptions solver_options = TableRun::solver_options();
+  StartProvider starts({}, solver_options);
+  std::vector<SequenceStep> steps;
+  for (const auto& problem : problems) {
+    run.show(problem->name());
+    const std::vector<SequenceStep> of_problem = run_problem(options, problem, starts, solver_options);
+    steps.insert(steps.end(), of_problem.begin(), of_problem.end());
+  }
+  const Table summary = sequence_summary(steps);
+  run.add("sequence", step_table(steps));
+  run.add("sequence_summary", summary);
+  print_summary(summary);
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "sequence",
+      "Problems that follow each other, each started from the motion, multipliers and barrier parameter of the one "
+      "before: a receding horizon with disturbances, and a homotopy in a parameter. sequence.csv: iterations and "
+      "microseconds of every step, warm and cold; sequence_summary.csv: median, 99th percentile and largest.",
+      argc, argv, run_sequences);
+}
+
+}  // namespace dmocbench::sequence_program

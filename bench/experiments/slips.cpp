@@ -1,0 +1,248 @@
+// Statements of the paper that cannot be meant as printed, each evaluated as printed and as meant.
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "bench/run/restated_problem.hpp"
+#include "bench/run/start_provider.hpp"
+#include "bench/run/table_run.hpp"
+#include "methods/diagnostics/exact_discrete_lagrangian.hpp"
+#include "methods/error.hpp"
+#include "methods/expression/derivatives.hpp"
+#include "methods/expression/replay.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "problems/closed_form.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::slips_program {
+
+struct Misprint {
+  std::string problem;
+  std::string name;
+  std::string where;
+  std::string printed;
+  std::string meant;
+  std::string quantity;  ///< what tells both apart
+  double as_printed;
+  double as_meant;
+  double required;
+};
+
+/// The derivative of the potential's last term with respect to θ₂ where the paper says the arm is in equilibrium.
+Misprint potential_without_sine() {
+  const auto problem = make_problem("two_link_manipulator");
+  const double weight =
+      0.5 * problem->parameter("mass_2") * problem->parameter("gravity") * problem->parameter("length_2");
+  const ExpressionVector theta = input_vector(0, 1);
+  const auto torque_upright = [&](const Expression& potential) {
+    const std::vector<double> upright{std::numbers::pi / 2.0};
+    return -replay<double>(Schedule(gradient(potential, theta)), std::span<const double>(upright)).front();
+  };
+  return {.problem = problem->name(),
+          .name = "potential",
+          .where = "section 4.2.2, V(q)",
+          .printed = "last term of V is 1/2 m_2 g l_2 theta_2",
+          .meant = "1/2 m_2 g l_2 sin theta_2",
+          .quantity = "torque on theta_2 at the equilibrium (pi/2, pi/2)",
+          .as_printed = torque_upright(weight * theta[0]),
+          .as_meant = torque_upright(weight * sin(theta[0])),
+          .required = 0.0};
+}
+
+/// Free variations at t = 0 give ∂L/∂q̇(0) = p⁰; the paper prints p^T there, and p⁰ at T.
+Misprint swapped_momenta(const Problem& problem, const Trajectory& motion) {
+  const BoundaryState first = problem.initial_state();
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::Index last = motion.q.rows() - 1;
+  return {.problem = problem.name(),
+          .name = "boundary_momenta",
+          .where = "eq:bounds_impuls1, eq:bounds_impuls2",
+          .printed = "dL/dq' = p^T at t = 0 and p^0 at t = T",
+          .meant = "p^0 at t = 0, p^T at t = T",
+          .quantity = "angular momentum at t = 0 on the optimal transfer",
+          .as_printed = motion.p(last, 1),
+          .as_meant = motion.p(0, 1),
+          .required = legendre.momentum(first.q, first.v, 0.0)[1]};
+}
+
+/// ṗ = -∇_q H + f; the Mayer paragraph writes -∇_p H + f. On the orbit ∇_q H has no φ part and ∇_p H has φ̇: integrated
+/// over the horizon, Δp_φ = ∫ f_φ dt as meant, and ∫ f_φ dt - Δφ as printed.
+Misprint mayer_gradient(const Problem& problem, const Trajectory& motion) {
+  const Eigen::Index last = motion.q.rows() - 1;
+  double work = 0.0;
+  for (Eigen::Index k = 0; k < motion.intervals(); ++k) {
+    work += (motion.node_times[k + 1] - motion.node_times[k]) * motion.stage_q(k, 0) * motion.stage_u(k, 0);
+  }
+  return {.problem = problem.name(),
+          .name = "mayer_form",
+          .where = "eq:dHOCP1_mayer and below",
+          .printed = "eta = -grad_p H + f",
+          .meant = "eta = -grad_q H + f",
+          .quantity = "change of angular momentum over the optimal transfer",
+          .as_printed = work - (motion.q(last, 1) - motion.q(0, 1)),
+          .as_meant = work,
+          .required = motion.p(last, 1) - motion.p(0, 1)};
+}
+
+/// The control at T of the two shaken masses when their final state costs ½w(|q|² + |q̇|²): H = -C + λ·f is largest at
+/// u = c λ_p₂ ẋ₂, and λ(T) = -∇Φ has p₂ part -w ẋ₂/m₂. As printed, λ(T) = +∇Φ, the sign would be the other one.
+Misprint transversality(StartProvider& starts) {
+  constexpr double weight = 1e3;
+  const std::shared_ptr<const Problem> free = make_problem("double_oscillator");
+  // The problem's own scale makes the weight so large that rounding of q(T) alone is above the tolerance.
+  const auto problem =
+      std::make_shared<RestatedProblem>(free, RestatedProblem::Changes{.final_weight = weight, .cost_scale = 1.0});
+  const Trajectory motion = starts.solve({.problem = problem,
+                                          .method = "dmoc",
+                                          .tableau = "gauss",
+                                          .stages = 4,
+                                          .solver = "ipopt",
+                                          .grid = Grid::uniform(128)});
+  const double v = motion.v(motion.intervals(), 1);
+  const double control = weight * free->parameter("damping") * v * v / free->parameter("mass_2");
+  return {.problem = problem->name(),
+          .name = "transversality",
+          .where = "th:pontryagin",
+          .printed = "lambda(T) = grad Phi - grad r alpha",
+          .meant = "lambda(T) = -grad Phi - grad r alpha, as H = -C + lambda f is maximised",
+          .quantity = "control at T, final state free with the cost 500 (|q|^2 + |q'|^2)",
+          .as_printed = control,
+          .as_meant = -control,
+          .required = control_at(motion, motion.node_times[motion.intervals()])[0]};
+}
+
+/// L(η, λ*) - L(η*, λ*) of the double integrator, with q, v and u all moved, none of them at the ends. λ* = (λ_q, λ_p)
+/// with λ_p = u* and λ̇_q = 0.
+Misprint saddle_point() {
+  const auto problem = make_problem("double_integrator");
+  const auto& closed = dynamic_cast<const ClosedForm&>(*problem);
+  constexpr int points = 2000;
+  constexpr double pi = std::numbers::pi;
+  double difference = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double t = (i + 0.5) / points;
+    const std::optional<OptimalPoint> at = closed.optimum(t);
+    if (!at) throw Error("the double integrator has no closed form with these parameters");
+    const double u = at->motion.u[0];
+    const double lambda_q = -at->psi_q[0];  // λ = -ψ
+    const double lambda_p = -at->psi_p[0];
+    // δq = sin²(πt), δv = sin(2πt), δu = cos(3t); η* solves the equations of motion.
+    const double moved_u = u + std::cos(3.0 * t);
+    const double q_equation = pi * std::sin(2.0 * pi * t) - std::sin(2.0 * pi * t);
+    const double v_equation = 2.0 * pi * std::cos(2.0 * pi * t) - std::cos(3.0 * t);
+    difference += (0.5 * moved_u * moved_u - 0.5 * u * u + lambda_q * q_equation + lambda_p * v_equation) / points;
+  }
+  return {.problem = problem->name(),
+          .name = "saddle_point",
+          .where = "below eq:ocp_Jaug",
+          .printed = "L(eta, lambda*) <= L(eta*, lambda*) <= L(eta*, lambda)",
+          .meant = "L(eta*, lambda) <= L(eta*, lambda*) <= L(eta, lambda*), as J is minimised",
+          .quantity = "sign of L(eta, lambda*) - L(eta*, lambda*) for one eta near the optimum",
+          .as_printed = -1.0,
+          .as_meant = 1.0,
+          .required = std::copysign(1.0, difference)};
+}
+
+/// The Lemma's proof on an interval of the orbit: -D_1 L_d^E - f_d^{E-} = -∫ [L_q - d/dt L_v + f]·∂q/∂q_0 dt + L_v(0),
+/// where the bracket vanishes. As printed, with -f in it, the integral would be 2 f_d^{E-}.
+Misprint force_in_lemma(const Problem& problem) {
+  constexpr long double h = 0.5L;
+  constexpr long double e = 1e-5L;
+  const ExactDiscreteLagrangian exact(
+      problem, [](const Expression& t) { return ExpressionVector::Constant(1, 0.1 + 0.1 * sin(t)); });
+  const BoundaryState first = problem.initial_state();
+  const LongVector q_0 = first.q.cast<long double>();
+  const LongVector v_start = first.v.cast<long double>();
+  const ExactInterval interval = exact.along(q_0, v_start, h);
+  const LongVector moved = e * LongVector::Unit(2, 1);
+  const auto lagrangian = [&](const LongVector& left) {
+    return exact.between(left, interval.q_1, v_start, h).objects.lagrangian;
+  };
+  const long double slope = (lagrangian(q_0 + moved) - lagrangian(q_0 - moved)) / (2.0L * e);
+  LegendreTransform legendre{TracedProblem(problem)};
+  const double required = legendre.momentum(first.q, first.v, 0.0)[1];
+  const auto force = static_cast<double>(interval.objects.left_force[1]);
+  return {.problem = problem.name(),
+          .name = "force_in_lemma",
+          .where = "section 2.3, proof of the Lemma",
+          .printed = "-int [L_q - d/dt L_q' - f] dq/dq_0 dt",
+          .meant = "+f in the bracket, which then vanishes",
+          .quantity = "p_phi at the left end of an exact interval",
+          .as_printed = required + 2.0 * force,
+          .as_meant = static_cast<double>(-slope) - force,
+          .required = required};
+}
+
+/// (q^T, p^T) = 𝔽L(q^N, q̇^N) in a statement about continuous motions, which have no N. Read as the state of the last
+/// interval of a discrete one, q̇^N = (q_N - q_{N-1})/h, it misses the momentum that the final state has.
+Misprint final_momentum(const Problem& problem, const Trajectory& motion) {
+  const Eigen::Index last = motion.intervals();
+  const BoundaryState end = problem.final_state();
+  LegendreTransform legendre{TracedProblem(problem)};
+  const Eigen::VectorXd q = motion.q.row(last).transpose();
+  const Eigen::VectorXd v = (motion.q.row(last) - motion.q.row(last - 1)).transpose() / motion.step(last - 1);
+  return {.problem = problem.name(),
+          .name = "final_momentum",
+          .where = "section 3.2, the Proposition",
+          .printed = "(q^T, p^T) = FL(q^N, q'^N)",
+          .meant = "(q^T, p^T) = FL(q^T, q'^T)",
+          .quantity = "angular momentum at t = T on the optimal transfer, q'^N read as (q_N - q_N-1)/h",
+          .as_printed = legendre.momentum(q, v, 0.0)[1],
+          .as_meant = legendre.momentum(end.q, end.v, 0.0)[1],
+          .required = motion.p(last, 1)};
+}
+
+/// The ratio of free variables, collocation to DMOC, that the minor iterations of a figure reflect: of a long horizon
+/// it is (2n + m)/(n + m). The text gives 1.5.
+Misprint figure_of_iterations() {
+  const auto ratio = [](const char* name) {
+    const auto problem = make_problem(name);
+    const auto n = static_cast<double>(problem->configuration_size());
+    const auto m = static_cast<double>(problem->control_size());
+    return (2.0 * n + m) / (n + m);
+  };
+  return {.problem = "two_link_manipulator",
+          .name = "figure_of_iterations",
+          .where = "section 4.2.2, last paragraph, and caption of fig:twolink_iterations",
+          .printed = "the two-link's minor iterations are in fig:kepler_iterations",
+          .meant = "fig:twolink_iterations, whose caption says low thrust orbital transfer",
+          .quantity = "ratio of variables on the problem of that figure",
+          .as_printed = ratio("orbital_transfer"),
+          .as_meant = ratio("two_link_manipulator"),
+          .required = 1.5};
+}
+
+const Columns<Misprint> columns{
+    {"problem", "", "name of the problem", &Misprint::problem},
+    {"slip", "", "short name of the statement", &Misprint::name},
+    {"where", "", "in the paper", &Misprint::where},
+    {"printed", "", "what is printed", &Misprint::printed},
+    {"meant", "", "what is meant", &Misprint::meant},
+    {"quantity", "", "what tells both apart", &Misprint::quantity},
+    {"value_as_printed", "", "its value as printed", &Misprint::as_printed},
+    {"value_as_meant", "", "its value as meant", &Misprint::as_meant},
+    {"required_value", "", "its value as it has to be", &Misprint::required},
+};
+
+int evaluate_misprints(CommandLine& line) {
+  TableRun run("slips", line);
+  const std::shared_ptr<const Problem> orbit = make_problem("orbital_transfer");
+  StartProvider starts({}, TableRun::solver_options());
+  const Trajectory motion = starts.solve(
+      {.problem = orbit, .method = "dmoc", .tableau = "gauss", .solver = "ipopt", .grid = Grid::uniform(128)});
+  const std::vector<Misprint> misprints{potential_without_sine(),       swapped_momenta(*orbit, motion),
+                                        mayer_gradient(*orbit, motion), force_in_lemma(*orbit),
+                                        transversality(starts),         saddle_point(),
+                                        final_momentum(*orbit, motion), figure_of_iterations()};
+  run.add("slips", columns, misprints);
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "slips", "Statements of the paper that cannot be meant as printed, evaluated as printed and as meant: slips.csv.",
+      argc, argv, evaluate_misprints);
+}
+
+}  // namespace dmocbench::slips_program

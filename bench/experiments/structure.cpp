@@ -1,0 +1,195 @@
+// What the discrete flows preserve: momentum (th:discforcNoe, eq:noether_force_d), symplecticity, energy ("Conservation
+// of a Modified Energy").
+#include "bench/experiments/energy_columns.hpp"
+#include "bench/experiments/energy_tables.hpp"
+#include "bench/experiments/example_systems.hpp"
+#include "bench/experiments/long_time_energy.hpp"
+#include "bench/experiments/orthogonal_forces.hpp"
+#include "bench/experiments/rotations.hpp"
+#include "bench/experiments/simulated_tables.hpp"
+#include "bench/run/column.hpp"
+#include "bench/run/problem_options.hpp"
+#include "bench/run/start_provider.hpp"
+#include "bench/run/table_run.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/error.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench::structure_program {
+
+/// The energy along the unforced ellipse: of one period, or over all of them.
+template <class Energy>
+struct OnEllipse {
+  Scheme scheme;
+  int order = 0;
+  int steps_per_period = 0;
+  long long periods = 0;
+  Energy energy;
+};
+using EnergyOfPeriod = OnEllipse<PeriodEnergy>;
+using EnergyOfPeriods = OnEllipse<EnergyBehaviour>;
+
+struct EnergyOrder {
+  Scheme scheme;
+  const char* quantity = "";
+  FittedOrder fit;
+};
+
+/// The columns that begin the tables of the unforced ellipse.
+template <class Record>
+Columns<Record> ellipse_columns() {
+  return scheme_columns<Record>() +
+         Columns<Record>{{"order", "", "order of the method", &Record::order},
+                         {"steps_per_period", "", "steps per period", &Record::steps_per_period}};
+}
+
+const Columns<EnergyOfPeriod> period_columns =
+    ellipse_columns<EnergyOfPeriod>() + period_energy_columns(&EnergyOfPeriod::energy);
+
+const Columns<EnergyOfPeriods> behaviour_columns =
+    ellipse_columns<EnergyOfPeriods>() +
+    Columns<EnergyOfPeriods>{{"periods", "", "number of periods", &EnergyOfPeriods::periods}} +
+    energy_behaviour_columns(&EnergyOfPeriods::energy);
+
+const Columns<EnergyOrder> order_columns =
+    scheme_columns<EnergyOrder>() +
+    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
+    fitted_order_columns(&EnergyOrder::fit);
+
+struct EnergyResults {
+  std::vector<EnergyOfPeriod> periods;
+  std::vector<EnergyOfPeriods> behaviour;
+  std::vector<EnergyOrder> orders;
+};
+
+Scheme on_ellipse(const LongTimeMethod& method) { return {"kepler", method.name, method.tableau, method.stages}; }
+
+EnergyBehaviour follow(const LongTimeMethod& method, int steps_per_period, long long periods, bool with_periods,
+                       EnergyResults& results) {
+  const Scheme scheme = on_ellipse(method);
+  const std::vector<PeriodEnergy> energies = long_time_energy(method, steps_per_period, periods);
+  for (const PeriodEnergy& period : energies) {
+    if (with_periods) results.periods.push_back({scheme, method.order, steps_per_period, periods, period});
+  }
+  const EnergyBehaviour behaviour = energy_behaviour(energies);
+  results.behaviour.push_back({scheme, method.order, steps_per_period, periods, behaviour});
+  return behaviour;
+}
+
+/// How the oscillation shrinks with the step: a few periods on ever finer steps.
+void oscillation_over_step(const LongTimeMethod& method, EnergyResults& results) {
+  constexpr long long few_periods = 20;
+  std::vector<GridError> points;
+  for (const int steps : {128, 192, 256, 384, 512}) {
+    points.push_back({Kepler::period / steps, follow(method, steps, few_periods, false, results).oscillation});
+  }
+  if (const auto order = fit_order(points)) results.orders.push_back({on_ellipse(method), "oscillation", *order});
+}
+
+/// The choices of a user.
+struct StructureOptions {
+  int steps = 400;
+  int steps_per_period = 64;
+  long long periods = 10000;
+  ProblemOptions asked = {};  ///< without problems the examples
+};
+
+void add_options(CommandLine& line, StructureOptions& options) {
+  line.number("--steps", options.steps, 1, 1000000, "steps of the forced maps of the examples");
+  line.number("--steps-per-period", options.steps_per_period, 16, 100000, "steps per period of the orbit");
+  line.number("--periods", options.periods, 3, 10000000, "periods of the orbit");
+  options.asked.add_to(line);
+}
+
+void add_symplecticity(TableRun& run, const std::vector<MappedStates>& systems) {
+  const SymplecticityTable symplecticity = symplecticity_table(systems);
+  run.add("structure_symplecticity", symplecticity.table, symplecticity.unsolved);
+}
+
+void add_energy_against_work(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
+  run.show("energies against the work of forces");
+  const EnergyWorkTables work = energy_work_tables(problems, TableRun::solver_options());
+  run.add("structure_energy_work", work.plain, work.unsolved);
+  run.add("structure_modified_work", work.modified);
+  run.add("structure_energy_work_slopes", work.orders);
+}
+
+void add_long_time_energy(TableRun& run, const StructureOptions& options) {
+  EnergyResults results;
+  for (const LongTimeMethod& method : long_time_methods()) {
+    run.show("energy over many periods: " + method.name);
+    follow(method, options.steps_per_period, options.periods, true, results);
+    if (method.name == "dmoc") oscillation_over_step(method, results);
+  }
+  run.add("structure_energy", period_columns, results.periods);
+  run.add("structure_energy_behaviour", behaviour_columns, results.behaviour);
+  run.add("structure_energy_slopes", order_columns, results.orders);
+}
+
+/// What is asked of examples that were chosen for it.
+void add_examples(TableRun& run, const StructureOptions& options) {
+  run.show("momentum against the work of forces");
+  run.add("structure_momentum", noether_table(options.steps));
+  run.show("momentum along motions with orthogonal forces");
+  run.add("structure_orthogonal_forces", orthogonal_forces_table(TableRun::solver_options()));
+  run.show("rotations");
+  run.add("structure_rotations", rotations_table(options.steps));
+  run.show("the symplectic form");
+  add_symplecticity(run, example_states());
+  run.show("modified energies");
+  const ModifiedEnergyTables modified = modified_energy_tables();
+  run.add("structure_modified_energy", modified.drifts);
+  run.add("structure_modified_energy_slopes", modified.orders);
+  std::vector<std::shared_ptr<const Problem>> problems;
+  for (const std::string& name : paper_problem_names()) problems.push_back(make_problem(name));
+  add_energy_against_work(run, problems);
+  add_long_time_energy(run, options);
+}
+
+/// What can be asked of any problem, along its optimal motions.
+void add_problems(TableRun& run, const std::vector<std::shared_ptr<const Problem>>& problems) {
+  StartProvider starts({}, TableRun::solver_options());
+  std::vector<MappedStates> systems;
+  for (const auto& problem : problems) {
+    run.show(problem->name() + ": the symplectic form along an optimal motion");
+    const Case fine{.problem = problem,
+                    .method = "dmoc",
+                    .tableau = "gauss",
+                    .stages = 2,
+                    .solver = "ipopt",
+                    .grid = Grid::uniform(256)};
+    systems.push_back(states_along(problem, starts.solve(fine)));
+  }
+  add_symplecticity(run, systems);
+  add_energy_against_work(run, problems);
+}
+
+int write_tables(CommandLine& line) {
+  StructureOptions options;
+  add_options(line, options);
+  TableRun run("structure", line);
+  if (!options.asked.problems.empty()) {
+    add_problems(run, options.asked.selected());
+  } else {
+    if (!options.asked.settings.empty()) throw Error("--set is about a problem: name it by --problem");
+    add_examples(run, options);
+  }
+  return run.write();
+}
+
+int run(int argc, char** argv) {
+  return run_program(
+      "structure",
+      "What the discretisation preserves: momentum against the work of arbitrary forces (structure_momentum.csv), "
+      "the same for rotations about three axes (structure_rotations.csv), the momentum along optimal motions whose "
+      "forces are orthogonal to the symmetry (structure_orthogonal_forces.csv), the symplectic form "
+      "(structure_symplecticity.csv), the energy of an eccentric orbit over many periods (structure_energy.csv, "
+      "structure_energy_behaviour.csv), the modified energy of the midpoint rule along free motions "
+      "(structure_modified_energy.csv), and both against the work of the forces along the optimal motions of the "
+      "paper's problems (structure_energy_work.csv, structure_modified_work.csv). With --problem no examples, but of "
+      "each of these problems the symplectic form at states of an optimal motion, and energy and modified energy "
+      "against work along optimal motions.",
+      argc, argv, write_tables);
+}
+
+}  // namespace dmocbench::structure_program

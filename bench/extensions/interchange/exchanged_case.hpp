@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/run/solve_case.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+/// The case whose program `write-nl` writes and whose answer `read-sol` reads. Throws `Error` unless it is the only
+/// one, and one whose program can be written as formulas of its unknowns.
+[[nodiscard]] inline const Case& exchanged_case(const std::vector<Case>& cases) {
+  if (cases.size() != 1) {
+    throw Error(
+        fmt::format("needs exactly one case (one problem, method, number of stages and grid), got {}", cases.size()));
+  }
+  if (cases.front().method.starts_with("single_shooting")) {
+    throw Error(
+        "what single_shooting simulates cannot be written as formulas of its unknowns; multiple_shooting is the same "
+        "program with the nodes as unknowns");
+  }
+  return cases.front();
+}
+
+}  // namespace dmocbench

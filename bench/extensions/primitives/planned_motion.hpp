@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/extensions/primitives/roadmap_systems.hpp"
+#include "bench/tables/ratio_interval.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
+
+namespace dmocbench {
+
+/// A roadmap with the time that it took.
+struct TimedRoadmap {
+  StoredRoadmap stored;
+  double seconds = 0.0;
+  bool is_read = false;  ///< from a file; else built
+};
+
+/// What a plan is measured by.
+struct PlanOptions {
+  int repeats = 21;        ///< of the search, for its time
+  double amplitude = 0.5;  ///< of the perturbed guesses of multi-start, as in `perturbed`
+  std::uint64_t seed = 1;  ///< of them
+};
+
+/// The best of many starts.
+struct MultiStart {
+  std::size_t starts = 0;
+  std::size_t solved = 0;
+  std::optional<double> best = {};  ///< least cost of those that are motions
+};
+
+/// A plan on a roadmap, what a full solve makes of it, and what multi-start finds in the same time.
+struct PlannedMotion {
+  std::shared_ptr<const Problem> problem;
+  const RoadmapSystem* system = nullptr;
+  TimedRoadmap roadmap;
+  std::optional<RatioInterval> milliseconds = {};  ///< of the search
+  std::optional<RoadmapPath> path = {};            ///< none if the goal is not reached
+  std::optional<Trajectory> before = {};           ///< the concatenation
+  std::string status = {};                         ///< of the full solve from there
+  std::optional<Trajectory> after = {};            ///< its answer, if it is a motion
+  double seconds = 0.0;                            ///< roadmap, one search, concatenation, full solve
+  MultiStart multi_start = {};
+};
+
+/// Plans, refines by DMOC on the system's grid, and lets multi-start have the same time on the same program. Throws
+/// `Stopped` where `solver_options` ask for a stop.
+[[nodiscard]] PlannedMotion plan_and_refine(const std::shared_ptr<const Problem>& problem, const RoadmapSystem& system,
+                                            TimedRoadmap roadmap, const PlanOptions& options,
+                                            const SolverOptions& solver_options);
+
+}  // namespace dmocbench

@@ -1,0 +1,92 @@
+// Roadmaps of DMOC primitives: whether what they lead to is the global minimum, and how long a plan takes.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bench/claims/claim.hpp"
+#include "bench/extensions/register_extensions.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Costs that differ by less are the same.
+constexpr double same_cost = 1e-3;
+constexpr double real_time = 10.0;  // ms
+constexpr double fewest_searches = 10.0;
+
+/// The problems, with a column in per cent: "orbital_transfer 182.6 %, hovercraft 3.1 %".
+std::string shares_of(const Selection& rows, const char* column) {
+  std::vector<std::string> words;
+  for (const Row& row : rows) {
+    const auto share = row.number(column);
+    words.push_back(
+        fmt::format("{} {}", row.text("problem"), share ? fmt::format("{:.3g} %", 100.0 * *share) : "none"));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Whether plans take less than what counts as real time, by the intervals of their medians.
+ClaimVerdict verdict_on_time(const Selection& rows) {
+  double smallest = 0.0;  // that the slowest plan may take
+  double largest = 0.0;
+  for (const Row& row : rows) {
+    require(row.needed("rounds") >= fewest_searches, "{}: {} searches were timed; {} are needed", row.place(),
+            row.needed("rounds"), fewest_searches);
+    smallest = std::max(smallest, row.needed("plan_lower"));
+    largest = std::max(largest, row.needed("plan_upper"));
+  }
+  if (smallest >= real_time) return ClaimVerdict::differs;
+  return largest < real_time ? ClaimVerdict::reproduced : ClaimVerdict::undecided;
+}
+
+/// Whether there is a path whose full solve ends at the best cost that is known, and multi-start at none that is less.
+bool is_best(const Row& row) {
+  const auto after = row.number("excess_after");
+  const double of_starts =
+      row.needed("start_motions") > 0.0 ? row.needed("excess_of_starts") : std::numeric_limits<double>::infinity();
+  return row.text("status") == "solved" && row.number("excess_before") && after && *after < same_cost &&
+         *after < of_starts + same_cost;
+}
+
+Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*problem*/) {
+  const Selection rows = tables.rows("primitives");
+  require(rows.size() >= 2, "primitives.csv has {} rows; two problems are needed", rows.size());
+  for (const Row& row : rows) static_cast<void>(row.needed("reference_cost"));
+  const auto best = std::ranges::count_if(rows, is_best);
+  const bool all_best = best == std::ssize(rows);
+  double slowest = 0.0;
+  for (const Row& row : rows) slowest = std::max(slowest, row.needed("plan_upper"));
+  std::vector<std::string> others;
+  for (const Row& row : rows) {
+    if (!is_best(row)) others.push_back(row.text("problem"));
+  }
+  return found(all_best ? verdict_on_time(rows) : ClaimVerdict::differs,
+               "on {} of {} problems the full solve from the path ends within {:g} % of the best known cost, and no "
+               "start among those that the same time allows in a lesser one; the path itself costs more than that by "
+               "{}; the slowest plan takes at most {:.2g} ms",
+               best, rows.size(), 100.0 * same_cost, shares_of(rows, "excess_before"), slowest)
+      .because(others.empty() ? "" : fmt::format("not on {}", fmt::join(others, ", ")))
+      .as_sure_as("99 % of the times of searches");
+}
+
+}  // namespace
+
+ClaimTopic primitives_claims() {
+  const Claims claims{
+      {.id = "global_minima_by_primitives",
+       .problems = examples,
+       .where = "section 5, Global Minima",
+       .whose = Whose::remark,
+       .states = "the best path of a roadmap of DMOC primitives approximates the global optimum, and can be found in "
+                 "real time",
+       .judge = leads_to_global_minima,
+       .condition = "approximates: a full solve from the path ends at the best cost that is known; real time: a "
+                    "search on a roadmap that is there already takes less than 10 ms; how many starts multi-start "
+                    "gets in the same time depends on the machine",
+       .evidence = {"primitives.csv", "figures/orbital_transfer_primitives.svg"}}};
+  return {.claims = claims, .tables = {{"primitives", "primitives", {"problem"}, {"status"}}}};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,169 @@
+// Step sizes tied to the motion: what the variational route keeps that the imposed one loses, and what it costs.
+#include <cmath>
+#include <limits>
+
+#include "bench/claims/claim.hpp"
+#include "bench/extensions/register_extensions.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+constexpr const char* in_outlook = "section 5, KMLTMD";
+
+/// The rows of a table with steps chosen in one way; at least one.
+Selection by_rule(const Selection& rows, const char* rule, const char* table) {
+  Selection found = rows.where("rule", rule);
+  require(!found.empty(), "{}.csv has no row with {} steps", table, rule);
+  return found;
+}
+
+Finding symplectic_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double within_rounding = 100.0;
+  const char* const table = "step_control_symplecticity";
+  const Selection rows = tables.rows(table);
+  const auto defect = [](const Row& row) {
+    require(row.needed("rounding") > 0.0, "{}, column rounding: it has to be above zero", row.place());
+    return row.needed("defect") / row.needed("rounding");
+  };
+  const double variational = std::max(0.0, by_rule(rows, "variational", table).max(defect));
+  const double imposed = by_rule(rows, "imposed", table).max(defect);
+  const double from_left = by_rule(rows, "from_left", table).max(defect);
+  return found(
+      variational < within_rounding && std::min(imposed, from_left) > within_rounding,
+      "D'ΩD - Ω of (q, t, p, -E) in units of rounding: variational at most {:.1f}, imposed up to {:.1e}, known "
+      "before the step up to {:.1e}",
+      variational, imposed, from_left);
+}
+
+Finding momentum_by_every_route(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double rounding = 1e-11;
+  constexpr double some_work = 1e-6;
+  const char* const table = "step_control_momentum";
+  const Selection rows = tables.rows(table);
+  static_cast<void>(by_rule(rows, "variational", table));
+  static_cast<void>(by_rule(rows, "imposed", table));
+  const double least_work = -rows.max([](const Row& row) { return -std::abs(row.needed("work")); });
+  return found(rows.max("defect") < rounding && least_work > some_work,
+               "{} motions of 400 steps under arbitrary thrust, steps by distance, acceleration and thrust: change of "
+               "momentum less work at most {:.1e}; work at least {:.1e}",
+               rows.size(), rows.max("defect"), least_work);
+}
+
+Finding energy_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double bounded = 1.05;
+  constexpr double drifts = 10.0;
+  const char* const table = "step_control_energy_behaviour";
+  const Selection rows = tables.rows(table);
+  const Selection variational = by_rule(rows, "variational", table);
+  const Selection from_left = by_rule(rows, "from_left", table);
+  const auto stays = [](const Row& row) { return row.needed("range") < bounded * row.needed("oscillation"); };
+  const auto leaves = [](const Row& row) {
+    return std::abs(row.needed("change")) > drifts * std::abs(row.needed("standard_error"));
+  };
+  const auto words = [](const Row& row) {
+    return fmt::format("e = {}: {} oscillates by {:.1e}, changes by {:.1e}", row.text("eccentricity"), row.text("rule"),
+                       row.needed("oscillation"), std::abs(row.needed("change")));
+  };
+  return found(std::ranges::all_of(variational, stays) && std::ranges::all_of(from_left, leaves), "{}",
+               rows.in_words("; ", words));
+}
+
+/// The smallest and the largest quotient of numbers of rows that agree in a key.
+struct Quotients {
+  double least = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  std::size_t count = 0;
+};
+Quotients quotients(const Selection& numerators, const Selection& denominators, const ColumnNames& key,
+                    const char* column) {
+  Quotients result;
+  for (const Row& row : denominators) {
+    const Selection beside = numerators.matching(row, key);
+    if (beside.empty()) continue;
+    const double value = quotient(beside.front(), row, column);
+    result.least = std::min(result.least, value);
+    result.largest = std::max(result.largest, value);
+    ++result.count;
+  }
+  return result;
+}
+
+Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*problem*/) {
+  constexpr double factor = 5.0;
+  constexpr double resolving = 128.0;  // steps per period: on coarser grids errors are as large as the orbit
+  const auto resolves = [](const Row& row) { return row.needed("steps_per_period") >= resolving; };
+  const Selection forward = tables.rows("step_control").where("status", "solved").where(resolves);
+  const Selection optimal = tables.rows("step_control_transfer").where("status", "solved");
+  const Selection passes = tables.rows("step_control_slopes");
+  const auto by = [](const Selection& rows, const char* rule) { return rows.where("rule", rule); };
+  const ColumnNames key{"eccentricity", "sigma", "stages"};
+  const ColumnNames key_on_grids{"eccentricity", "sigma", "stages", "steps_per_period", "intervals"};
+  const Quotients state = quotients(by(forward, "imposed"), by(forward, "variational"), key_on_grids, "state_error");
+  const Quotients cost = quotients(by(optimal, "imposed"), by(optimal, "variational"), key_on_grids, "cost_error");
+  const Quotients operations = quotients(by(passes, "variational"), by(passes, "imposed"), key, "operations");
+  const Quotients variables = quotients(by(optimal, "variational"), by(optimal, "imposed"), key_on_grids, "variables");
+  require(
+      state.count >= 3 && cost.count >= 3 && operations.count >= 1,
+      "step_control.csv has {} and step_control_transfer.csv {} solved pairs of imposed and variational steps, three "
+      "are needed; step_control_slopes.csv has {}",
+      state.count, cost.count, operations.count);
+  return found(
+      state.least >= factor && cost.least >= factor,
+      "with the same number of steps the imposed ones have {:.0f} to {:.0f} times the state error ({} pairs) and "
+      "{:.0f} to {:.0f} times the error of the optimal cost ({} pairs); variational ones take {:.1f} to {:.1f} "
+      "times the operations of a Newton pass and {:.2f} to {:.2f} times the variables",
+      state.least, state.largest, state.count, cost.least, cost.largest, cost.count, operations.least,
+      operations.largest, variables.least, variables.largest);
+}
+
+}  // namespace
+
+ClaimTopic step_control_claims() {
+  const Claims claims{
+      {.id = "variational_steps_symplectic",
+       .problems = simulated,
+       .where = in_outlook,
+       .states = "steps tied to the motion leave the extended flow symplectic only if their constraint is part of "
+                 "the principle",
+       .judge = symplectic_by_principle,
+       .evidence = {"step_control_symplecticity.csv"}},
+      {.id = "steps_by_the_motion_keep_momentum",
+       .problems = simulated,
+       .where = in_outlook,
+       .states = "steps that are invariant under the group keep momentum in balance with forces, inside and outside "
+                 "of the principle",
+       .judge = momentum_by_every_route,
+       .evidence = {"step_control_momentum.csv"}},
+      {.id = "variational_steps_energy",
+       .problems = simulated,
+       .where = in_outlook,
+       .states = "with variational steps the energy oscillates, with steps known beforehand it drifts",
+       .judge = energy_by_principle,
+       .evidence = {"step_control_energy_behaviour.csv", "figures/step_control.svg"}},
+      {.id = "variational_steps_accuracy",
+       .problems = simulated,
+       .where = in_outlook,
+       .states = "as part of the principle, steps tied to the motion leave at most a fifth of the errors that the same "
+                 "number of them leaves outside of it",
+       .judge = accuracy_by_principle,
+       .condition =
+           "along Kepler ellipses of eccentricity 0.3 to 0.8, steps by distance or acceleration, E_0 the energy "
+           "of the start",
+       .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
+                    "figures/step_control.svg"}}};
+  const auto key = [](const char* further = nullptr) {
+    ColumnNames columns{"problem", "eccentricity", "rule", "sigma", "stages"};
+    if (further != nullptr) columns.emplace_back(further);
+    return columns;
+  };
+  return {.claims = claims,
+          .tables = {{"step_control_symplecticity", "step_control", key()},
+                     {"step_control_momentum", "step_control", key()},
+                     {"step_control_energy_behaviour", "step_control", key()},
+                     {"step_control", "step_control", key("steps_per_period"), {"status"}},
+                     {"step_control_transfer", "step_control", key("intervals"), {"status"}},
+                     {"step_control_slopes", "step_control", key()}}};
+}
+
+}  // namespace dmocbench

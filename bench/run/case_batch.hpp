@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "bench/run/case_list.hpp"
+#include "bench/run/known_answers.hpp"
+#include "bench/run/solve_case.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
+#include "methods/solvers/solver.hpp"
+
+namespace dmocbench {
+
+/// A case of a batch on its way.
+struct BatchedCase {
+  std::size_t number = 0;                           ///< of the case, for the caller
+  const Case* the_case = nullptr;                   ///< what is solved
+  Start start;                                      ///< where it begins
+  BatchInstance instance = {};                      ///< the same as a batch takes it
+  std::optional<Solution> solution = std::nullopt;  ///< none where the batch did not solve it: it is to be solved alone
+};
+
+/// Cases that are instances of one program, from different starts or with other parameters and ends, solved side by
+/// side (`solve_batch`). The program is made once. What becomes of a case does not depend on those beside it.
+class CaseBatch {
+ public:
+  /// Whether a case asks for what batches have: `interior_point` as it is, exact derivatives, the Bolza form, no limit
+  /// of time, no trace of iterations. `solve` checks whether the program fits.
+  [[nodiscard]] static bool takes(const Case& the_case, const SolverOptions& options);
+  /// Whether two cases differ in nothing but starts, parameters and ends.
+  [[nodiscard]] static bool share_program(const Case& a, const Case& b);
+
+  /// The program of all cases that share it with this one. Throws `Error` as `Case::transcribe` does.
+  CaseBatch(const Case& any, SolverOptions options);
+
+  /// Solves cases from their starts. Those that the batch cannot take are left without a solution: all of them where
+  /// the program does not fit (`is_refused`), else the ones whose parameters formulas or bounds contain.
+  void solve(std::span<BatchedCase> cases);
+  /// True if the program does not fit a batch, so that no case was solved.
+  [[nodiscard]] bool is_refused() const noexcept { return is_refused_; }
+
+  /// The judged case of one that was solved. It refers to the program, which has the values of this case until the next
+  /// one is asked for.
+  [[nodiscard]] SolvedCase judged(const BatchedCase& one);
+
+ private:
+  [[nodiscard]] bool fill(BatchedCase& one);
+  void give_values_of(const Case& the_case);
+  [[nodiscard]] bool has_usual_bounds() const;
+
+  SolverOptions options_;
+  std::shared_ptr<const Problem> problem_;  // the program refers to it
+  std::shared_ptr<Transcription> program_;
+  bool has_instances_;  // other parameters and ends
+  Eigen::VectorXd usual_parameters_;
+  double usual_horizon_;
+  Eigen::VectorXd usual_lower_;  // of unknowns and rows
+  Eigen::VectorXd usual_upper_;
+  KnownAnswers answers_;
+  bool is_refused_ = false;
+};
+
+/// Spans of problems, cut where one program ends and the next begins, each for a process of its own: what batches leave
+/// to be solved and judged one by one then waits for no other program. They are cut nowhere inside of a group
+/// (`groups_of`), and no piece has fewer than `least` cases.
+[[nodiscard]] std::vector<CaseSpan> spans_of_programs(const std::vector<Case>& cases,
+                                                      const std::vector<CaseSpan>& problems,
+                                                      const std::vector<std::size_t>& groups, std::size_t least = 256);
+
+/// What the batches of a run need of it.
+struct BatchWork {
+  const std::vector<Case>& cases;           ///< in the order of rows
+  const std::vector<bool>& is_wanted;       ///< per case
+  const SolverOptions& options;             ///< of every solve
+  std::function<Start(const Case&)> start;  ///< throws `Error` where a case has none
+  /// Told of every answer, with the number of its case.
+  std::function<void(SolvedCase& solved, std::size_t number)> keep;
+  std::function<void(const std::string& activity)> show;  ///< told what is being worked on
+};
+
+/// Solves those wanted of some cases that batches take, program after program, and keeps what is solved; what is not
+/// kept is to be solved alone, where it says why. An interrupted solve is kept by nobody. Cases of one program are
+/// solved group after group, so that finished ones are kept early and memory is bounded.
+void solve_in_batches(const BatchWork& work, const CaseSpan& span);
+
+}  // namespace dmocbench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/run/solve_case.hpp"
+
+namespace dmocbench {
+
+/// Cases in a row that differ in their grid only, together.
+[[nodiscard]] std::vector<std::vector<Case>> curves_of(std::span<const Case> cases);
+
+/// The chosen names in the order of `known`, each once. Throws `Error` on one that is not known: "OPTION takes a or b,
+/// not c".
+[[nodiscard]] std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
+                                                 const std::vector<std::string>& chosen);
+
+/// A curve once for each of some variants.
+[[nodiscard]] std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants);
+
+/// The cases once for each tolerance that is compared, curve after curve; as they are if none is.
+[[nodiscard]] std::vector<Case> with_tolerances(const std::vector<Case>& cases, const std::vector<double>& tolerances);
+
+/// Cases of one problem, by number: from `first` up to `end`, which is not one of them.
+struct CaseSpan {
+  std::size_t first = 0;  ///< number of the first case
+  std::size_t end = 0;    ///< number behind the last one
+};
+
+/// Those of all problems with a case that is wanted, in their order.
+[[nodiscard]] std::vector<CaseSpan> spans_of_problems(const std::vector<Case>& cases,
+                                                      const std::vector<bool>& is_wanted);
+
+/// The numbers of cases that are solved in turn: those of one problem, tableau, number of stages and of intervals.
+[[nodiscard]] std::vector<std::vector<std::size_t>> turns_of(const std::vector<Case>& cases);
+
+/// What a case shares with the others of its curve, in words.
+[[nodiscard]] std::string label_of_curve(const Case& the_case);
+
+}  // namespace dmocbench

@@ -1,0 +1,181 @@
+#include "bench/run/command_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/run/process_pool.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/environment.hpp"
+#include "methods/runtime/stop_scope.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+template <class Value>
+CLI::Option* add(CLI::App& app, const std::string& names, Value& value, const std::string& help) {
+  CLI::Option* option = app.add_option(names, value, help)->capture_default_str();
+  return option->get_default_str() == "[]" ? option->default_str("") : option;
+}
+
+int report_error(const std::string& name, std::string sentence) {
+  // One line without control characters, whatever was typed.
+  std::ranges::replace_if(
+      sentence, [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
+  fmt::print(stderr, "{}: {}\n", name, sentence);
+  return 2;
+}
+
+/// True for the error of std::thread when the system has no more threads.
+bool is_out_of_threads(const std::exception& error) noexcept {
+  const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
+  return of_system != nullptr && of_system->code() == std::errc::resource_unavailable_try_again;
+}
+
+}  // namespace
+
+// An array of Eigen, a vector, or the heap itself.
+bool is_out_of_memory(const std::exception& error) noexcept {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         dynamic_cast<const std::length_error*>(&error) != nullptr;
+}
+
+std::string sentence_of(const std::exception& error) {
+  if (is_out_of_memory(error)) return "out of memory; fewer intervals or a higher limit (ulimit -v) help";
+  if (is_out_of_threads(error)) {
+    return "the system gives no more threads; set DMOCBENCH_THREADS=1 or raise the limits (ulimit -u, -v)";
+  }
+  if (const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    return fmt::format("{}: {}", of_file->path1().string(), of_file->code().message());
+  }
+  const bool is_ours = dynamic_cast<const Error*>(&error) != nullptr ||
+                       dynamic_cast<const Interrupted*>(&error) != nullptr ||
+                       dynamic_cast<const std::system_error*>(&error) != nullptr;  // the system's words
+  return is_ours ? error.what()
+                 : fmt::format("something went wrong that should not have, please tell: {}", error.what());
+}
+
+template <class Value>
+void CommandLine::option(const std::string& names, Value& value, const std::string& help) {
+  CLI::Option* const option = add(app_, names, value, help)->required(!names.starts_with('-'));
+  constexpr bool is_path = std::is_same_v<Value, std::filesystem::path>;
+  if constexpr (is_path || std::is_same_v<Value, std::string>) {
+    const auto is_empty = [](const std::string& text) {
+      return std::string(!text.empty() ? "" : is_path ? "no file is named" : "no file or value is given");
+    };
+    option->check(CLI::Validator(is_empty, ""));
+  }
+}
+template void CommandLine::option(const std::string&, int&, const std::string&);
+template void CommandLine::option(const std::string&, double&, const std::string&);
+template void CommandLine::option(const std::string&, std::string&, const std::string&);
+template void CommandLine::option(const std::string&, std::filesystem::path&, const std::string&);
+template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+template <class Number>
+void CommandLine::number(const std::string& names, Number& value, std::type_identity_t<Number> least,
+                         std::type_identity_t<Number> largest, const std::string& help) {
+  using Limit = std::conditional_t<std::is_floating_point_v<Number>, double, long long>;
+  const auto nan = [](const std::string& text) {  // which no comparison finds outside of a range
+    return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("{} is not a number", text) : std::string();
+  };
+  CLI::Option* const option = add(app_, names, value, help);
+  option->check(CLI::Validator(nan, ""));
+  option->check(CLI::Range(static_cast<Limit>(least), static_cast<Limit>(largest)));
+}
+template void CommandLine::number(const std::string&, int&, int, int, const std::string&);
+template void CommandLine::number(const std::string&, long long&, long long, long long, const std::string&);
+template void CommandLine::number(const std::string&, std::uint64_t&, std::uint64_t, std::uint64_t, const std::string&);
+template void CommandLine::number(const std::string&, double&, double, double, const std::string&);
+
+template <class Value>
+void CommandLine::list(const std::string& names, std::vector<Value>& values, const std::string& help) {
+  add(app_, names, values, help)->delimiter(',');
+  lists_.push_back(names);
+}
+template void CommandLine::list(const std::string&, std::vector<int>&, const std::string&);
+template void CommandLine::list(const std::string&, std::vector<std::string>&, const std::string&);
+
+void CommandLine::refuse_empty_entries() const {
+  for (int i = 1; i < argc_; ++i) {
+    const std::string argument = argv_[i];
+    const std::size_t equals = std::min(argument.find('='), argument.size());
+    if (argument.starts_with("--") && equals + 1 == argument.size()) {  // CLI11 takes the next argument for its value
+      throw CLI::ValidationError(argument.substr(0, equals), "no value is given behind =");
+    }
+    if (std::ranges::find(lists_, argument.substr(0, equals)) == lists_.end()) continue;
+    if (equals == argument.size() && i + 1 == argc_) continue;  // CLI11 misses the value
+    const std::string value = equals < argument.size() ? argument.substr(equals + 1) : argv_[i + 1];
+    if (value.starts_with(',') || value.ends_with(',') || value.find(",,") != std::string::npos) {
+      throw CLI::ValidationError(argument.substr(0, equals), fmt::format("there is an empty entry in {}", value));
+    }
+  }
+}
+
+void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
+  app_.add_flag(names, value, help);
+}
+
+void CommandLine::footer(const std::string& text) { app_.footer(text); }
+
+std::vector<std::string> CommandLine::parse() {
+  refuse_empty_entries();
+  app_.parse(argc_, argv_);
+  check_environment();
+  order_by_one_thread();
+  return {argv_, argv_ + argc_};
+}
+
+std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const CLI::Option* option : app_.get_options()) {
+    const bool is_given = option->count() > 0;
+    values.emplace_back(option->get_name(),
+                        is_given ? fmt::format("{}", fmt::join(option->results(), ",")) : option->get_default_str());
+  }
+  return values;
+}
+
+int run_program(const std::string& name, const std::string& description, int argc, char** argv,
+                const std::function<int(CommandLine&)>& body) {
+  CLI::App app(description, name);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
+  try {
+    CommandLine line(app, argc, argv);
+    const int code = body(line);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    return report_error(name, "cannot write to standard output");
+  } catch (const CLI::Success& request) {  // --help
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return report_error(name, std::string(error.what()) + "; --help lists the options");
+  } catch (const Interrupted& interrupt) {
+    report_error(name, interrupt.what());
+    return 130;
+  } catch (const Stopped& stop) {
+    if (!interrupt_requested()) return report_error(name, stop.what());
+    report_error(name, Interrupted().what());
+    return 130;
+  } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return report_error(name, "cannot write to standard output");
+    const int code = report_error(name, (interrupt_requested() ? "interrupted, then: " : "") + sentence_of(error));
+    return interrupt_requested() ? 130 : code;
+  } catch (...) {  // from formulas of somebody else
+    return report_error(name, "a problem throws what is no std::exception; throw dmocbench::Error with a sentence");
+  }
+}
+
+}  // namespace dmocbench

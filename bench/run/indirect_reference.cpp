@@ -1,0 +1,245 @@
+#include "bench/run/indirect_reference.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/result_file.hpp"
+#include "bench/run/solve_case.hpp"
+#include "bench/run/written_tables.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/error.hpp"
+#include "methods/indirect/solve_indirect.hpp"
+#include "methods/runtime/clock.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parameters_of(const Problem& problem) {
+  Json parameters = Json::object();
+  for (const Parameter& parameter : problem.parameters()) parameters[parameter.name] = parameter.value;
+  return parameters;
+}
+
+Json columns_of(const Eigen::MatrixXd& matrix) {
+  Json columns = Json::array();
+  for (const auto& column : matrix.colwise()) columns.push_back(std::vector<double>(column.begin(), column.end()));
+  return columns;
+}
+
+Eigen::MatrixXd matrix_of(const Json& columns) {
+  const auto values = columns.get<std::vector<std::vector<double>>>();
+  if (values.empty()) return {};
+  Eigen::MatrixXd matrix(values.front().size(), values.size());
+  for (Eigen::Index j = 0; const std::vector<double>& column : values) {
+    if (std::ssize(column) != matrix.rows()) throw Error("columns differ in length");
+    matrix.col(j++) = Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.rows());
+  }
+  return matrix;
+}
+
+/// Checksum of a file without the entry `checksum`. It finds damaged digits, also those that no equation uses.
+std::uint32_t checksum_of(Json file) {
+  file.erase("checksum");
+  return crc_32(file.dump());
+}
+
+std::string written(const Problem& problem, const IndirectSolution& solution) {
+  const CollocatedExtremal& extremal = solution.extremal();
+  const IndirectAgreement& agreement = solution.agreement();
+  Json file{{"problem", problem.name()},
+            {"parameters", parameters_of(problem)},
+            {"stages", extremal.stages},
+            {"horizon", extremal.horizon},
+            {"scaled_cost", extremal.cost},
+            {"agreement",
+             {{"state", agreement.state},
+              {"costate", agreement.costate},
+              {"control", agreement.control},
+              {"cost", agreement.cost}}},
+            {"nodes", columns_of(extremal.nodes)},
+            {"slopes", columns_of(extremal.rates)},
+            {"algebraic", columns_of(extremal.algebraic)}};
+  file["checksum"] = checksum_of(file);
+  return file.dump() + "\n";
+}
+
+bool is_near(const IndirectSolution& solution, const Trajectory& direct) {
+  const auto at = [&solution](double t) {
+    IndirectPoint point = solution.at(t);
+    return MotionPoint{.q = std::move(point.q), .v = std::move(point.v), .u = std::move(point.u)};
+  };
+  return is_on_branch(direct, {at, solution.extremal().horizon});
+}
+
+void require_near(const Problem& problem, const IndirectSolution& solution, const Trajectory& direct) {
+  if (is_near(solution, direct)) return;
+  throw Error("the indirect solution of " + problem.name() +
+              " is on another branch than this row, which has no errors therefore; run its method alone, on finer "
+              "grids");
+}
+
+/// The solution in a file; none if there is no such file or it is not one of this problem on this branch.
+std::optional<IndirectSolution> read_solution(const std::filesystem::path& path, const Problem& problem,
+                                              const Trajectory& direct) {
+  constexpr double rounding = 1e-11;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    const Json file = Json::parse(read_file(path));
+    if (file.at("problem") != problem.name() || file.at("parameters") != parameters_of(problem)) return std::nullopt;
+    if (file.at("checksum") != checksum_of(file)) return std::nullopt;
+    CollocatedExtremal extremal;
+    extremal.stages = file.at("stages");
+    extremal.horizon = file.at("horizon");
+    extremal.cost = file.at("scaled_cost");
+    extremal.nodes = matrix_of(file.at("nodes"));
+    extremal.rates = matrix_of(file.at("slopes"));
+    extremal.algebraic = matrix_of(file.at("algebraic"));
+    const Json& agreement = file.at("agreement");
+    IndirectSolution solution(problem, std::move(extremal),
+                              {.state = agreement.at("state"),
+                               .costate = agreement.at("costate"),
+                               .control = agreement.at("control"),
+                               .cost = agreement.at("cost")});
+    if (boundary_value_residual(problem, solution) > rounding || !is_near(solution, direct)) return std::nullopt;
+    return solution;
+  } catch (const std::exception&) {
+    return std::nullopt;  // a file that is not ours is written anew
+  }
+}
+
+using Entry = CheckedIndirectSolution;
+constexpr auto solution_of = &Entry::solution;
+constexpr auto agreement_of = &IndirectSolution::agreement;
+constexpr auto extremal_of = &IndirectSolution::extremal;
+const Columns<Entry> reference_columns{
+    {"problem", "", "name of the problem", from(&Entry::problem)},
+    {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
+    {"certified_digits", "", "digits that two runs of different order and grid share",
+     from(solution_of, &IndirectSolution::certified_digits)},
+    {"state_agreement", "", "relative difference of their states",
+     from(solution_of, agreement_of, &IndirectAgreement::state)},
+    {"costate_agreement", "", "of their costates", from(solution_of, agreement_of, &IndirectAgreement::costate)},
+    {"control_agreement", "", "of their controls", from(solution_of, agreement_of, &IndirectAgreement::control)},
+    {"cost_agreement", "", "of their costs", from(solution_of, agreement_of, &IndirectAgreement::cost)},
+    {"hamiltonian_drift", "", "max - min of the Hamiltonian, relative; empty if the problem depends on time",
+     from(solution_of, &IndirectSolution::hamiltonian_drift)},
+    {"shooting_defect", "", "an integrator's largest relative miss from node to node", from(&Entry::shooting_defect)},
+    {"replay_error", "", "miss of the final state by the replayed control", from(&Entry::replay_error)},
+    {"stages", "", "Gauss points per interval", from(solution_of, extremal_of, &CollocatedExtremal::stages)},
+    {"intervals", "", "number of intervals", from(solution_of, extremal_of, &CollocatedExtremal::intervals)},
+    {"seconds", "s", "time of the solve; empty where a file was used", from(&Entry::seconds)},
+};
+
+/// What table and metadata tell of a solution.
+Json account_of(const Entry& entry) {
+  Row row = row_of(reference_columns, entry);
+  Json metadata{{"problem", entry.problem},
+                {"cost", entry.solution.cost()},
+                {"certified_digits", entry.solution.certified_digits()},
+                {"shooting_defect", entry.shooting_defect},
+                {"replay_error", entry.replay_error}};
+  Json cells = Json::object();
+  for (const std::string& name : names_of(reference_columns)) cells[name] = row.text(name);
+  for (const auto& [name, value] : entry.initial_costate) {
+    cells[name] = Cell(value).text();
+    metadata["initial_costate"][name] = value;
+  }
+  return {{"cells", std::move(cells)}, {"metadata", std::move(metadata)}};
+}
+
+/// The solution near a direct one, from the problem's file in a folder, or solved anew and written there.
+Entry solution_near(const Problem& problem, const Trajectory& direct, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / (problem.name() + "_indirect.json");
+  std::optional<IndirectSolution> solution = read_solution(path, problem, direct);
+  std::optional<double> seconds;
+  if (!solution) {
+    const auto begin = Clock::now();
+    solution = solve_indirect(problem, direct);
+    seconds = seconds_since(begin);
+    require_near(problem, *solution, direct);
+    write_file(path, written(problem, *solution));
+  }
+  constexpr double replay_tolerance = 1e-13;
+  Entry entry{.problem = problem.name(), .solution = *std::move(solution), .seconds = seconds, .initial_costate = {}};
+  entry.replay_error = replay_error(problem, entry.solution.trajectory(), replay_tolerance).norm();
+  entry.shooting_defect = shooting_defect(problem, entry.solution);
+  const IndirectPoint start = entry.solution.at(0.0);
+  for (const auto& [prefix, costate] : {std::pair("psi_q_", start.psi_q), std::pair("psi_p_", start.psi_p)}) {
+    for (Eigen::Index i = 0; const std::string& name : problem.configuration_names()) {
+      entry.initial_costate.emplace_back(prefix + name, costate[i++]);
+    }
+  }
+  return entry;
+}
+
+}  // namespace
+
+const IndirectSolution& IndirectReference::near(const Problem& problem, const Trajectory& direct) {
+  const auto known = known_.find(problem.name());
+  if (known == known_.end())
+    return known_.emplace(problem.name(), solution_near(problem, direct, folder_)).first->second.solution;
+  require_near(problem, known->second.solution, direct);
+  return known->second.solution;
+}
+
+Json IndirectReference::findings() const {
+  std::map<std::string, Json> accounts = joined_;
+  for (const auto& [problem, entry] : known_) accounts[problem] = account_of(entry);
+  return accounts;
+}
+
+void IndirectReference::add_findings(const Json& findings) {
+  for (const auto& [problem, account] : findings.items()) joined_[problem] = account;
+}
+
+Table IndirectReference::table() const {
+  const Json accounts = findings();
+  std::vector<std::string> names = names_of(reference_columns);
+  for (const Json& account : accounts) {
+    for (const auto& [name, value] : account.at("cells").items()) {
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
+    }
+  }
+  Table table(names);
+  table.explain(meanings_of(reference_columns));
+  table.declare(types_of(reference_columns));
+  for (const std::string& name : names) {  // what the columns above do not explain
+    table.explain({{name, "costate at t = 0"}});
+    table.declare({{name, {FieldKind::number, true}}});
+  }
+  for (const Json& account : accounts) {
+    Row row;
+    for (const auto& [name, value] : account.at("cells").items()) row.set(name, value.get<std::string>());
+    table.append(std::move(row));
+  }
+  return table;
+}
+
+Json IndirectReference::metadata() const {
+  const Json accounts = findings();
+  Json references = Json::array();
+  for (const Json& account : accounts) references.push_back(account.at("metadata"));
+  return references;
+}
+
+std::vector<std::string> IndirectReference::notes() const {
+  constexpr double wanted_digits = 11.0;
+  const Json accounts = findings();
+  std::vector<std::string> notes;
+  for (const auto& [problem, account] : accounts.items()) {
+    const double digits = account.at("metadata").at("certified_digits");
+    if (digits >= wanted_digits) continue;
+    notes.push_back(fmt::format(
+        "{}: the indirect reference is certified to {:.1f} digits only; smaller relative errors say nothing", problem,
+        digits));
+  }
+  return notes;
+}
+
+}  // namespace dmocbench

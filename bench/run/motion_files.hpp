@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/run/solve_case.hpp"
+
+namespace dmocbench {
+
+/// What follows PREFIX in the names of a motion's files: "_stages.csv", "_picture.csv", "_nodes.csv".
+[[nodiscard]] std::vector<std::string> endings_of_motion_files();
+
+/// Writes the motion of a solved case: PREFIX_nodes.csv (t, q, v, p, psi), PREFIX_stages.csv (t, u) and
+/// PREFIX_picture.csv. The metadata get their columns, and an entry of "motions" that names the case. The case has a
+/// trajectory. Throws `Error` if a file cannot be written.
+void write_motion(const std::filesystem::path& prefix, const SolvedCase& solved, nlohmann::ordered_json& metadata);
+
+}  // namespace dmocbench

@@ -1,0 +1,369 @@
+#include "bench/run/options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <functional>
+#include <iterator>
+#include <ranges>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/run/process_pool.hpp"
+#include "bench/run/result_file.hpp"
+#include "methods/choose.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/transcription/derivatives/derivative_back_end.hpp"
+#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/elements/tableau.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// What a user wrote, in quotes, fit for a line on a terminal: cut short, without control characters.
+std::string as_shown(std::string_view text) {
+  constexpr std::size_t most_shown = 40;
+  std::string shown(text.substr(0, most_shown));
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return fmt::format("\"{}\"{}", shown, text.size() > most_shown ? " ..." : "");
+}
+
+long long parse_count(std::string_view option, std::string_view text) {
+  const auto count = parsed<long long>(text);
+  if (!count || *count < 1 || *count > Grid::most_intervals) {
+    throw Error(
+        fmt::format("{}: {} is not a whole number between 1 and {}", option, as_shown(text), Grid::most_intervals));
+  }
+  return *count;
+}
+
+/// Returns the text before the separator and moves `rest` behind it.
+std::string_view take_part(std::string_view& rest, char separator) {
+  const std::size_t end = std::min(rest.find(separator), rest.size());
+  const std::string_view part = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return part;
+}
+
+/// The chosen names in the order of `known`, each once; all if none is chosen. Throws `Error` on one that is not known.
+std::vector<std::string> in_order(const std::string& kind, const std::vector<std::string>& chosen,
+                                  const std::vector<std::string>& known) {
+  if (chosen.empty()) return known;
+  std::set<std::size_t> positions;
+  for (const std::string& name : chosen) {
+    positions.insert(position_of(known, std::identity(), name, "there is no " + kind));
+  }
+  std::vector<std::string> names;
+  names.reserve(positions.size());
+  for (const std::size_t position : positions) names.push_back(known[position]);
+  return names;
+}
+
+std::vector<Grid> make_grids(const ExperimentOptions& options) {
+  if (!options.grid_file.empty()) {
+    const std::vector<double> times = parse_node_times(read_file(options.grid_file));
+    return {Grid::from_nodes(Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)))};
+  }
+  std::vector<Grid> grids;
+  for (const long long count : parse_intervals("--intervals", options.intervals)) grids.push_back(Grid::uniform(count));
+  return grids;
+}
+
+/// The families of shooting as a command line names them.
+constexpr std::array shooting_families{std::pair{std::string_view("multiple_shooting"), Shooting::multiple},
+                                       std::pair{std::string_view("single_shooting"), Shooting::single}};
+
+/// The names of shooting by every chosen integrator with every chosen number of substeps.
+std::vector<std::string> shooting_names(Shooting shooting, const ExperimentOptions& options) {
+  const std::vector<std::string> integrators =
+      options.integrators.empty() ? std::vector<std::string>{"rk4"}
+                                  : in_order("integrator", options.integrators, shooting_integrator_names());
+  std::set<int> substeps(options.substeps.begin(), options.substeps.end());
+  if (substeps.empty()) substeps.insert(1);
+  std::vector<std::string> names;
+  for (const std::string& integrator : integrators) {
+    for (const int count : substeps) {
+      try {
+        require_substeps(integrator, count);
+      } catch (const Error& error) {
+        throw Error(fmt::format("--substeps: {}", error.what()));
+      }
+      names.push_back(shooting_name(shooting, integrator, count));
+    }
+  }
+  return names;
+}
+
+/// The families as chosen, with shooting as its integrators and substeps say.
+std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
+  std::vector<std::string> known = element_names();
+  for (const auto& [name, shooting] : shooting_families) known.emplace_back(name);
+  std::vector<std::string> methods;
+  bool shoots = false;
+  for (std::string& name : in_order("method", options.methods.empty() ? element_names() : options.methods, known)) {
+    const auto* const family =
+        std::ranges::find(shooting_families, name, [](const auto& entry) { return entry.first; });
+    if (family == shooting_families.end()) {
+      methods.push_back(std::move(name));
+    } else {
+      std::ranges::move(shooting_names(family->second, options), std::back_inserter(methods));
+      shoots = true;
+    }
+  }
+  if (!shoots && !(options.integrators.empty() && options.substeps.empty())) {
+    throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
+  }
+  return methods;
+}
+
+/// The families of tableaus with controls as chosen.
+std::vector<std::string> chosen_tableaus(const ExperimentOptions& options) {
+  if (options.controls == "stage") return options.tableaus;
+  if (options.controls != "shared") {
+    throw Error(fmt::format("--controls takes stage or shared, not {}", options.controls));
+  }
+  std::vector<std::string> tableaus;
+  for (const std::string& family : options.tableaus) {
+    if (family == "gauss") {
+      throw Error("--controls shared: gauss has no stage where two intervals meet; choose --tableau lobatto");
+    }
+    tableaus.push_back(family == "lobatto" ? "lobatto_shared" : family);
+  }
+  return tableaus;
+}
+
+/// A family of tableaus and a number of stages.
+using FamilyAndStages = std::pair<std::string, int>;
+
+/// The chosen families with those of the chosen numbers of stages that each is offered with, ascending. Throws `Error`
+/// if no family is offered with one of the numbers.
+std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
+  const auto families = in_order("tableau", chosen_tableaus(options), tableau_names());
+  std::vector<FamilyAndStages> schemes;
+  for (const std::string& family : families) {
+    for (const int stages : tableau_stages(family)) {
+      if (std::ranges::count(options.stages, stages) > 0) schemes.emplace_back(family, stages);
+    }
+  }
+  for (const int stages : options.stages) {
+    if (std::ranges::count(schemes, stages, &FamilyAndStages::second) > 0) continue;
+    throw Error(fmt::format("--stages: {} is offered with {} stages, not with {}", families.front(),
+                            fmt::join(tableau_stages(families.front()), ", "), stages));
+  }
+  return schemes;
+}
+
+}  // namespace
+
+void add_options(CommandLine& line, ExperimentOptions& options) {
+  line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
+  line.list("--method", options.methods,
+            "methods: dmoc, hamiltonian, tangent, multiple_shooting, single_shooting" +
+                std::string(options.methods.empty() ? "; default: the first three" : ""));
+  line.list("--integrator", options.integrators,
+            "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
+  line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");
+  line.list("--tableau", options.tableaus, "families of Butcher tableaus");
+  line.option("--controls", options.controls,
+              "stage: every stage has its control; shared: one where two intervals meet, for --tableau lobatto, which "
+              "the tables then call lobatto_shared");
+  line.list("--stages", options.stages, "numbers of stages s; a tableau takes those that it is offered with");
+  line.list("--solver", options.solvers, "solvers, as `list` names them");
+  line.list("--derivatives", options.derivatives, "back ends of derivatives, as `list` names them");
+  line.option("--intervals", options.intervals,
+              "numbers of intervals N: a list 16,48,64, a doubling range 8:1024, or both mixed");
+  line.option("--grid", options.grid_file,
+              "file with relative node times from 0 to 1, one per line; replaces --intervals");
+  line.option("--set", options.settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  line.option("--form", options.form,
+              "how the cost is stated: bolza (a sum), or mayer (one more unknown per node, the cost so far)");
+  line.option("--start", options.start,
+              "where solves start: common (one motion for all methods and grids), guess (the problem's own), or a file "
+              "X_nodes.csv written by solve");
+  line.number(
+      "--start-seconds", options.start_seconds, 0.0, 1e6,
+      "time to look for the common start of a problem (and tableau), after which its solves start at the guess, "
+      "which their rows say");
+  line.option("--tolerance", options.tolerance, "for the KKT residual of the scaled program");
+  line.option("--iterations", options.most_iterations, "largest number of iterations of a solver");
+  line.number("--seconds", options.most_seconds, 0.0, 1e6, "time after which a solve has failed; 0: no limit");
+  line.option("--option", options.passed_on, "option=value passed on to the solver; may be repeated");
+  line.option("--repeats", options.repeats, "solves per row; times are medians");
+  line.option("--out", options.out, "folder for the results");
+  line.option("--name", options.name, "name of the table and the files beside it");
+  line.flag("--verbose", options.verbose, "show the solver's own output");
+}
+
+void add_batch_option(CommandLine& line, ExperimentOptions& options) {
+  line.flag("--batch,!--no-batch", options.batch,
+            "solves by interior_point that differ in start, parameters or ends side by side, without times; not with "
+            "--seconds, --option, --verbose or --repeats");
+}
+
+void add_part_options(CommandLine& line, ExperimentOptions& options) {
+  line.option(
+      "--part", options.part,
+      "i/n: work on the i-th of n parts alone and write OUT/NAME.parts/i-of-n.part, whole or not at all; a part "
+      "that is there already stays. The exit code is 0 whatever its solves did. `merge` joins all parts");
+  line.option("--missing-parts", options.missing_parts,
+              "n: print which of n parts of this very run are missing, a number per line, and do nothing else");
+  line.option(
+      "--join", options.join,
+      "results folder whose parts are joined to the one table instead of solving anything, as `merge` calls it; "
+      "may be repeated");
+}
+
+SolverOptions solver_options(const ExperimentOptions& options) {
+  SolverOptions result;
+  result.tolerance = options.tolerance;
+  result.most_iterations = options.most_iterations;
+  result.most_seconds = options.most_seconds;
+  result.verbose = options.verbose;
+  result.stop_requested = interrupt_requested;
+  result.validate();
+  return result;
+}
+
+NamedOptions named_options(const ExperimentOptions& options) {
+  NamedOptions result;
+  for (const std::string& text : options.passed_on) {
+    const auto [name, value] = parse_assignment("--option", text);
+    result.emplace(name, value);
+  }
+  return result;
+}
+
+std::vector<double> chosen_tolerances(const ExperimentOptions& options) {
+  std::vector<double> tolerances;
+  for (const std::string& text : options.tolerances) {
+    SolverOptions solver;
+    solver.tolerance = parse_number("--tolerances", text);
+    solver.validate();
+    tolerances.push_back(solver.tolerance);
+  }
+  return tolerances;
+}
+
+std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
+                                                              const std::vector<std::string>& settings) {
+  std::vector<std::shared_ptr<Problem>> problems;
+  const bool all = names == std::vector<std::string>{"all"};
+  const std::vector<std::string> chosen = all ? problem_names() : in_order("problem", names, problem_names());
+  problems.reserve(chosen.size());
+  for (const std::string& name : chosen) problems.push_back(make_problem(name));
+  for (const std::string& setting : settings) {
+    const auto [name, text] = parse_assignment("--set", setting);
+    const double value = parse_number(fmt::format("--set {}", name), text);
+    const auto has_parameter = [name = name](const std::shared_ptr<Problem>& problem) {
+      return std::ranges::count(problem->parameters(), name, &Parameter::name) > 0;
+    };
+    if (std::ranges::none_of(problems, has_parameter)) problems.back()->set_parameter(name, value);  // throws
+    for (const auto& problem : problems | std::views::filter(has_parameter)) problem->set_parameter(name, value);
+  }
+  return {problems.begin(), problems.end()};
+}
+
+std::vector<Case> expand_cases(const ExperimentOptions& options) {
+  const std::vector<std::string> methods = chosen_methods(options);
+  const auto schemes = chosen_schemes(options);
+  const auto solvers = in_order("solver", options.solvers, solver_names());
+  for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
+  const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
+  if (options.name.empty() || options.name.find('/') != std::string::npos) {
+    throw Error(
+        fmt::format("--name \"{}\" must be a file's name without a folder; --out names the folder", options.name));
+  }
+  constexpr std::size_t longest_name = 100;  // what names of files begin with
+  if (options.name.size() > longest_name) {
+    throw Error(fmt::format("--name takes at most {} letters, not {}", longest_name, options.name.size()));
+  }
+  if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
+  const std::vector<Grid> grids = make_grids(options);
+  const CostForm form = cost_form_named(options.form);
+  std::vector<Case> cases;
+  for (const auto& problem : selected_problems(options.problems, options.settings)) {
+    // All methods have as many degrees of freedom on a grid, and more stages have more: one program per family tells
+    // whether the problem is well posed and the coarsest grid fine enough.
+    std::set<std::string> checked;
+    for (const auto& [tableau, stages] : schemes) {
+      if (!checked.insert(tableau).second) continue;
+      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), "", form};
+      try {
+        const StopScope scope(interrupt_requested, options.most_seconds);
+        static_cast<void>(coarsest.transcribe());
+      } catch (const Stopped&) {
+        throw Error(fmt::format("{} takes longer than --seconds {:g} to set up; allow more, or ask for less of it",
+                                problem->name(), options.most_seconds));
+      }
+    }
+    for (const std::string& method : methods) {
+      for (const auto& [tableau, stages] : schemes) {
+        for (const std::string& solver : solvers) {
+          for (const std::string& derivatives : back_ends) {
+            for (const Grid& grid : grids) {
+              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
+            }
+          }
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+std::vector<long long> parse_intervals(std::string_view option, std::string_view text) {
+  constexpr std::size_t most_counts = 1000;
+  std::set<long long> counts;
+  if (text.ends_with(','))
+    throw Error(fmt::format("{}: there is an empty entry at the end of {}", option, as_shown(text)));
+  std::string_view rest = text;
+  do {
+    std::string_view entry = take_part(rest, ',');
+    const std::string whole(entry);
+    const bool is_range = entry.find(':') != std::string_view::npos;
+    const long long first = parse_count(option, take_part(entry, ':'));
+    const long long last = is_range ? parse_count(option, entry) : first;
+    if (last < first) throw Error(fmt::format("{}: the range {} ends below its start", option, whole));
+    for (long long count = first; count <= last; count *= 2) counts.insert(count);
+    if (counts.size() > most_counts) {  // all grids are in memory at the same time
+      throw Error(fmt::format("{} takes at most {} numbers; run the rest under another --name", option, most_counts));
+    }
+  } while (!rest.empty());
+  return {counts.begin(), counts.end()};
+}
+
+std::vector<double> parse_node_times(std::string_view text) {
+  std::vector<double> times;
+  for (int line = 1; !text.empty(); ++line) {
+    std::string_view entry = take_part(text, '\n');
+    while (!entry.empty() && (entry.back() == '\r' || entry.back() == ' ')) entry.remove_suffix(1);
+    if (entry.empty()) continue;
+    if (std::cmp_greater(times.size(), Grid::most_intervals)) {
+      throw Error(fmt::format("--grid, line {}: a grid has at most {} intervals", line, Grid::most_intervals));
+    }
+    times.push_back(parse_number(fmt::format("--grid, line {}", line), entry));
+  }
+  return times;
+}
+
+std::pair<std::string_view, std::string_view> parse_assignment(std::string_view option, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw Error(fmt::format("{} takes name=value, got \"{}\"", option, text));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+double parse_number(std::string_view wanted_for, std::string_view text) {
+  const auto value = parsed<double>(text);
+  if (!value) throw Error(fmt::format("{}: {} is not a number", wanted_for, as_shown(text)));
+  return *value;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run/command_line.hpp"
+#include "bench/run/solve_case.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+/// The options that all experiments have.
+struct ExperimentOptions {
+  std::vector<std::string> problems = paper_problem_names();  ///< "all" alone: every problem there is
+  std::vector<std::string> methods = {};                      ///< empty: the families that the paper compares
+  std::vector<std::string> integrators = {};                  ///< of shooting; empty: rk4
+  std::vector<int> substeps = {};                             ///< of shooting per interval; empty: 1
+  std::vector<std::string> tableaus{"gauss"};                 ///< families of Butcher tableaus
+  std::string controls = "stage";                ///< stage, or shared: one control where two intervals meet
+  std::vector<int> stages{1};                    ///< numbers of stages s
+  std::vector<std::string> solvers{"ipopt"};     ///< names of solvers
+  std::vector<std::string> derivatives{"tape"};  ///< names of back ends
+  std::string intervals = {};                    ///< numbers of intervals, as on the command line
+  std::filesystem::path grid_file = {};          ///< relative node times; replaces `intervals`
+  std::vector<std::string> settings = {};        ///< "parameter=value"
+  std::vector<std::string> passed_on = {};       ///< "option=value" for the solver
+  std::string form = "bolza";                    ///< bolza or mayer
+  std::string start = "common";                  ///< common, guess or a file X_nodes.csv
+  double tolerance = SolverOptions{}.tolerance;  ///< for the KKT residual of the scaled program
+  std::vector<std::string> tolerances = {};  ///< several, where an experiment compares them; empty: `tolerance` alone
+  int most_iterations = SolverOptions{}.most_iterations;  ///< of a solver
+  double most_seconds = 0.0;                              ///< of a solve, and of its set-up; 0 for no limit
+  double start_seconds = 30.0;                            ///< of the search of a problem's common start
+  int jobs = 1;          ///< problems worked on at the same time, where an experiment allows it
+  bool batch = false;    ///< cases of one program are solved side by side, where an experiment allows it
+  int repeats = 1;       ///< solves per row; times are their medians
+  bool verbose = false;  ///< shows the solver's own output
+  std::filesystem::path out = "results";  ///< folder for results
+  std::string name = {};                  ///< of the table and the files beside it
+  std::string part = {};                  ///< "i/n": solve the i-th of n parts of the cases; empty: all
+  std::string missing_parts = {};         ///< n: solve nothing, but name the parts of n that are missing; empty: do not
+  std::vector<std::string> join = {};     ///< results folders whose parts are joined instead of solving; empty: solve
+};
+
+/// The numbers of `tolerances`. Throws `Error` if one is no number or out of range.
+[[nodiscard]] std::vector<double> chosen_tolerances(const ExperimentOptions& options);
+
+/// Registers the options with their help.
+void add_options(CommandLine& line, ExperimentOptions& options);
+
+/// Registers the options of an experiment whose cases can be dealt out to parts.
+void add_part_options(CommandLine& line, ExperimentOptions& options);
+/// `--batch` and `--no-batch`.
+void add_batch_option(CommandLine& line, ExperimentOptions& options);
+
+/// The solver options among them; an interrupt stops the solver. Throws `Error` if one is out of range.
+[[nodiscard]] SolverOptions solver_options(const ExperimentOptions& options);
+/// Those of the solver by name. Throws `Error` if one has no "=" or no name.
+[[nodiscard]] NamedOptions named_options(const ExperimentOptions& options);
+
+/// All cases in the order of rows: problem, method, tableau, stages, solver, derivatives, intervals ascending. Problems
+/// of equal name are the same object. Throws `Error` on anything unknown or out of range; nothing has been written by
+/// then.
+[[nodiscard]] std::vector<Case> expand_cases(const ExperimentOptions& options);
+
+/// Problems with the settings applied, in the order of the registry; the name "all" stands for every one. A setting
+/// must belong to at least one of them.
+[[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
+                                                                            const std::vector<std::string>& settings);
+
+/// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end),
+/// or a mixture; ascending, each once, at most 1000. Throws `Error` that names the option and quotes the entry if one
+/// is not a whole number between 1 and Grid::most_intervals, or a range ends below its start.
+[[nodiscard]] std::vector<long long> parse_intervals(std::string_view option, std::string_view text);
+
+/// Relative node times, one per line, from a file. Throws `Error` that names the line if one is not a number.
+[[nodiscard]] std::vector<double> parse_node_times(std::string_view text);
+
+/// "name=value" apart. Throws `Error` with the option's name if there is no "=" or no name.
+[[nodiscard]] std::pair<std::string_view, std::string_view> parse_assignment(std::string_view option,
+                                                                             std::string_view text);
+
+/// The whole text as a number. Throws `Error` that begins with `wanted_for`.
+[[nodiscard]] double parse_number(std::string_view wanted_for, std::string_view text);
+
+}  // namespace dmocbench

@@ -1,0 +1,169 @@
+#include "bench/run/parts_of_run.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/run/result_file.hpp"
+#include "bench/run/run_identity.hpp"
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* case_column = "case";
+
+/// In what respects cases of one experiment need each other.
+std::vector<SharedBy> respects_of(const Experiment& experiment) {
+  const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
+  const ExperimentCard& card = experiment.card();
+  std::vector<SharedBy> respects{[&](const Case& the_case) { return experiment.shared_by(the_case); }};
+  const std::string& start = card.options.start;
+  if (start == "common" || (start == "guess" && card.tells_branches_from_guess)) respects.emplace_back(scheme);
+  if (card.takes_turns) {
+    respects.emplace_back([scheme](const Case& c) { return fmt::format("{} {}", scheme(c), c.intervals()); });
+  }
+  return respects;
+}
+
+/// What the metadata of the whole run tell of its parts and of the machines that they ran on.
+void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
+  Json machines = Json::array();
+  std::vector<std::vector<std::size_t>> numbers;
+  std::vector<std::string> times;
+  for (const PartFile& file : files) {
+    const Json& machine = file.description.at("machine");
+    const auto found = std::ranges::find(machines, machine);
+    const auto position = static_cast<std::size_t>(found - machines.begin());
+    if (found == machines.end()) {
+      machines.push_back(machine);
+      numbers.emplace_back();
+    }
+    numbers[position].push_back(file.part().number);
+    times.push_back(file.description.at("utc_time"));
+  }
+  // Times in the table are those of these machines, not of the one that joins them.
+  for (const auto& [key, first] : machines.front().items()) {
+    const auto is_equal = [&key = key, &first = first](const Json& machine) { return machine.at(key) == first; };
+    if (key != "host") metadata[key] = std::ranges::all_of(machines, is_equal) ? first : Json("several, see parts");
+  }
+  for (std::size_t i = 0; i < machines.size(); ++i) machines[i]["parts"] = in_ranges(numbers[i]);
+  const auto [first, last] = std::ranges::minmax(times);
+  metadata["parts"] = {
+      {"of", files.size()}, {"first_utc_time", first}, {"last_utc_time", last}, {"machines", std::move(machines)}};
+}
+
+/// The command line of the whole run, from that of one that joins parts.
+void forget_joining(Json& command_line) {
+  Json words = Json::array();
+  for (std::size_t i = 0; i < command_line.size(); ++i) {
+    const auto word = command_line[i].get<std::string>();
+    if (word == "--join") ++i;  // and the folder
+    if (word != "--join" && !word.starts_with("--join=")) words.push_back(word);
+  }
+  command_line = std::move(words);
+}
+
+}  // namespace
+
+PartsOfRun::PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const Json& metadata,
+                       const std::vector<std::pair<std::string, std::string>>& options,
+                       std::vector<std::string> columns)
+    : experiment_(experiment), cases_(cases), columns_(std::move(columns)) {
+  const ExperimentOptions& chosen = experiment.options();
+  if (!chosen.part.empty()) part_ = parse_part("--part", chosen.part);
+  if (!chosen.missing_parts.empty()) asked_for_ = parse_part("--missing-parts", "1/" + chosen.missing_parts).of;
+  const bool is_of_parts = part_ || asked_for_ > 0 || !chosen.join.empty();
+  if (is_of_parts) identity_ = identity_of(experiment.card(), cases, metadata, options);
+}
+
+std::vector<std::size_t> PartsOfRun::groups() const { return groups_of(cases_, respects_of(experiment_)); }
+
+std::vector<bool> PartsOfRun::own_cases() const {
+  std::vector<bool> own(cases_.size(), true);
+  if (!part_) return own;
+  const std::vector<std::size_t> part_of = dealt_out(cases_, groups(), part_->of);
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = part_of[i] == part_->number;
+  return own;
+}
+
+std::filesystem::path PartsOfRun::file_of(const Part& part) const {
+  const ExperimentOptions& options = experiment_.card().options;
+  return folder_of_parts(options.out / options.name) / part.file_name();
+}
+
+bool PartsOfRun::is_there(const Part& part) const {
+  std::error_code none;
+  if (!std::filesystem::exists(file_of(part), none)) return false;
+  try {
+    const PartFile file = read_part(file_of(part));
+    return file.description.at("part") == part.in_words() && file.description.at("identity") == identity_;
+  } catch (const Error&) {
+    return false;  // damaged
+  }
+}
+
+void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
+  std::vector<std::string> columns{case_column};
+  columns.insert(columns.end(), columns_.begin(), columns_.end());
+  Table table(columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::optional<Row>& measured = rows[i];
+    if (!measured) continue;
+    Row row = *measured;
+    row.set(case_column, i + 1);
+    table.append(std::move(row));
+  }
+  const Json description{{"part", part_.value_or(Part()).in_words()},
+                         {"commit", metadata.at("commit")},
+                         {"identity", identity_},
+                         {"rows", table.rows().size()},
+                         {"command_line", metadata.at("command_line")},
+                         {"utc_time", metadata.at("utc_time")},
+                         {"machine", machine_of(metadata)},
+                         {"findings", experiment_.findings()}};
+  write_part({.path = file(), .description = description, .table = table.csv()});
+}
+
+std::vector<std::size_t> PartsOfRun::missing() const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 1; number <= asked_for_; ++number) {
+    if (!is_there({number, asked_for_})) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+void PartsOfRun::take_rows(const PartFile& file, RowsOfCases& rows) {
+  const Table table = Table::from_csv(file.table);
+  for (const Row& row : table.rows()) {
+    const auto number = static_cast<std::size_t>(row.needed(case_column));
+    if (number < 1 || number > rows.size() || rows[number - 1]) {
+      throw Error(fmt::format("{} has a row of case {}, which is not its own", file.path.string(), number));
+    }
+    rows[number - 1] = row;
+  }
+}
+
+RowsOfCases PartsOfRun::join(Json& metadata) const {
+  const ExperimentOptions& options = experiment_.card().options;
+  const std::vector<PartFile> files = read_all_parts({options.join.begin(), options.join.end()}, options.name);
+  require_same_run(fmt::format("{} is of another run than this", files.front().path.string()),
+                   files.front().description, {{"commit", metadata.at("commit")}, {"identity", identity_}});
+  RowsOfCases rows(cases_.size());
+  for (const PartFile& file : files) {
+    take_rows(file, rows);
+    experiment_.add_findings(file.description.at("findings"));
+  }
+  const auto lost = std::ranges::find(rows, false, &std::optional<Row>::has_value);
+  if (lost != rows.end())
+    throw Error(fmt::format("no part has a row of {}", cases_[static_cast<std::size_t>(lost - rows.begin())].label()));
+  describe_parts(files, metadata);
+  forget_joining(metadata.at("command_line"));
+  return rows;
+}
+
+}  // namespace dmocbench

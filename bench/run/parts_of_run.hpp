@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/run/experiment.hpp"
+#include "bench/run/part_file.hpp"
+
+namespace dmocbench {
+
+/// The cases of a run by number; a row for each that is solved.
+using RowsOfCases = std::vector<std::optional<Row>>;
+
+/// A run whose cases are dealt out to parts: what each of them works on, writes and is joined from.
+class PartsOfRun {
+ public:
+  /// `options`: names and values of the command line; `columns`: names of those of the table. Throws `Error` if
+  /// --part or --missing-parts is no part or number of parts.
+  PartsOfRun(Experiment& experiment, const std::vector<Case>& cases, const nlohmann::ordered_json& metadata,
+             const std::vector<std::pair<std::string, std::string>>& options, std::vector<std::string> columns);
+
+  /// Whether this run is one part, asked for by --part.
+  [[nodiscard]] bool is_one() const noexcept { return part_.has_value(); }
+  /// For every case whether this run works on it: all, or those of its part.
+  [[nodiscard]] std::vector<bool> own_cases() const;
+  /// For every case the first one that it shares something with (`groups_of`).
+  [[nodiscard]] std::vector<std::size_t> groups() const;
+  /// The file of this part.
+  [[nodiscard]] std::filesystem::path file() const { return file_of(part_.value_or(Part())); }
+  /// True if this part is there already, of this very run.
+  [[nodiscard]] bool is_there() const { return is_there(part_.value_or(Part())); }
+  /// Writes this part whole, or throws `Error`.
+  void write(const RowsOfCases& rows, const nlohmann::ordered_json& metadata) const;
+
+  /// The parts of n (--missing-parts) that are not there.
+  [[nodiscard]] std::vector<std::size_t> missing() const;
+
+  /// The rows of all cases from the parts in some folders; hands the experiment their findings, and says in the
+  /// metadata what they were made by. Throws `Error` that names it if a part is missing, damaged, there twice or of
+  /// another run.
+  [[nodiscard]] RowsOfCases join(nlohmann::ordered_json& metadata) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(const Part& part) const;
+  [[nodiscard]] bool is_there(const Part& part) const;
+  static void take_rows(const PartFile& file, RowsOfCases& rows);
+
+  Experiment& experiment_;
+  const std::vector<Case>& cases_;
+  std::vector<std::string> columns_;
+  std::optional<Part> part_;
+  std::size_t asked_for_ = 0;  ///< parts, by --missing-parts
+  nlohmann::ordered_json identity_;
+};
+
+}  // namespace dmocbench

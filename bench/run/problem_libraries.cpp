@@ -1,0 +1,81 @@
+#include "bench/run/problem_libraries.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/result_file.hpp"
+#include "bench/run/written_tables.hpp"
+#include "methods/error.hpp"
+#include "problems/problem_library.hpp"
+#include "problems/problem_registry.hpp"
+#include "problems/registry.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Of this process, as the known problems are.
+nlohmann::ordered_json& loaded_libraries() {
+  static nlohmann::ordered_json libraries;
+  return libraries;
+}
+
+std::vector<std::string> libraries_of_environment() {
+  std::vector<std::string> libraries;
+  const char* const value = std::getenv("DMOCBENCH_LIBRARIES");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) libraries.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return libraries;
+}
+
+void load(const std::filesystem::path& file) {
+  std::error_code none;  // a file that is not there is refused below
+  const std::string path = std::filesystem::weakly_canonical(file, none).string();
+  nlohmann::ordered_json& libraries = loaded_libraries();
+  const auto is_loaded = [&path](const nlohmann::ordered_json& library) { return library.at("path") == path; };
+  if (std::ranges::any_of(libraries, is_loaded)) return;
+  const std::vector<std::string> known = problem_names();
+  load_problem_library(file, known_problems());
+  std::vector<std::string> problems = problem_names();
+  problems.erase(problems.begin(), problems.begin() + std::ssize(known));
+  libraries.push_back(
+      {{"path", path}, {"crc32", fmt::format("{:08x}", crc_32(read_file(path)))}, {"problems", problems}});
+}
+
+}  // namespace
+
+void add_library_option(CommandLine& line, std::vector<std::string>& libraries) {
+  line.option("--library", libraries,
+              "shared library of problems, made by dmocbench_add_problems; may be repeated. Those that "
+              "DMOCBENCH_LIBRARIES names come first");
+}
+
+void load_problem_libraries(const std::vector<std::string>& libraries) {
+  for (const std::string& library : libraries_of_environment()) load(library);
+  for (const std::string& library : libraries) {
+    if (library.empty()) throw Error("--library: no file is named");
+    load(library);
+  }
+}
+
+std::vector<std::string> parse_with_libraries(CommandLine& line) {
+  std::vector<std::string> libraries;
+  add_library_option(line, libraries);
+  std::vector<std::string> command_line = line.parse();
+  load_problem_libraries(libraries);
+  return command_line;
+}
+
+nlohmann::ordered_json describe_problem_libraries() { return loaded_libraries(); }
+
+}  // namespace dmocbench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/run/command_line.hpp"
+
+namespace dmocbench {
+
+/// Registers the option --library of a program that takes problems by their names.
+void add_library_option(CommandLine& line, std::vector<std::string>& libraries);
+
+/// Loads the libraries of problems that the environment variable DMOCBENCH_LIBRARIES names (colons between them), then
+/// the given ones, each once, and adds their problems to the known ones. Throws `Error` as `load_problem_library`.
+void load_problem_libraries(const std::vector<std::string>& libraries);
+
+/// Registers --library behind all other options, parses, and loads the libraries; the program and its arguments.
+std::vector<std::string> parse_with_libraries(CommandLine& line);
+
+/// The libraries that were loaded, for metadata: an object for each with its "path", its checksum "crc32" (eight
+/// hexadecimal digits) and its "problems"; null if there are none.
+[[nodiscard]] nlohmann::ordered_json describe_problem_libraries();
+
+}  // namespace dmocbench

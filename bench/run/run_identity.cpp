@@ -1,0 +1,92 @@
+#include "bench/run/run_identity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include <boost/crc.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/result_file.hpp"
+#include "bench/run/written_tables.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Options that change no row but by its times, and where libraries of problems are: what they hold is compared.
+bool is_about_the_machine(const std::string& option) {
+  constexpr std::array names{"--help", "--out",           "--name", "--jobs",   "--verbose",
+                             "--part", "--missing-parts", "--join", "--library"};
+  return std::ranges::find(names, option) != names.end();
+}
+
+/// Names, grids, tolerances and parameters of all cases.
+std::string checksum_of(const std::vector<Case>& cases) {
+  boost::crc_32_type crc;
+  for (const Case& the_case : cases) {
+    std::string text = fmt::format("{} {}", the_case.label(), the_case.tolerance.value_or(0.0));
+    for (const Parameter& parameter : the_case.problem->parameters()) text += fmt::format(" {}", parameter.value);
+    crc.process_bytes(text.data(), text.size());
+    const Eigen::VectorXd times = the_case.grid.relative_times();
+    crc.process_bytes(times.data(), static_cast<std::size_t>(times.size()) * sizeof(double));
+  }
+  return fmt::format("{:08x}", crc.checksum());
+}
+
+/// Those of the libraries of problems by their names without folder, which may be another one on another machine.
+Json checksums_of(const Json& metadata) {
+  Json checksums = Json::object();
+  for (const Json& library : metadata.at("problem_libraries")) {
+    const std::filesystem::path path = library.at("path").get<std::string>();
+    checksums[path.filename().string()] = library.at("crc32");
+  }
+  return checksums;
+}
+
+Json parameters_of(const std::vector<Case>& cases) {
+  Json parameters = Json::object();
+  for (const Case& the_case : cases) {
+    const std::string& name = the_case.problem->name();
+    if (parameters.contains(name)) continue;
+    parameters[name] = Json::object();
+    for (const Parameter& parameter : the_case.problem->parameters())
+      parameters[name][parameter.name] = parameter.value;
+  }
+  return parameters;
+}
+
+}  // namespace
+
+Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, const Json& metadata,
+                 const std::vector<std::pair<std::string, std::string>>& options) {
+  Json identity{{"experiment", card.name}};
+  for (const char* const key : {"dmocbench", "compiler", "flags", "instruction_set", "libraries", "solvers"}) {
+    identity[key] = metadata.at(key);
+  }
+  // Not the commit: a tree that was changed has several programs under one, and one program outlives many.
+  identity["program"] = fmt::format("{:08x}", crc_32(read_file("/proc/self/exe")));
+  if (metadata.contains("problem_libraries")) identity["problem_libraries"] = checksums_of(metadata);
+  identity["parameters"] = parameters_of(cases);
+  identity["options"] = Json::object();
+  for (const auto& [name, value] : options) {
+    if (!is_about_the_machine(name)) identity["options"][name] = value;
+  }
+  const std::string& start = card.options.start;
+  if (start != "common" && start != "guess") identity["start"] = fmt::format("{:08x}", crc_32(read_file(start)));
+  identity["cases"] = cases.size();
+  identity["checksum_of_cases"] = checksum_of(cases);
+  return identity;
+}
+
+Json machine_of(const Json& metadata) {
+  Json machine{{"host", host_name()}};
+  for (const char* const key : {"processor", "cores", "memory_gib", "operating_system"})
+    machine[key] = metadata.at(key);
+  return machine;
+}
+
+}  // namespace dmocbench

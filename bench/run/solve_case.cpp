@@ -1,0 +1,358 @@
+#include "bench/run/solve_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "bench/run/warm_start.hpp"
+#include "methods/diagnostics/conserved_quantities.hpp"
+#include "methods/diagnostics/undefined_point.hpp"
+#include "methods/diagnostics/violation_between_nodes.hpp"
+#include "methods/error.hpp"
+#include "methods/judgement/confirm.hpp"
+#include "methods/judgement/polish.hpp"
+#include "methods/numerics/median.hpp"
+#include "methods/runtime/clock.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/transcription/describe_violation.hpp"
+#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/start.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// The time that a case may take.
+class TimeOfCase {
+ public:
+  explicit TimeOfCase(const SolverOptions& options) : options_(options) {}
+
+  /// Infinite without a limit, at least a moment with one, since 0 would be none.
+  [[nodiscard]] double left() const {
+    constexpr double moment = 1e-9;
+    if (options_.most_seconds <= 0.0) return unbounded;
+    return std::max(options_.most_seconds - seconds_since(begin_), moment);
+  }
+  /// For a part of the work; it ends with the time or an interrupt.
+  [[nodiscard]] StopScope scope() const { return {options_.stop_requested, left()}; }
+  [[nodiscard]] Status reason() const {
+    return options_.stop_requested && options_.stop_requested() ? Status::interrupted : Status::time_limit;
+  }
+
+ private:
+  const SolverOptions& options_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+Solution solve_once(const SolvedCase& solved, const Start& start, const Solver& solver) {
+  if (!solved.condensed) return solve_from(*solved.program, solved.start, start.with_costates, solver);
+  SingleShooting& program = *solved.condensed;
+  return program.expanded(solver.solve(program, program.reduced(solved.start)));
+}
+
+/// Solves again from the same start; the times become medians of all.
+void repeat(SolvedCase& solved, const Start& start, const Solver& solver, const Solution& first, int repeats) {
+  std::vector<Solution> solutions{first};
+  for (int i = 1; i < repeats && is_solved(first.status); ++i) {
+    const Solution again = solve_once(solved, start, solver);
+    if (!is_solved(again.status)) break;
+    solutions.push_back(again);
+  }
+  set_times(solved, solutions);
+}
+
+/// Settles an answer that needs it (`settle`). If the solver's derivatives are not exact the answer is judged again by
+/// exact ones first; where the solver's own denied its word, that word counts again.
+int settle_exactly(Case the_case, Transcription& program, double tolerance, Solution& solution) {
+  if (the_case.derivatives == "tape") return settle(program, tolerance, solution);
+  the_case.derivatives = "tape";
+  if (solution.status == Status::not_confirmed) solution.status = Status::solved;
+  const auto exact = the_case.transcribe();
+  confirm(*exact, tolerance, solution);
+  return settle(*exact, tolerance, solution);
+}
+
+/// Replays the intervals of a solved case one by one; an answer that is no motion is not solved but too coarse.
+void judge_accuracy(SolvedCase& solved, const Trajectory& motion) {
+  const Accuracy found = accuracy(solved.program->traced_problem(), motion);
+  solved.accuracy = found;
+  if (found.relative_jump <= largest_jump_of_a_motion) return;
+  solved.solution.status = Status::too_coarse;
+  const Eigen::Index k = found.interval;
+  const double unit = solved.the_case.problem->card().time_unit.factor;
+  solved.solution.message =
+      fmt::format("{} Interval {} (t = {:.4g} to {:.4g}), replayed alone, misses the next node by {:.2g} of the range.",
+                  sentence_of(Status::too_coarse), k, unit * motion.node_times[k], unit * motion.node_times[k + 1],
+                  found.relative_jump);
+}
+
+/// Says so where the cost that the solver saw differs from 1 by three orders of magnitude.
+void note_cost_scale(SolvedCase& solved, double optimum) {
+  constexpr double far = 1e3;
+  const double cost = std::abs(optimum);
+  const double scale = solved.program->cost_scale();
+  const double seen = cost * scale;
+  if (!is_solved(solved.solution.status) || !std::isnormal(seen) || (seen < far && seen > 1.0 / far)) return;
+  solved.note(fmt::format("The optimum is {:.3g}: cost_scale = {:g} would suit, not {:g}.", optimum,
+                          std::pow(10.0, -std::round(std::log10(cost))), scale));
+}
+
+/// Names what solvers see of the motion at a size that differs from 1 by four orders of magnitude.
+void note_variable_sizes(SolvedCase& solved, const Trajectory& motion) {
+  constexpr double far = 1e4;
+  constexpr double zero = 1e-9;  // what is smaller is rounding
+  if (!is_solved(solved.solution.status)) return;
+  std::vector<std::string> found;
+  const auto look = [&](const char* prefix, const Eigen::MatrixXd& values, const std::vector<std::string>& names) {
+    for (Eigen::Index i = 0; i < values.cols(); ++i) {
+      const double size = values.col(i).cwiseAbs().maxCoeff();
+      if (size >= far || (size > zero && size <= 1.0 / far)) {
+        found.push_back(fmt::format("{}{} ({:.1g})", prefix, names[static_cast<std::size_t>(i)], size));
+      }
+    }
+  };
+  const Problem& problem = *solved.the_case.problem;
+  look("", motion.q, problem.configuration_names());
+  look("the rate of ", motion.v, problem.configuration_names());
+  look("", motion.stage_u, problem.control_names());
+  if (!found.empty()) solved.note(fmt::format("Sizes far from 1: {}; other units would suit.", fmt::join(found, ", ")));
+}
+
+/// Judges a solved case as far as the time goes; one whose time is up is not solved.
+void judge_in_time(SolvedCase& solved, const Trajectory& motion, const TimeOfCase& time) {
+  try {
+    const StopScope scope = time.scope();
+    judge_accuracy(solved, motion);
+    note_cost_scale(solved, motion.cost);
+    note_variable_sizes(solved, motion);
+  } catch (const Stopped&) {
+    solved.solution.status = time.reason();
+    solved.solution.message =
+        fmt::format("{} Whether its answer is a motion is not known.", sentence_of(solved.solution.status));
+  }
+}
+
+/// Tells who gave the answer where that was left open, and who may give one where there is none.
+void note_solver(SolvedCase& solved) {
+  const std::string& asked = solved.the_case.solver;
+  const std::string& answered = solved.solution.solver;
+  if (asked == "auto" && answered == "ipopt")
+    solved.note("interior_point failed; this is what ipopt made of its point.");
+  const Status status = solved.solution.status;
+  const bool has_failed = status == Status::step_failed || status == Status::iteration_limit ||
+                          status == Status::evaluation_failed || status == Status::not_confirmed ||
+                          status == Status::diverged;
+  if (asked == "interior_point" && has_failed) solved.note("--solver auto goes on from here with ipopt.");
+}
+
+/// Says on which branch the answer is, and why it did not begin at the start that was asked for.
+void tell_start(SolvedCase& solved, const Start& start) {
+  if (start.branch && solved.trajectory) {
+    solved.branch = is_on_branch(*solved.trajectory, *start.branch) ? "same" : "other";
+  }
+  if (start.note.empty()) return;
+  solved.branch = "unknown";
+  solved.note(start.note);
+}
+
+/// Reads the trajectory of an answer, judges it and says what went wrong.
+void read_and_judge(SolvedCase& solved, const Start& start, const TimeOfCase& time) {
+  Solution& solution = solved.solution;
+  Transcription& program = *solved.program;
+  if (solution.primal.allFinite() && solution.primal.size() > 0) {
+    try {
+      solved.trajectory = read_trajectory(program, solution.primal, solution.multipliers);
+    } catch (const Error& error) {
+      if (is_solved(solution.status)) solution.status = Status::not_confirmed;  // nothing tells whether it is a motion
+      solved.note(std::string("Its trajectory cannot be read: ") + error.what() + ".");
+    }
+  }
+  if (solved.trajectory && is_solved(solution.status)) judge_in_time(solved, *solved.trajectory, time);
+  note_solver(solved);
+  tell_start(solved, start);
+  const std::string missed = describe_violation(*solved.the_case.problem, program, solution, solved.tolerance);
+  if (!missed.empty()) solved.note(missed);
+}
+
+bool is_wanted_branch(const std::string& branch) { return branch == "same" || branch.empty(); }
+
+}  // namespace
+
+std::unique_ptr<Transcription> Case::transcribe() const {
+  return std::make_unique<Transcription>(*problem, *make_element(method), make_tableau(tableau, stages), grid,
+                                         derivatives, form);
+}
+
+std::string Case::label() const {
+  return fmt::format("{} {} {} {} {} {}{}{} N = {}", problem->name(), method, tableau, stages, solver, derivatives,
+                     variant.empty() ? "" : " ", variant, intervals());
+}
+
+std::string Case::file_label() const {
+  return fmt::format("{}_{}_{}{}_{}{}", problem->name(), method, tableau, stages, intervals(),
+                     derivatives == "tape" ? "" : "_" + derivatives);
+}
+
+bool Case::same_curve(const Case& other) const {
+  return problem == other.problem && method == other.method && tableau == other.tableau && stages == other.stages &&
+         solver == other.solver && derivatives == other.derivatives && variant == other.variant &&
+         tolerance == other.tolerance;
+}
+
+int solves_per_round(const Solution& first) {
+  constexpr double seconds_of_a_round = 0.02;
+  constexpr double most = 400.0;
+  return static_cast<int>(std::clamp(seconds_of_a_round / first.seconds, 1.0, most));
+}
+
+void set_times(SolvedCase& solved, const std::vector<Solution>& repeats) {
+  solved.rounds.clear();
+  for (const Solution& solution : repeats) {
+    solved.rounds.push_back({solution.seconds, solution.evaluation_seconds, solution.linear_seconds});
+  }
+  const auto median_of = [&](const auto& time_of) {
+    std::vector<double> seconds;
+    std::ranges::transform(repeats, std::back_inserter(seconds), time_of);
+    return median(std::move(seconds));
+  };
+  solved.solution.seconds = median_of([](const Solution& s) { return s.seconds; });
+  solved.solution.evaluation_seconds = median_of([](const Solution& s) { return s.evaluation_seconds; });
+  if (!solved.solution.linear_seconds) return;
+  solved.solution.linear_seconds = median_of([](const Solution& s) { return s.linear_seconds.value_or(0.0); });
+}
+
+SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance, int repeats,
+                      bool polishes) {
+  SolvedCase result{.the_case = the_case, .tolerance = tolerance};
+  const TimeOfCase time(solver.options());
+  try {
+    const StopScope scope = time.scope();
+    const Clock::time_point begin = Clock::now();
+    result.program = the_case.transcribe();
+    if (is_single_shooting(the_case.method)) result.condensed = std::make_shared<SingleShooting>(*result.program);
+    result.setup_seconds = seconds_since(begin);
+  } catch (const Stopped&) {
+    result.solution.status = time.reason();
+    result.solution.message =
+        "The set-up took longer than the time given: its formulas are too long to be traced and differentiated in it.";
+    return result;
+  }
+  Transcription& program = *result.program;
+  result.start = sample(program, start.motion);
+  Solution& solution = result.solution;
+  Solution first;
+  {
+    const StopScope scope = time.scope();
+    first = solve_once(result, start, solver);
+    solution = first;
+    const int settling_steps = settle_exactly(the_case, program, tolerance, solution);
+    if (polishes) result.polish_steps = settling_steps + polish(program, solution);
+  }
+
+  read_and_judge(result, start, time);
+  result.seconds_left = time.left();
+  repeat(result, start, solver, first, repeats);
+  return result;
+}
+
+void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options) {
+  const TimeOfCase time(options);
+  {
+    const StopScope scope = time.scope();
+    settle(*solved.program, solved.tolerance, solved.solution);
+  }
+  read_and_judge(solved, start, time);
+}
+
+void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<JudgedAnswer> answer) {
+  const SolvedCase& judged = answer->judged;
+  solved.trajectory = judged.trajectory;
+  if (solved.trajectory) solved.trajectory->cost = solved.solution.objective / solved.program->cost_scale();
+  solved.accuracy = judged.accuracy;
+  solved.solution.status = judged.solution.status;
+  solved.solution.message = judged.solution.message;
+  solved.answer = std::move(answer);
+  tell_start(solved, start);
+}
+
+bool is_on_branch(const Trajectory& trajectory, const Motion& branch) {
+  constexpr double share = 0.1;
+  const Eigen::VectorXd range = trajectory.q.colwise().maxCoeff() - trajectory.q.colwise().minCoeff();
+  const double stretch = branch.horizon / trajectory.node_times[trajectory.intervals()];  // same relative time
+  double distance = 0.0;
+  for (Eigen::Index k = 0; k < trajectory.q.rows(); ++k) {
+    const Eigen::VectorXd q = branch.at(trajectory.node_times[k] * stretch).q;
+    distance = std::max(distance, (trajectory.q.row(k).transpose() - q).lpNorm<Eigen::Infinity>());
+  }
+  return distance < share * range.maxCoeff();
+}
+
+bool is_usable(const SolvedCase& solved) {
+  return is_solved(solved.solution.status) && is_wanted_branch(solved.branch);
+}
+
+bool is_discrete_optimum(const SolvedCase& solved) {
+  return is_usable(solved) || (solved.solution.status == Status::too_coarse && is_wanted_branch(solved.branch));
+}
+
+bool is_usable(const Row& row) { return row.text("status") == "solved" && is_wanted_branch(row.text("branch")); }
+
+void note_stop(SolvedCase& solved, const std::string& left_out) {
+  if (is_solved(solved.solution.status)) solved.note(left_out + ": the time limit was reached.");
+}
+
+std::optional<ReplayError> replay(SolvedCase& solved) {
+  if (!solved.trajectory) return std::nullopt;
+  try {
+    return replay_error(*solved.the_case.problem, *solved.trajectory);
+  } catch (const Stopped&) {
+    note_stop(solved, "Its replay is missing");
+    return std::nullopt;
+  } catch (const Error& error) {
+    solved.note(error.what());
+    return std::nullopt;
+  }
+}
+
+namespace {
+
+/// True of answers that a solver found, motions or not.
+bool is_judged(Status status) { return is_solved(status) || status == Status::too_coarse; }
+
+/// Those of the answer, found out once for all cases that end at it.
+IndependentChecks shared_checks(SolvedCase& solved) {
+  SolvedCase& judged = solved.answer->judged;
+  const std::string before = judged.solution.message;
+  std::optional<IndependentChecks>& checks = solved.answer->checks;
+  if (!checks) checks = check_independently(judged);
+  const std::string& now = judged.solution.message;
+  solved.solution.status = judged.solution.status;
+  solved.solution.message = now.starts_with(before) ? solved.solution.message + now.substr(before.size()) : now;
+  return *checks;
+}
+
+}  // namespace
+
+IndependentChecks check_independently(SolvedCase& solved) {
+  if (!solved.trajectory) return {};
+  if (solved.answer) return shared_checks(solved);
+  const Problem& problem = *solved.the_case.problem;
+  const Trajectory& trajectory = *solved.trajectory;
+  if (const auto undefined = undefined_point(problem, trajectory); undefined && is_judged(solved.solution.status)) {
+    solved.solution.status = Status::evaluation_failed;
+    solved.solution.message = undefined->words();
+  }
+  IndependentChecks checks{.replay = replay(solved),
+                           .violation_between_nodes = violation_between_nodes(problem, trajectory),
+                           .free_horizon_residual = {}};
+  if (problem.bounds().horizon.is_free() && trajectory.has_costates()) {
+    checks.free_horizon_residual = free_horizon_residual(problem, trajectory);
+  }
+  return checks;
+}
+
+}  // namespace dmocbench

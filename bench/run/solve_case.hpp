@@ -1,0 +1,170 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/run/column.hpp"
+#include "methods/diagnostics/accuracy.hpp"
+#include "methods/diagnostics/replay_error.hpp"
+#include "methods/mechanics/problem.hpp"
+#include "methods/program/solution.hpp"
+#include "methods/solvers/solver.hpp"
+#include "methods/transcription/motions/grid.hpp"
+#include "methods/transcription/motions/interpolation.hpp"
+#include "methods/transcription/motions/trajectory.hpp"
+#include "methods/transcription/single_shooting.hpp"
+#include "methods/transcription/transcription.hpp"
+
+namespace dmocbench {
+
+/// One solve: a problem, a method with its tableau, a solver, its derivatives and a grid.
+struct Case {
+  std::shared_ptr<const Problem> problem;          ///< what is solved; shared between cases
+  std::string method;                              ///< family of elements, as `make_element` takes it
+  std::string tableau;                             ///< family of Butcher tableaus, as `make_tableau` takes it
+  int stages = 1;                                  ///< s
+  std::string solver = {};                         ///< as `make_solver` takes it
+  std::string derivatives = "tape";                ///< the back end that the solver sees
+  Grid grid = Grid::uniform(1);                    ///< relative node times
+  std::string variant = {};                        ///< a choice that only some experiments vary; empty in others
+  CostForm form = CostForm::bolza;                 ///< how the cost is stated
+  std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
+  /// The problem of which this is an instance with other values: where its common start is looked for. Null for none.
+  std::shared_ptr<const Problem> nominal = nullptr;
+  /// Of an instance: all its parameters, in the order of those of `nominal`, and the names of those that instances
+  /// vary.
+  Eigen::VectorXd parameters = {};
+  std::vector<std::string> varied = {};  ///< names of parameters that differ from case to case
+
+  /// N.
+  [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
+  /// The nonlinear program of this case. Throws `Error` as `Transcription` does.
+  [[nodiscard]] std::unique_ptr<Transcription> transcribe() const;
+  /// "orbital_transfer dmoc gauss 1 ipopt tape N = 64".
+  [[nodiscard]] std::string label() const;
+  /// The same as part of a file's name: "orbital_transfer_dmoc_gauss1_64", with the derivatives behind if they
+  /// are not those of the tape.
+  [[nodiscard]] std::string file_label() const;
+  /// True if both differ in their grid only: points of one curve.
+  [[nodiscard]] bool same_curve(const Case& other) const;
+};
+
+/// Wall clock of one solve [s].
+struct SolveTimes {
+  double seconds = 0.0;                                 ///< wall clock of the solve, s
+  double evaluation_seconds = 0.0;                      ///< part of it spent in evaluations, s
+  std::optional<double> linear_seconds = std::nullopt;  ///< of solvers that tell it
+};
+
+struct JudgedAnswer;
+
+/// The result of one solve.
+struct SolvedCase {
+  Case the_case;                                     ///< what was solved
+  std::shared_ptr<Transcription> program = nullptr;  ///< null if the case could not start
+  /// What the solver sees instead, by single shooting; null of all other methods. The solution is that of `program`.
+  std::shared_ptr<SingleShooting> condensed = nullptr;
+  Solution solution = {};                               ///< as the solver left it and our residuals judge it
+  Eigen::VectorXd start = {};                           ///< the point it began at; empty if there was none
+  std::optional<Trajectory> trajectory = std::nullopt;  ///< none if there is no point, or one without momenta
+  std::optional<Accuracy> accuracy = std::nullopt;      ///< of a solved case: whether its intervals join
+  /// "same" or "other" than that of the start; "unknown" if no common start was found, empty if none was looked for.
+  std::string branch = {};
+  std::optional<double> setup_seconds = std::nullopt;  ///< of the transcription, s; none in a batch
+  std::vector<SolveTimes> rounds = {};                 ///< of every solve; the times of the solution are their medians
+  double tolerance = 0.0;                              ///< of the solver; 0 if the case could not start
+  std::optional<int> polish_steps = std::nullopt;      ///< none if the answer was not to be polished
+  double seconds_left = unbounded;                     ///< of the solver's limit, for what is measured of the answer
+  bool is_timed = true;  ///< false of one of a batch: eight are solved side by side, so that none has a time
+  std::shared_ptr<JudgedAnswer> answer = nullptr;  ///< of one of a batch: what it shares with others of the same answer
+
+  /// The program that the solver sees, unless the case could not start.
+  [[nodiscard]] const NonlinearProgram& solved_program() const {
+    return condensed ? static_cast<const NonlinearProgram&>(*condensed) : *program;
+  }
+  /// Adds a sentence to the message of the row.
+  void note(const std::string& sentence) { solution.message += " " + sentence; }
+};
+
+/// Checks of a trajectory that rely on neither solver nor discretisation. What cannot be computed stays empty.
+struct IndependentChecks {
+  std::optional<ReplayError> replay;              ///< the controls integrated on the continuous equations
+  std::optional<double> violation_between_nodes;  ///< of bounds and path constraints where no point imposes them
+  std::optional<double> free_horizon_residual;    ///< what is left of the condition on T; none for a fixed horizon
+};
+
+/// An answer that many starts may end at, with all that is found out of it.
+struct JudgedAnswer {
+  SolvedCase judged;                                       ///< the case with its answer and what is known of it
+  std::optional<IndependentChecks> checks = std::nullopt;  ///< none until they are asked for
+};
+
+/// The columns that begin every experiment's table.
+[[nodiscard]] const Columns<SolvedCase>& core_columns();
+
+/// Where a solve starts, and the motion that tells whether its answer is on the wanted branch; without
+/// one the branch is left open.
+struct Start {
+  Motion motion;                                ///< where solves begin
+  std::optional<Motion> branch = std::nullopt;  ///< the motion whose branch counts as the same; none if none is known
+  std::string note = {};  ///< why it is not the motion that was asked for; the row's message ends with it
+  /// The motion with its costates, which become start multipliers of solvers that can use them.
+  std::optional<Trajectory> with_costates = std::nullopt;
+};
+
+/// Transcribes, samples the start, solves `repeats` times (times are medians) and reads the trajectory. A failure is
+/// part of the result; its message names what the point violates most. The solver's limit of time holds for the set-up,
+/// the first solve and all that judges its answer, together. The solver sees the case's derivatives;
+/// residuals and status are those of the exact ones, so that wrong derivatives cannot confirm themselves. Throws
+/// `Error` on misuse only. With `polishes` the answer is tightened by Newton steps, which no time counts.
+[[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
+                                    int repeats, bool polishes = false);
+
+/// What follows a solve: settles the answer (its program, start, solution and tolerance are there), reads the
+/// trajectory, judges it by the replay of each interval, and says what there is to say. `options` are the solver's.
+void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options);
+
+/// The same of a solved case whose answer is known to be this one, which is judged once for all of them.
+void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<JudgedAnswer> answer);
+
+/// How often a solve like `first` is repeated within one round: short ones for 20 ms, so that an interruption by
+/// something else is an outlier.
+[[nodiscard]] int solves_per_round(const Solution& first);
+
+/// Keeps the times of several solves, and replaces those of the answer by their medians.
+void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
+
+/// Columns of experiments that solve in turn: the times of all rounds and their quartiles.
+[[nodiscard]] Columns<SolvedCase> columns_of_rounds();
+
+/// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
+[[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
+
+/// True of solves that ended on the wanted branch, or on any where none is wanted (`--start guess`); curves, orders and
+/// claims use only these.
+[[nodiscard]] bool is_usable(const SolvedCase& solved);
+/// True of these and of answers that are too coarse: optima of the discrete program, whatever they are as motions.
+[[nodiscard]] bool is_discrete_optimum(const SolvedCase& solved);
+/// True if the row has an answer that may be compared and drawn: solved, and on the wanted branch.
+[[nodiscard]] bool is_usable(const Row& row);
+
+/// Says of a solved case what the end of its time left out.
+void note_stop(SolvedCase& solved, const std::string& left_out);
+
+/// The controls of the case's trajectory replayed; none without a trajectory or, with the reason in the row's message,
+/// if that fails.
+[[nodiscard]] std::optional<ReplayError> replay(SolvedCase& solved);
+
+/// Checks a case that has a trajectory. A solved motion on which a formula is not a number becomes a failed evaluation,
+/// which the row's message says.
+[[nodiscard]] IndependentChecks check_independently(SolvedCase& solved);
+
+/// The columns that tell `checks`.
+[[nodiscard]] Columns<SolvedCase> columns_of(const IndependentChecks& checks);
+
+/// The column replay_error alone.
+[[nodiscard]] Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay);
+
+}  // namespace dmocbench

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/run/solve_case.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// A column's getter: a number of the program's.
+auto count(std::size_t (*of_program)(const NonlinearProgram&)) {
+  return [=](const SolvedCase& solved) {
+    return solved.program ? std::optional(of_program(solved.solved_program())) : std::nullopt;
+  };
+}
+
+/// A number of seconds; no case that could not start has any, nor one of a batch.
+auto seconds(double Solution::*member) {
+  return [=](const SolvedCase& solved) {
+    return solved.program && solved.is_timed ? std::optional(solved.solution.*member) : std::nullopt;
+  };
+}
+
+std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
+  std::vector<double> seconds;
+  if (!is_solved(solved.solution.status)) return seconds;
+  std::ranges::transform(solved.rounds, std::back_inserter(seconds), &SolveTimes::seconds);
+  return seconds;
+}
+
+/// A getter of the time that a share of the rounds stays below.
+auto quantile_of_rounds(double share) {
+  return [share](const SolvedCase& solved) -> std::optional<double> {
+    std::vector<double> seconds = seconds_of_rounds(solved);
+    if (seconds.empty()) return {};
+    std::ranges::sort(seconds);
+    return seconds[static_cast<std::size_t>(std::lround(share * static_cast<double>(seconds.size() - 1)))];
+  };
+}
+
+std::optional<double> largest_step(const SolvedCase& solved) {
+  if (!solved.program) return {};
+  return solved.program->steps(solved.start).maxCoeff() * solved.the_case.problem->card().time_unit.factor;
+}
+
+double horizon_of(const SolvedCase& solved) {
+  const Problem& problem = *solved.the_case.problem;
+  const bool has_times = solved.trajectory && solved.trajectory->node_times.size() > 0;
+  const double horizon = has_times ? solved.trajectory->node_times.tail<1>()[0] : problem.horizon();
+  return horizon * problem.card().time_unit.factor;
+}
+
+}  // namespace
+
+const Columns<SolvedCase>& core_columns() {
+  using P = const NonlinearProgram&;
+  static const Columns<SolvedCase> columns{
+      {"problem", "", "name of the problem", [](const SolvedCase& s) { return s.the_case.problem->name(); }},
+      {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method)},
+      {"tableau", "", "family of Butcher tableaus", from(&SolvedCase::the_case, &Case::tableau)},
+      {"stages", "", "number of stages s", from(&SolvedCase::the_case, &Case::stages)},
+      {"solver", "", "who solved the program", from(&SolvedCase::the_case, &Case::solver)},
+      {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives)},
+      {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals)},
+      {"step", "time", "largest step of the start, in the problem's unit of time", largest_step},
+      {"horizon", "time", "T of the answer, or the guessed one, in the problem's unit of time", horizon_of},
+      {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",
+       [](const SolvedCase& s) { return s.the_case.problem->settings(); }},
+      {"variables", "", "unknowns of the program", count([](P p) { return p.variable_count(); })},
+      {"free_variables", "", "those not fixed by their bounds", count([](P p) { return free_variable_count(p); })},
+      {"constraints", "", "constraints of the program", count([](P p) { return p.constraint_count(); })},
+      {"jacobian_nonzeros", "", "entries of the Jacobian", count([](P p) { return p.jacobian_structure().size(); })},
+      {"hessian_nonzeros", "", "entries of the Hessian's lower triangle",
+       count([](P p) { return p.hessian_structure().size(); })},
+      {"status", "", "how the solve ended, as our own residuals confirm it",
+       [](const SolvedCase& s) { return name_of(s.solution.status); }},
+      {"branch", "", "same or other than that of the start; unknown: no common start found; empty: none looked for",
+       from(&SolvedCase::branch)},
+      {"objective", "cost", "cost of the trajectory", from(&SolvedCase::trajectory, &Trajectory::cost)},
+      {"tolerance",
+       "",
+       "of the solver",
+       {[](const SolvedCase& s) { return s.tolerance > 0.0 ? Cell(fmt::format("{:g}", s.tolerance)) : Cell(); },
+        FieldType{FieldKind::number, true}}},
+      {"kkt_residual", "", "scaled KKT residual", from(&SolvedCase::solution, &Solution::kkt_residual)},
+      {"constraint_violation", "", "largest violation of a constraint",
+       from(&SolvedCase::solution, &Solution::constraint_violation)},
+      {"major_iterations", "", "iterations of the solver", from(&SolvedCase::solution, &Solution::major_iterations)},
+      {"minor_iterations", "", "those of its quadratic programs",
+       from(&SolvedCase::solution, &Solution::minor_iterations)},
+      {"setup_seconds", "s", "transcription: tracing, differentiation, structure; empty of one of a batch",
+       from(&SolvedCase::setup_seconds)},
+      {"evaluation_seconds", "s", "part of the solve spent in evaluations; empty of one of a batch",
+       seconds(&Solution::evaluation_seconds)},
+      {"seconds", "s", "wall clock of the solve; empty of one of a batch, which shares its time with others",
+       seconds(&Solution::seconds)},
+      {"largest_jump", "", "largest |(q, v)| by which an interval, replayed from its first node, misses the next one",
+       from(&SolvedCase::accuracy, &Accuracy::jump)},
+      {"relative_jump", "", "the same of q or of v, whichever is larger relative to its range",
+       from(&SolvedCase::accuracy, &Accuracy::relative_jump)},
+      {"jump_interval", "", "the interval where that is", from(&SolvedCase::accuracy, &Accuracy::interval)},
+      {"answered_by", "",
+       "whose answer it is: the solver itself, the one that auto ended with, or batch: interior_point in lanes",
+       from(&SolvedCase::solution, &Solution::solver)},
+      {"message", "", "what happened, in words", from(&SolvedCase::solution, &Solution::message)},
+  };
+  return columns;
+}
+
+Columns<SolvedCase> columns_of_rounds() {
+  constexpr double quarter = 0.25;
+  return {{"seconds_lower_quartile", "s", "of the rounds", quantile_of_rounds(quarter)},
+          {"seconds_upper_quartile", "s", "of the rounds", quantile_of_rounds(1.0 - quarter)},
+          {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
+           [](const SolvedCase& solved) { return joined_numbers(seconds_of_rounds(solved)); }}};
+}
+
+Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay) {
+  return {"replay_error", "", "distance from the final state when the controls are replayed",
+          of(replay, &ReplayError::norm)};
+}
+
+Columns<SolvedCase> columns_of(const IndependentChecks& checks) {
+  return {replay_error_column(checks.replay),
+          {"replay_cost", "cost", "cost of the replayed motion", of(checks.replay, &ReplayError::cost)},
+          {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
+           of(checks.violation_between_nodes)},
+          {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",
+           of(checks.free_horizon_residual)}};
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/run/column.hpp"
+#include "bench/run/command_line.hpp"
+#include "bench/run/progress_line.hpp"
+#include "bench/run/result_file.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/solver.hpp"
+
+namespace dmocbench {
+
+/// A table and the file that holds it.
+struct TableFile {
+  std::filesystem::path file;  ///< with its folder, NAME.csv
+  Table table;                 ///< with what its columns mean
+};
+
+/// Writes tables, and beside them the metadata of their run with the JSON Schema of their rows. Columns that a table
+/// leaves unexplained mean what the first table says. The metadata say `"complete": false` until all tables are there.
+/// Throws `Error` if a file cannot be written.
+void write_tables(const std::vector<TableFile>& tables, const std::filesystem::path& metadata_file,
+                  const std::vector<std::string>& command_line);
+
+/// A run of an experiment without cases (those have experiment.hpp): whole tables, written when all of them are there.
+/// As long as it exists, an interrupt ends what this thread computes (`StopScope`).
+class TableRun {
+ public:
+  /// Adds the option `--out`, reads the command line and takes the results `name` of that folder, so that no other run
+  /// writes them meanwhile. Throws `Error` on bad input, or if nothing can be written there.
+  TableRun(std::string name, CommandLine& line);
+
+  /// Options for solvers, which stop if the run is to stop.
+  [[nodiscard]] static SolverOptions solver_options();
+  /// Says on a terminal what is being measured. Throws `Interrupted` if the run is to stop.
+  void show(const std::string& activity) const;
+  /// Adds the table of a file, named without folder and ending. `not_measured`: rows that say why they lack a number.
+  void add(const std::string& file, const Table& table, std::ptrdiff_t not_measured = 0);
+  /// The same with what its columns mean, for the metadata.
+  template <class Record>
+  void add(const std::string& file, const Columns<Record>& columns, const std::vector<Record>& records,
+           std::ptrdiff_t not_measured = 0) {
+    add(file, table_of(columns, records), not_measured);
+  }
+  /// Writes all tables and their metadata, NAME.json, which say `"complete": false` meanwhile. Returns the exit code: 1
+  /// if a row was not measured. Throws `Error` if a file cannot be written.
+  [[nodiscard]] int write() const;
+
+ private:
+  std::string name_;
+  std::filesystem::path out_ = "results";
+  std::vector<std::string> command_line_;
+  OutputFolder folder_;
+  ResultLock lock_;
+  ProgressLine progress_;
+  StopScope scope_;
+  std::vector<TableFile> tables_;
+  std::vector<std::string> rows_of_tables_;  ///< how many each has, in words
+  std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,189 @@
+#include "bench/tables/minima.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bench/run/column.hpp"
+#include "bench/tables/share_interval.hpp"
+#include "methods/diagnostics/accuracy.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Rows that agree in these are compared: they differ in method and start only.
+const ColumnNames group_columns{"problem", "tableau", "stages", "solver", "derivatives", "intervals"};
+
+/// The minima that some solves ended in, each with its rows, the lowest cost first.
+std::vector<Selection> minima_of(const Selection& rows, double separation) {
+  std::vector<Selection> minima;
+  double lowest = 0.0;
+  for (const Row& row : rows.where("status", "solved").sorted_by("objective")) {
+    const double objective = row.number("objective", 0.0);
+    if (minima.empty() || objective - lowest > separation * std::abs(lowest)) {
+      minima.emplace_back();
+      lowest = objective;
+    }
+    minima.back().append(row);
+  }
+  return minima;
+}
+
+/// True if some answer has that number and it is at most the limit.
+bool has_at_most(const Selection& minimum, const std::string& column, double limit) {
+  return std::ranges::any_of(minimum.with_number(column),
+                             [&](const Row& row) { return row.number(column, limit) <= limit; });
+}
+
+bool is_motion(const Selection& minimum) { return has_at_most(minimum, "relative_jump", largest_jump_of_a_motion); }
+
+/// How many answers of a method are in minima that are no motion.
+std::size_t unconfirmed_of(const std::vector<Selection>& minima, const std::string& method) {
+  std::size_t count = 0;
+  for (const Selection& minimum : minima) {
+    if (!is_motion(minimum)) count += minimum.where("method", method).size();
+  }
+  return count;
+}
+
+/// The lowest minimum that is a motion; the end if there is none.
+auto best_of(const std::vector<Selection>& minima) { return std::ranges::find_if(minima, is_motion); }
+
+/// A minimum among the answers of all methods, and the answers that ended there.
+struct Minimum {
+  Row head;
+  std::size_t number = 0;
+  Selection answers;
+  bool is_best = false;
+
+  [[nodiscard]] double objective() const { return answers.front().needed("objective"); }
+};
+
+const char* is_motion_in_words(const Selection& minimum) { return yes_or_no(is_motion(minimum)); }
+
+Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
+  Columns<Minimum> columns =
+      head_columns<Minimum>(group_columns) +
+      Columns<Minimum>{
+          {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number},
+          {"objective", "cost", "the lowest among the answers that are this minimum", &Minimum::objective},
+          {"is_best", "", "yes for the lowest minimum that is a motion", from(&Minimum::is_best, yes_or_no)},
+          {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
+           from(&Minimum::answers, is_motion_in_words)},
+          {"replay_confirmed", "", "yes if the replay of the whole horizon ends near the final state for some answer",
+           [](const Minimum& minimum) {
+             return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
+           }}};
+  for (const std::string& method : methods) {
+    columns.push_back({method, "", "how often this method ended there",
+                       [method](const Minimum& minimum) { return minimum.answers.where("method", method).size(); }});
+  }
+  return columns;
+}
+
+/// A start, and the minimum that it ended in, if it ended in one.
+struct StartInPlane {
+  Row head;
+  std::optional<std::size_t> number = std::nullopt;
+  std::optional<Selection> minimum = std::nullopt;
+};
+
+Columns<StartInPlane> basin_columns() {
+  return head_columns<StartInPlane>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals",
+                                     "bulge_1", "bulge_2", "status"}) +
+         Columns<StartInPlane>{
+             {"minimum", "", "number of the minimum, from the lowest cost upwards", &StartInPlane::number},
+             {"objective", "cost", "the lowest among the answers that are this minimum",
+              from(&StartInPlane::minimum, &Selection::front,
+                   [](const Row& lowest) { return lowest.number("objective"); })},
+             {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
+              from(&StartInPlane::minimum, is_motion_in_words)}};
+}
+
+/// How the starts of a method ended.
+struct StartsOfMethod {
+  Row head;
+  std::size_t solved = 0;
+  std::size_t unconfirmed = 0;
+  ShareCount best;
+
+  [[nodiscard]] ShareInterval interval() const { return wilson_interval(best); }
+};
+
+Columns<StartsOfMethod> best_share_columns() {
+  using Starts = StartsOfMethod;
+  return head_columns<Starts>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"}) +
+         Columns<Starts>{{"starts", "", "number of starts", from(&Starts::best, &ShareCount::trials)},
+                         {"solved", "", "how many were solved", &Starts::solved},
+                         {"unsolved", "", "how many were not solved",
+                          [](const Starts& starts) { return starts.best.trials - starts.solved; }},
+                         {"unconfirmed", "", "how many ended in a minimum that is no motion", &Starts::unconfirmed},
+                         {"best", "", "how many ended in the best minimum", from(&Starts::best, &ShareCount::hits)},
+                         {"share", "", "best by starts", from(&Starts::best, &ShareCount::share)},
+                         {"share_lower", "", "Wilson's interval of 95 % of the share",
+                          from(&Starts::interval, &ShareInterval::lower)},
+                         {"share_upper", "", "of the same interval", from(&Starts::interval, &ShareInterval::upper)}};
+}
+
+}  // namespace
+
+Table distinct_minima(const Selection& rows, double separation) {
+  std::vector<Minimum> all;
+  for (const Selection& group : rows.group_by(group_columns)) {
+    const std::vector<Selection> minima = minima_of(group, separation);
+    const auto best = best_of(minima);
+    for (auto minimum = minima.begin(); minimum != minima.end(); ++minimum) {
+      all.push_back({.head = group.front(),
+                     .number = static_cast<std::size_t>(minimum - minima.begin()) + 1,
+                     .answers = *minimum,
+                     .is_best = minimum == best});
+    }
+  }
+  return table_of(minimum_columns(rows.distinct("method")), all);
+}
+
+Table basins(const Selection& rows, double separation) {
+  std::vector<StartInPlane> all;
+  for (const Selection& group : rows.group_by(group_columns)) {
+    const std::vector<Selection> minima = minima_of(group, separation);
+    std::vector<StartInPlane> starts;
+    for (std::size_t i = 0; i < minima.size(); ++i) {
+      for (const Row& answer : minima[i]) starts.push_back({.head = answer, .number = i + 1, .minimum = minima[i]});
+    }
+    for (const Row& answer : group) {
+      if (answer.text("status") != "solved") starts.push_back({.head = answer});
+    }
+    // Line by line of the plane, as an image is drawn.
+    std::ranges::stable_sort(starts, {}, [](const StartInPlane& start) {
+      return std::tuple(start.head.text("method"), start.head.needed("bulge_2"), start.head.needed("bulge_1"));
+    });
+    std::ranges::move(starts, std::back_inserter(all));
+  }
+  return table_of(basin_columns(), all);
+}
+
+Table best_minimum_shares(const Selection& rows, double separation) {
+  std::vector<StartsOfMethod> all;
+  const std::vector<std::string> methods = rows.distinct("method");
+  for (const Selection& group : rows.group_by(group_columns)) {
+    const std::vector<Selection> minima = minima_of(group, separation);
+    const auto best = best_of(minima);
+    for (const std::string& method : methods) {
+      const Selection starts = group.where("method", method);
+      if (starts.empty()) continue;
+      const std::size_t hits = best == minima.end() ? 0 : best->where("method", method).size();
+      all.push_back({.head = starts.front(),
+                     .solved = starts.where("status", "solved").size(),
+                     .unconfirmed = unconfirmed_of(minima, method),
+                     .best = {.hits = hits, .trials = starts.size()}});
+    }
+  }
+  return table_of(best_share_columns(), all);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,82 @@
+#include "bench/tables/ratio_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/numerics/median.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+void require_times(std::span<const double> times) {
+  if (times.empty()) throw Error("an interval of a ratio needs a round");
+  for (const double time : times) {
+    if (!std::isfinite(time) || time <= 0.0) throw Error(fmt::format("{} is no ratio of two times", time));
+  }
+}
+
+/// The median of as many values, drawn from them with replacement.
+double median_of_drawn(std::span<const double> values, std::mt19937& engine) {
+  std::vector<double> drawn;
+  drawn.reserve(values.size());
+  // The remainder is not exactly even, but the same on every machine, unlike the library's distributions.
+  for (std::size_t i = 0; i < values.size(); ++i) drawn.push_back(values[engine() % values.size()]);
+  return median(std::move(drawn));
+}
+
+void set_bounds(RatioInterval& interval) {
+  std::vector<double> sorted = interval.resampled;
+  std::ranges::sort(sorted);
+  constexpr std::size_t outside = resamples / 200;  // half a percent on each side
+  interval.lower = sorted[outside];
+  interval.upper = sorted[resamples - 1 - outside];
+}
+
+constexpr unsigned seed = 20090101U;  // the same draws each time
+
+}  // namespace
+
+RatioInterval ratio_interval(std::span<const double> ratios) {
+  require_times(ratios);
+  RatioInterval interval{.ratio = median({ratios.begin(), ratios.end()}), .rounds = ratios.size(), .resampled = {}};
+  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
+  for (std::size_t b = 0; b < resamples; ++b) interval.resampled.push_back(median_of_drawn(ratios, engine));
+  set_bounds(interval);
+  return interval;
+}
+
+RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others) {
+  require_times(times);
+  require_times(others);
+  RatioInterval interval{.ratio = median({times.begin(), times.end()}) / median({others.begin(), others.end()}),
+                         .rounds = std::min(times.size(), others.size()),
+                         .resampled = {}};
+  std::mt19937 engine(seed);  // NOLINT(cert-msc51-cpp)
+  for (std::size_t b = 0; b < resamples; ++b) {
+    const double drawn = median_of_drawn(times, engine);
+    interval.resampled.push_back(drawn / median_of_drawn(others, engine));
+  }
+  set_bounds(interval);
+  return interval;
+}
+
+MedianOfRounds::MedianOfRounds(std::span<const double> of_rounds) : rounds(joined_numbers(of_rounds)) {
+  if (of_rounds.empty()) return;
+  const RatioInterval interval = ratio_interval(of_rounds);
+  median = interval.ratio;
+  lower = interval.lower;
+  upper = interval.upper;
+}
+
+std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others) {
+  std::vector<double> ratios(std::min(times.size(), others.size()));
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = times[i] / others[i];
+  return ratios;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/run/column.hpp"
+
+namespace dmocbench {
+
+/// Fewer rounds are too few for a verdict on times.
+inline constexpr std::size_t fewest_rounds = 10;
+/// How often the rounds are drawn anew.
+inline constexpr std::size_t resamples = 1000;
+
+/// The ratio of two times that were measured in turn, round after round, so that other load of the machine slowed both.
+///
+/// The ratio is the median over the rounds. Its interval comes from the bootstrap: rounds are drawn anew with
+/// replacement, `resamples` times from a fixed seed, and the interval holds 99 % of the medians. Equal numbers of
+/// rounds draw the same rounds, so that `resampled[b]` of several ratios belong together.
+struct RatioInterval {
+  double ratio = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  std::size_t rounds = 0;
+  std::vector<double> resampled;  ///< the medians, in the order of drawing
+};
+
+/// The interval of the median of ratios, one of each round. Throws `Error` without ratios or if one is not a finite
+/// number above zero.
+[[nodiscard]] RatioInterval ratio_interval(std::span<const double> ratios);
+
+/// The ratio of the medians of two times that were not measured in turn, such as those of two runs. Its interval comes
+/// from the bootstrap, which draws the rounds of either anew by itself; `rounds` is the smaller number of rounds. What
+/// else slowed the machine during one of the runs is in the ratio. Throws `Error` without times or if one is not a
+/// finite number above zero.
+[[nodiscard]] RatioInterval ratio_of_runs(std::span<const double> times, std::span<const double> others);
+
+/// What was measured round by round, as tables tell it: the median with its interval, and the rounds; empty without
+/// them.
+struct MedianOfRounds {
+  MedianOfRounds() = default;
+  /// Throws `Error` as `ratio_interval` does.
+  explicit MedianOfRounds(std::span<const double> of_rounds);
+
+  std::optional<double> median;
+  std::optional<double> lower;
+  std::optional<double> upper;
+  std::string rounds;
+};
+
+/// ratio_lower, ratio_upper and round_ratios, from which the interval comes; `ratios` is a member of the record, or
+/// what `from` takes after one.
+template <class Record, class... Members>
+[[nodiscard]] Columns<Record> round_columns(Members... ratios) {
+  return {{"ratio_lower", "", "of the interval of 99 % of the median ratio, where rounds were timed",
+           from(ratios..., &MedianOfRounds::lower)},
+          {"ratio_upper", "", "of the same interval", from(ratios..., &MedianOfRounds::upper)},
+          {"round_ratios", "", "the ratio in each round, with spaces between them",
+           from(ratios..., &MedianOfRounds::rounds)}};
+}
+
+/// The quotients of two lists of times, round by round, as far as both reach.
+[[nodiscard]] std::vector<double> round_ratios(std::span<const double> times, std::span<const double> others);
+
+}  // namespace dmocbench

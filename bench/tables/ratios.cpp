@@ -1,0 +1,189 @@
+#include "bench/tables/ratios.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace dmocbench {
+
+namespace {
+
+struct Currency {
+  const char* name;
+  const char* solver;
+  const char* crash;
+  const char* column;
+};
+
+constexpr std::array currencies{
+    Currency{"free_variables", "sqp", "none", "free_variables"},
+    Currency{"kkt_nonzeros", "sqp", "none", "kkt_nonzeros"},
+    Currency{"factor_nonzeros", "sqp", "none", "factor_nonzeros"},
+    Currency{"minor_iterations", "sqp", "none", "minor_iterations"},
+    Currency{"minor_iterations_crash_basis", "sqp", "basis", "minor_iterations"},
+    Currency{"sqp_major_iterations", "sqp", "none", "major_iterations"},
+    Currency{"sqp_seconds", "sqp", "none", "seconds"},
+    Currency{"sqp_seconds_crash_basis", "sqp", "basis", "seconds"},
+    Currency{"ipopt_iterations", "ipopt", "", "major_iterations"},
+    Currency{"ipopt_seconds", "ipopt", "", "seconds"},
+    Currency{"slsqp_evaluations", "nlopt", "", "evaluations"},
+    Currency{"slsqp_seconds", "nlopt", "", "seconds"},
+};
+
+constexpr double steps_per_decade = 2.0;
+
+/// What a method pays for an accuracy.
+struct AccuracyCost {
+  Row head;
+  std::string quantity;
+  double error = 0.0;
+  std::optional<double> intervals = std::nullopt;
+  std::optional<double> variables = std::nullopt;
+  std::optional<double> seconds = std::nullopt;
+  std::optional<double> variables_ratio = std::nullopt;
+  std::optional<double> seconds_ratio = std::nullopt;
+};
+
+Columns<AccuracyCost> accuracy_cost_columns() {
+  using Paid = AccuracyCost;
+  return head_columns<Paid>({"problem", "tableau", "stages"}) +
+         Columns<Paid>{{"quantity", "", "what is compared", &Paid::quantity},
+                       {"error", "", "that all methods of a problem and tableau reach", &Paid::error}} +
+         head_columns<Paid>({"method"}) +
+         Columns<Paid>{{"intervals", "", "number of intervals N, not always whole where it is read off a curve",
+                        &Paid::intervals},
+                       {"variables", "", "number of free variables", &Paid::variables},
+                       {"seconds", "s", "time of a solve", &Paid::seconds},
+                       {"variables_ratio", "", "variables by those of dmoc at this error", &Paid::variables_ratio},
+                       {"seconds_ratio", "", "seconds by those of dmoc at this error", &Paid::seconds_ratio}};
+}
+
+/// What every method pays if all of them reach the error.
+void append_equal_accuracy(std::vector<AccuracyCost>& table, const std::vector<Selection>& methods,
+                           const std::string& quantity, double error) {
+  std::vector<AccuracyCost> all;
+  for (const Selection& method : methods) {
+    const auto paid = [&](const char* column) {
+      return cost_at_error(error_cost_points(method, quantity + "_error", cost_in(column)), error);
+    };
+    all.push_back({.head = method.front(),
+                   .quantity = quantity,
+                   .error = error,
+                   .intervals = paid("intervals"),
+                   .variables = paid("free_variables"),
+                   .seconds = paid("seconds")});
+    if (!all.back().intervals || !all.back().variables || !all.back().seconds) return;
+  }
+  const auto dmoc = std::ranges::find(all, "dmoc", [](const AccuracyCost& cost) { return cost.head.text("method"); });
+  for (AccuracyCost cost : all) {
+    if (dmoc != all.end()) {
+      cost.variables_ratio = ratio(cost.variables, dmoc->variables);
+      cost.seconds_ratio = ratio(cost.seconds, dmoc->seconds);
+    }
+    table.push_back(std::move(cost));
+  }
+}
+
+}  // namespace
+
+Cost cost_in(const std::string& column) {
+  return [column](const Row& row) { return row.number(column); };
+}
+
+std::vector<ErrorCostPoint> error_cost_points(const Selection& rows, const std::string& error_column,
+                                              const Cost& cost) {
+  std::vector<ErrorCostPoint> points;
+  for (const Row& row : rows.usable()) {
+    const double error = row.number(error_column, 0.0);
+    const double cost_of_row = cost(row).value_or(0.0);
+    if (error > 0.0 && std::isfinite(error) && cost_of_row > 0.0) points.push_back({std::log10(error), cost_of_row});
+  }
+  return points;
+}
+
+std::optional<double> cost_at_error(const std::vector<ErrorCostPoint>& points, double error, double same_log_error) {
+  const double wanted = std::log10(error);
+  for (const ErrorCostPoint& point : points) {
+    if (std::abs(point.log_error - wanted) < same_log_error) return point.cost;
+  }
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const ErrorCostPoint& a = points[i];
+    const ErrorCostPoint& b = points[i + 1];
+    if (wanted > a.log_error || wanted < b.log_error || a.log_error == b.log_error) continue;
+    const double weight = (wanted - a.log_error) / (b.log_error - a.log_error);
+    return std::pow(10.0, std::log10(a.cost) + weight * (std::log10(b.cost) - std::log10(a.cost)));
+  }
+  return std::nullopt;
+}
+
+CostRatios cost_ratios(const Row& row, const Selection& others, const Cost& cost, const std::string& error_column,
+                       double same_log_error) {
+  CostRatios ratios{.at_equal_intervals = ratio(cost(row), cost(others.matching(row, {"intervals"}).front())),
+                    .at_equal_accuracy = std::nullopt};
+  const double error = row.number(error_column, 0.0);
+  if (error > 0.0) {
+    const auto points = error_cost_points(others, error_column, cost);
+    ratios.at_equal_accuracy = ratio(cost(row), cost_at_error(points, error, same_log_error));
+  }
+  return ratios;
+}
+
+Columns<ComparedCost> compared_cost_columns(const ColumnNames& of_head, const std::string& name,
+                                            const std::string& meaning) {
+  return head_columns<ComparedCost>(of_head) +
+         Columns<ComparedCost>{{name, "", meaning, &ComparedCost::name},
+                               {"ratio_at_equal_intervals", "", "of the method to dmoc on the same number of intervals",
+                                from(&ComparedCost::ratios, &CostRatios::at_equal_intervals)},
+                               {"ratio_at_equal_accuracy", "", "of the method to dmoc where their errors are the same",
+                                from(&ComparedCost::ratios, &CostRatios::at_equal_accuracy)}} +
+         round_columns<ComparedCost>(&ComparedCost::rounds);
+}
+
+Table equal_accuracy(const Selection& convergence) {
+  std::vector<AccuracyCost> table;
+  for (const Selection& compared : convergence.group_by({"problem", "tableau", "stages", "solver"})) {
+    for (const std::string quantity : {"state", "control", "replay"}) {
+      const auto points = error_cost_points(compared, quantity + "_error", cost_in("seconds"));
+      if (points.empty()) continue;
+      const auto [smallest, largest] = std::ranges::minmax(points, {}, &ErrorCostPoint::log_error);
+      for (double k = std::floor(largest.log_error * steps_per_decade);
+           k >= std::ceil(smallest.log_error * steps_per_decade); --k) {
+        append_equal_accuracy(table, compared.group_by({"method", "derivatives"}), quantity,
+                              std::pow(10.0, k / steps_per_decade));
+      }
+    }
+  }
+  return table_of(accuracy_cost_columns(), table);
+}
+
+Table currency_ratios(const Selection& iterations) {
+  std::vector<ComparedCost> costs;
+  for (const Selection& compared : iterations.group_by({"problem", "tableau", "stages", "solver"})) {
+    const Selection dmoc = compared.where("method", "dmoc").usable();
+    for (const Selection& collocation : compared.group_by({"method", "derivatives"})) {
+      if (collocation.front().text("method") == "dmoc" || compared.where("method", "dmoc").empty()) continue;
+      for (const Currency& currency : currencies) {
+        if (collocation.front().text("solver") != currency.solver) continue;
+        const Selection others = dmoc.where("crash", currency.crash);
+        for (const Row& row : collocation.usable().where("crash", currency.crash)) {
+          ComparedCost& cost = costs.emplace_back(
+              ComparedCost{.head = row,
+                           .name = currency.name,
+                           .ratios = cost_ratios(row, others, cost_in(currency.column), "replay_error"),
+                           .rounds = {}});
+          if (currency.column == std::string_view("seconds")) {
+            const Row& on_same_grid = others.matching(row, {"intervals"}).front();
+            cost.rounds =
+                MedianOfRounds(round_ratios(row.numbers("round_seconds"), on_same_grid.numbers("round_seconds")));
+          }
+        }
+      }
+    }
+  }
+  return table_of(compared_cost_columns({"problem", "method", "tableau", "stages", "intervals"}, "currency",
+                                        "what a solve is paid in"),
+                  costs);
+}
+
+}  // namespace dmocbench

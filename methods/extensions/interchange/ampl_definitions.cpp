@@ -1,0 +1,146 @@
+#include "methods/extensions/interchange/ampl_definitions.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+using Step = Schedule::Step;
+
+/// The number of an operation in AMPL's format.
+int ampl_number(Operation operation) {
+  switch (operation) {  // NOLINT(clang-diagnostic-switch-enum): what AMPL lacks is refused below
+    case Operation::add:
+      return 0;
+    case Operation::subtract:
+      return 1;
+    case Operation::multiply:
+      return 2;
+    case Operation::divide:
+    case Operation::reciprocal:
+      return 3;
+    case Operation::power:
+      return 5;
+    case Operation::negate:
+      return 16;
+    case Operation::hyperbolic_tangent:
+      return 37;
+    case Operation::tangent:
+      return 38;
+    case Operation::square_root:
+      return 39;
+    case Operation::hyperbolic_sine:
+      return 40;
+    case Operation::sine:
+      return 41;
+    case Operation::logarithm:
+      return 43;
+    case Operation::exponential:
+      return 44;
+    case Operation::hyperbolic_cosine:
+      return 45;
+    case Operation::cosine:
+      return 46;
+    case Operation::arc_tangent2:
+      return 48;
+    case Operation::arc_tangent:
+      return 49;
+    case Operation::inverse_hyperbolic_sine:
+      return 50;
+    case Operation::arc_sine:
+      return 51;
+    case Operation::arc_cosine:
+      return 53;
+    default:
+      throw Error(
+          "a formula has an operation that AMPL's format lacks, as erf and splines are; write it by +, -, *, /, powers "
+          "and the elementary functions");
+  }
+}
+
+/// What the definitions need to know of every step.
+struct Uses {
+  std::vector<std::size_t> readers;
+  std::vector<AmplReaders> kinds;
+
+  explicit Uses(const Schedule& schedule) : readers(schedule.steps().size()), kinds(schedule.steps().size()) {
+    const std::vector<Step>& steps = schedule.steps();
+    std::vector<bool> by_rows(steps.size());
+    std::vector<bool> by_objective(steps.size());
+    for (std::size_t i = 0; i < schedule.outputs().size(); ++i) {
+      const std::uint32_t output = schedule.outputs()[i];
+      ++readers[output];
+      (i == 0 ? by_objective : by_rows)[output] = true;
+    }
+    for (std::size_t i = steps.size(); i-- > 0;) {
+      kinds[i] = !by_rows[i]        ? AmplReaders::objective
+                 : !by_objective[i] ? AmplReaders::rows
+                                    : AmplReaders::rows_and_objective;
+      const std::size_t operands = operand_count(steps[i].operation);
+      const auto read = [&](std::uint32_t operand) {
+        ++readers[operand];
+        by_rows[operand] = by_rows[operand] || by_rows[i];
+        by_objective[operand] = by_objective[operand] || by_objective[i];
+      };
+      if (operands > 0) read(steps[i].left);
+      if (operands > 1) read(steps[i].right);
+    }
+  }
+  [[nodiscard]] bool is_defined(const Schedule& schedule, std::size_t step) const {
+    return operand_count(schedule.steps()[step].operation) > 0 && readers[step] > 1;
+  }
+};
+
+}  // namespace
+
+AmplCounts AmplDefinitions::count(const Schedule& schedule) {
+  const Uses uses(schedule);
+  AmplCounts counts{};
+  for (std::size_t i = 0; i < uses.kinds.size(); ++i) {
+    if (uses.is_defined(schedule, i)) ++counts[static_cast<std::size_t>(uses.kinds[i])];
+  }
+  return counts;
+}
+
+std::vector<std::string> AmplDefinitions::add(const Schedule& schedule, const std::vector<std::size_t>& variables) {
+  const Uses uses(schedule);
+  const std::vector<Step>& steps = schedule.steps();
+  std::vector<std::string> values(steps.size());  // each until its only reader takes it, or for ever if it is short
+  const auto take = [&](std::uint32_t position) {
+    return uses.readers[position] > 1 ? values[position] : std::move(values[position]);
+  };
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
+    if (step.operation == Operation::constant) {
+      values[i] = fmt::format("n{}", step.value);
+      continue;
+    }
+    if (step.operation == Operation::input) {
+      values[i] = fmt::format("v{}", variables[step.input_index]);
+      continue;
+    }
+    std::string formula = fmt::format("o{}\n", ampl_number(step.operation));
+    if (step.operation == Operation::reciprocal) formula += "n1\n";
+    formula += take(step.left);
+    if (operand_count(step.operation) > 1) formula += "\n" + take(step.right);
+    if (step.operation == Operation::power) formula += fmt::format("\nn{}", step.value);
+    if (!uses.is_defined(schedule, i)) {
+      values[i] = std::move(formula);
+      continue;
+    }
+    const auto kind = static_cast<std::size_t>(uses.kinds[i]);
+    const std::size_t number = next_[kind]++;
+    texts_[kind] += fmt::format("V{} 0 0\n{}\n", number, formula);
+    values[i] = fmt::format("v{}", number);
+  }
+  std::vector<std::string> outputs;
+  for (const std::uint32_t output : schedule.outputs()) outputs.push_back(values[output]);
+  return outputs;
+}
+
+}  // namespace dmocbench

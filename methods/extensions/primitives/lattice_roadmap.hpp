@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "methods/extensions/primitives/solve_primitives.hpp"
+#include "methods/extensions/primitives/stored_roadmap.hpp"
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// The lattice of states of a problem without a symmetry, and which of them are joined.
+struct LatticeOptions {
+  int time_steps = 16;                 ///< of the horizon
+  int intervals_per_step = 16;         ///< of the midpoint rule in each
+  int connection = 3;                  ///< time steps of the primitives that join the two trees
+  Eigen::MatrixXd controls;            ///< the constant controls that trees try, one per row
+  Eigen::VectorXd cell;                ///< size of the lattice's cells in (q, v), 2n entries
+  std::size_t most_states = 1500;      ///< of a tree, in each time step
+  std::size_t most_connections = 300;  ///< that are solved
+};
+
+/// A roadmap between the ends of a problem whose states lie on a lattice, one in a cell at most.
+///
+/// Two trees of motions under constant controls (`grow_tree`), one forwards from the first state and one backwards
+/// from the last, say which cells motions of little cost visit: where there are fewer controls than velocities, few of
+/// all states are within reach of each other. Their last layers are a connection apart. Those pairs are joined that
+/// take the least cost in all, first by the linearised estimate (`Steering`), then by what some Newton steps of
+/// shooting make of it. These connections, and the branches that lead to them, are solved by DMOC (`solve_primitives`);
+/// the edges are those that are solved.
+///
+/// Primitives keep the problem's bounds on q at the states, but none in between, and none on velocities and controls:
+/// the solve that starts from a path has to impose them. Throws `Error` as `solve_primitives` does, and if sizes do not
+/// fit the problem.
+[[nodiscard]] StoredRoadmap lattice_roadmap(const Problem& problem, const LatticeOptions& options,
+                                            const PrimitiveOptions& primitive_options = {});
+
+}  // namespace dmocbench

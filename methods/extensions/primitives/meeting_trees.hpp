@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/extensions/primitives/discrete_flow.hpp"
+#include "methods/extensions/primitives/lattice_roadmap.hpp"
+#include "methods/extensions/primitives/motion_tree.hpp"
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// A motion that nearly leads from a state of the last layer of the forward tree to one of the backward tree.
+struct TreeConnection {
+  Eigen::Index first = 0;    ///< in the forward tree
+  Eigen::Index last = 0;     ///< in the backward tree
+  double cost = 0.0;         ///< of the whole motion through it, from root to root, an estimate
+  Eigen::MatrixXd controls;  ///< a row per interval
+};
+
+/// A tree of motions from the first state of a problem, one backwards from the last, and where they come near.
+class MeetingTrees {
+ public:
+  /// `flow` goes one interval forwards.
+  MeetingTrees(const Problem& problem, const DiscreteFlow& flow, const LatticeOptions& options);
+
+  /// The layers of the tree that begins at the start.
+  [[nodiscard]] const std::vector<MotionTreeLayer>& forward() const noexcept { return forward_; }
+  /// The layers of the tree that begins at the goal.
+  [[nodiscard]] const std::vector<MotionTreeLayer>& backward() const noexcept { return backward_; }
+  /// The cheapest first.
+  [[nodiscard]] const std::vector<TreeConnection>& connections() const noexcept { return connections_; }
+
+ private:
+  std::vector<MotionTreeLayer> forward_;
+  std::vector<MotionTreeLayer> backward_;
+  std::vector<TreeConnection> connections_;
+};
+
+/// (q, v) of a state of a layer.
+[[nodiscard]] BoundaryState boundary_state(const MotionTreeLayer& layer, Eigen::Index number);
+
+}  // namespace dmocbench

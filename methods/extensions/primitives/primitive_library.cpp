@@ -1,0 +1,63 @@
+#include "methods/extensions/primitives/primitive_library.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+std::vector<std::pair<std::string, double>> parameters_with_values(const Problem& problem) {
+  std::vector<std::pair<std::string, double>> parameters;
+  for (const Parameter& each : problem.parameters()) parameters.emplace_back(each.name, problem.parameter(each.name));
+  return parameters;
+}
+
+bool has_size(const Eigen::MatrixXd& table, Eigen::Index rows, Eigen::Index columns) {
+  return table.rows() == rows && table.cols() == columns && table.allFinite();
+}
+
+/// Whether all numbers and sizes of a primitive are those of its library.
+bool fits(const Primitive& primitive, const PrimitiveLibrary& library, Eigen::Index n, Eigen::Index m) {
+  const Eigen::Index intervals = Eigen::Index{primitive.duration} * library.intervals_per_step;
+  return primitive.first < library.states.size() && primitive.last < library.states.size() && primitive.duration >= 1 &&
+         std::isfinite(primitive.cost) && has_size(primitive.displacement.linear, n, n) &&
+         has_size(primitive.displacement.shift, n, 1) && has_size(primitive.q, intervals + 1, n) &&
+         has_size(primitive.v, intervals + 1, n) && has_size(primitive.u, intervals, m);
+}
+
+}  // namespace
+
+PrimitiveLibrary PrimitiveLibrary::of(const Problem& problem, double step, int intervals_per_step) {
+  return {.problem = problem.name(),
+          .parameters = parameters_with_values(problem),
+          .step = step,
+          .intervals_per_step = intervals_per_step,
+          .states = {},
+          .primitives = {}};
+}
+
+void PrimitiveLibrary::require_made_for(const Problem& asked) const {
+  if (problem != asked.name()) {
+    throw Error(fmt::format("the primitives are those of {}, not of {}", problem, asked.name()));
+  }
+  const auto expected = parameters_with_values(asked);
+  if (parameters.size() != expected.size()) {
+    throw Error(fmt::format("the primitives of {} were made with other parameters; make them anew", problem));
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (parameters[i] == expected[i]) continue;
+    throw Error(fmt::format("the primitives of {} were made with {} = {:g}, not {} = {:g}; make them anew", problem,
+                            parameters[i].first, parameters[i].second, expected[i].first, expected[i].second));
+  }
+  const Eigen::Index n = asked.configuration_size();
+  bool all_fit = step > 0.0 && std::isfinite(step) && intervals_per_step >= 1;
+  for (const BoundaryState& state : states) all_fit = all_fit && has_size(state.q, n, 1) && has_size(state.v, n, 1);
+  for (const Primitive& each : primitives) all_fit = all_fit && fits(each, *this, n, asked.control_size());
+  if (!all_fit) throw Error(fmt::format("the primitives of {} are damaged: sizes do not fit; make them anew", problem));
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,301 @@
+#include "methods/extensions/sensitivity/feedback_gains.hpp"
+
+#include <string>
+#include <vector>
+
+#include "methods/error.hpp"
+#include "methods/extensions/sensitivity/null_space.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
+#include "methods/mechanics/legendre_transform.hpp"
+#include "methods/numerics/dense_solve.hpp"
+#include "methods/transcription/trajectory_reader.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Deviations of state and costate of a node along which the conditions behind it hold: 2n × 2n each, a column per
+/// deviation. The state is (q, p), or (q, v) for tangent-space collocation; the costate its conjugate, for the scaled
+/// cost.
+struct Deviations {
+  Eigen::MatrixXd state;
+  Eigen::MatrixXd costate;
+};
+
+/// Deviations of the state whose pivots are below this share of the largest depend on each other but for rounding.
+constexpr double smallest_pivot_ratio = 1e-11;
+
+void require_feedback(const Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers) {
+  const LayoutShape& shape = program.layout().shape();
+  if (static_cast<std::size_t>(primal.size()) != program.variable_count() ||
+      static_cast<std::size_t>(multipliers.size()) != program.constraint_count()) {
+    throw Error("feedback gains need the variables and multipliers of a solution of the same program");
+  }
+  const char* reason = shape.free_horizon      ? "a free horizon"
+                       : shape.conditions > 0  ? "boundary conditions"
+                       : shape.shares_controls ? "controls that two intervals share"
+                       : shape.mayer           ? "the Mayer form"
+                                               : nullptr;
+  if (reason != nullptr) {
+    throw Error(std::string("there are no feedback gains with ") + reason +
+                ": the optimal control does not follow from the state at a node alone");
+  }
+}
+
+/// The symmetric matrix (H, Jᵀ; J, 0) of a part, from row k of the tables of its Hessian and Jacobian.
+Eigen::MatrixXd conditions_matrix(const LocalFunctions& functions, const Eigen::MatrixXd& hessian,
+                                  const Eigen::MatrixXd& jacobian, Eigen::Index k) {
+  const auto unknowns = static_cast<Eigen::Index>(functions.inputs.unknowns);
+  const auto size = unknowns + static_cast<Eigen::Index>(functions.inputs.rows);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
+    matrix(i, j) += value;
+    if (i != j) matrix(j, i) += value;
+  };
+  for (std::size_t e = 0; e < functions.hessian.rows.size(); ++e) {
+    add(static_cast<Eigen::Index>(functions.hessian.rows[e]), static_cast<Eigen::Index>(functions.hessian.columns[e]),
+        hessian(k, static_cast<Eigen::Index>(e)));
+  }
+  for (std::size_t e = 0; e < functions.jacobian.rows.size(); ++e) {
+    add(unknowns + static_cast<Eigen::Index>(functions.jacobian.rows[e]),
+        static_cast<Eigen::Index>(functions.jacobian.columns[e]), jacobian(k, static_cast<Eigen::Index>(e)));
+  }
+  return matrix;
+}
+
+/// Linear equations in named groups of unknowns, of which the null space is wanted.
+class Equations {
+ public:
+  Equations(Eigen::Index rows, Eigen::Index columns) : matrix_(Eigen::MatrixXd::Zero(rows, columns)) {}
+  /// The block of coefficients from (row, column) on.
+  template <class Block>
+  void add(Eigen::Index row, Eigen::Index column, const Block& block) {
+    matrix_.block(row, column, block.rows(), block.cols()) += block;
+  }
+  /// Equation `row` becomes: unknown `column` is 0.
+  void fix(Eigen::Index row, Eigen::Index column) {
+    matrix_.row(row).setZero();
+    matrix_(row, column) = 1.0;
+  }
+  [[nodiscard]] Eigen::MatrixXd solutions() const { return null_space(matrix_); }
+
+ private:
+  Eigen::MatrixXd matrix_;
+};
+
+Eigen::MatrixXd unit(Eigen::Index n, double factor = 1.0) { return factor * Eigen::MatrixXd::Identity(n, n); }
+
+/// The recursion over the intervals of a program.
+class BackwardRecursion {
+ public:
+  BackwardRecursion(Transcription& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers)
+      : program_(program),
+        layout_(program.layout()),
+        n_(program.traced_problem().configuration_size()),
+        is_dmoc_(layout_.node_state() == NodeState::configuration),
+        conditions_(program, primal, multipliers),
+        hessians_(program.tabulate(program.functions().hessian.schedule, primal, multipliers)),
+        jacobians_(program.tabulate(program.functions().jacobian.schedule, primal)),
+        primal_(primal),
+        multipliers_(multipliers) {}
+
+  /// Those of the last node.
+  [[nodiscard]] Deviations at_end();
+  /// From those of node k + 1 to those of node k. Returns the controls that belong to them: s m rows.
+  [[nodiscard]] Eigen::MatrixXd step_back(Eigen::Index k, Deviations& deviations) const;
+
+ private:
+  /// What the bounds of a variable add to the diagonal.
+  [[nodiscard]] double stiffness(Eigen::Index variable) const {
+    return is_fixed(program_, variable) ? 0.0 : conditions_.diagonal[variable];
+  }
+  [[nodiscard]] static Eigen::Index place(const std::vector<SeriesPlace>& places, Eigen::Index local, Eigen::Index k) {
+    return static_cast<Eigen::Index>(places[static_cast<std::size_t>(local)].at(static_cast<std::size_t>(k)));
+  }
+  [[nodiscard]] Eigen::MatrixXd matrix_of_interval(Eigen::Index k) const;
+  [[nodiscard]] Eigen::MatrixXd matrix_of_ends();
+  /// Writes the columns of the unknowns `from` .. `from` + `count` of a matrix of conditions into those of `column` on.
+  static void add_columns(const Eigen::MatrixXd& matrix, Eigen::Index from, Eigen::Index count, Eigen::Index column,
+                          Equations& equations) {
+    equations.add(0, column, matrix.middleCols(from, count));
+  }
+
+  Transcription& program_;
+  const Layout& layout_;
+  Eigen::Index n_;
+  bool is_dmoc_;
+  LinearisedConditions conditions_;
+  Eigen::MatrixXd hessians_;
+  Eigen::MatrixXd jacobians_;
+  const Eigen::VectorXd& primal_;
+  const Eigen::VectorXd& multipliers_;
+};
+
+/// With the stiffness of bounds at its left node and inside, and the compliance of its inequalities.
+Eigen::MatrixXd BackwardRecursion::matrix_of_interval(Eigen::Index k) const {
+  const IntervalFunctions& functions = program_.functions();
+  Eigen::MatrixXd matrix = conditions_matrix(functions, hessians_, jacobians_, k);
+  const auto unknowns = static_cast<Eigen::Index>(functions.inputs.unknowns);
+  const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
+  for (Eigen::Index j = 0; j < unknowns; ++j) {
+    if (j >= node && j < 2 * node) continue;  // of the right node
+    matrix(j, j) += stiffness(place(layout_.unknown_places(), j, k));
+  }
+  for (Eigen::Index r = 0; r < static_cast<Eigen::Index>(functions.inputs.rows); ++r) {
+    matrix(unknowns + r, unknowns + r) -= conditions_.compliance[place(layout_.row_places(), r, k)];
+  }
+  return matrix;
+}
+
+Eigen::MatrixXd BackwardRecursion::step_back(Eigen::Index k, Deviations& deviations) const {
+  const Eigen::MatrixXd matrix = matrix_of_interval(k);
+  const auto unknowns = static_cast<Eigen::Index>(program_.functions().inputs.unknowns);
+  const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
+  const Eigen::Index size = matrix.rows();
+  const Eigen::Index inner = unknowns - 2 * node;
+  const Eigen::Index first_row = unknowns + (is_dmoc_ ? 2 * n_ : 0);  // of the interval's own rows
+  // Unknowns: (δx_k, δψ_k), the weights c of the deviations at node k + 1, inner unknowns, multipliers of own rows.
+  const Eigen::Index states = 2 * n_;
+  const Eigen::Index weights = 2 * states;
+  const Eigen::Index inside = 3 * states;
+  const Eigen::Index own = inside + inner;
+  Equations equations(size, own + size - first_row);
+  add_columns(matrix, 0, node, 0, equations);
+  equations.add(0, weights, matrix.middleCols(node, node) * deviations.state.topRows(node));
+  add_columns(matrix, 2 * node, inner, inside, equations);
+  add_columns(matrix, first_row, size - first_row, own, equations);
+  equations.add(0, states, unit(node, -1.0));                      // ∂ℓ/∂x_k = ψ_k
+  equations.add(node, weights, deviations.costate.topRows(node));  // ∂ℓ/∂x_{k+1} = -ψ_{k+1}
+  if (is_dmoc_) {
+    // The rows at the nodes are ∓p, their multipliers ψ^p.
+    add_columns(matrix, unknowns, n_, states + n_, equations);
+    equations.add(0, weights, matrix.middleCols(unknowns + n_, n_) * deviations.costate.bottomRows(n_));
+    equations.add(unknowns, n_, unit(n_));
+    equations.add(unknowns + n_, weights, -deviations.state.bottomRows(n_));
+  }
+  for (Eigen::Index j = 0; j < inner; ++j) {
+    if (is_fixed(program_, place(layout_.unknown_places(), 2 * node + j, k))) equations.fix(2 * node + j, inside + j);
+  }
+  const Eigen::MatrixXd solutions = equations.solutions();
+  deviations = {solutions.topRows(states), solutions.middleRows(states, states)};
+  const Eigen::Index controls = layout_.stages() * program_.traced_problem().control_size();
+  return solutions.middleRows(inside + inner - controls, controls);
+}
+
+/// (H, Jᵀ; J, 0) of the ends, without entries where they add nothing to the program.
+Eigen::MatrixXd BackwardRecursion::matrix_of_ends() {
+  const auto& ends = program_.end_functions();
+  if (!ends) return {};
+  const auto unknowns = static_cast<Eigen::Index>(ends->inputs.unknowns);
+  const auto rows = static_cast<Eigen::Index>(ends->inputs.rows);
+  Eigen::VectorXd inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ends->inputs.count()));
+  for (Eigen::Index j = 0; j < unknowns; ++j) inputs[j] = primal_[place(layout_.end_unknown_places(), j, 0)];
+  inputs[static_cast<Eigen::Index>(ends->inputs.objective_factor())] = 1.0;
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    inputs[static_cast<Eigen::Index>(ends->inputs.multiplier(static_cast<std::size_t>(r)))] =
+        multipliers_[place(layout_.end_row_places(), r, 0)];
+  }
+  const auto values = [&](const Schedule& schedule) {
+    const Tape tape(schedule);
+    Tape::Workspace workspace(tape);
+    std::vector<Tape::Input> bound;
+    for (const double& input : inputs) bound.push_back({&input});
+    Eigen::MatrixXd row(1, static_cast<Eigen::Index>(tape.output_count()));
+    std::vector<double*> outputs;
+    for (Eigen::Index i = 0; i < row.cols(); ++i) outputs.push_back(&row(0, i));
+    tape.evaluate(1, bound, outputs, workspace);
+    return row;
+  };
+  return conditions_matrix(*ends, values(ends->hessian.schedule), values(ends->jacobian.schedule), 0);
+}
+
+Deviations BackwardRecursion::at_end() {
+  const LayoutShape& shape = layout_.shape();
+  const Eigen::MatrixXd ends = matrix_of_ends();
+  const Eigen::Index node = is_dmoc_ ? n_ : 2 * n_;
+  const Eigen::Index velocity = shape.last_has_velocity ? n_ : 0;
+  const Eigen::Index ties = velocity;            // rows
+  const Eigen::Index own = is_dmoc_ ? 0 : ties;  // whose multipliers are no costates
+  const Eigen::Index states = 2 * n_;
+  // Unknowns: (δx_N, δψ_N), δv_N, multipliers of own rows. Where DMOC's end is clamped, its momentum is fixed.
+  const bool has_fixed_momentum = is_dmoc_ && velocity == 0;
+  Equations equations(node + velocity + ties + (has_fixed_momentum ? n_ : 0), 2 * states + velocity + own);
+  const Eigen::Index tie = node + velocity;
+  if (const auto& functions = program_.end_functions()) {
+    const Eigen::Index first = node + (shape.first_has_velocity ? n_ : 0);  // unknowns of the first end
+    const auto unknowns = static_cast<Eigen::Index>(functions->inputs.unknowns);
+    const Eigen::Index first_tie = unknowns + (shape.first_has_velocity ? n_ : 0);
+    const auto block = [&](Eigen::Index row, Eigen::Index rows, Eigen::Index column, Eigen::Index columns) {
+      return ends.block(row, column, rows, columns);
+    };
+    equations.add(0, 0, block(first, node + velocity, first, node));
+    equations.add(0, 2 * states, block(first, node + velocity, first + node, velocity));
+    equations.add(tie, 0, block(first_tie, ties, first, node));
+    equations.add(tie, 2 * states, block(first_tie, ties, first + node, velocity));
+    equations.add(0, is_dmoc_ ? states + n_ : 2 * states + velocity, block(first, node + velocity, first_tie, ties));
+  }
+  if (is_dmoc_) equations.add(tie, n_, unit(n_));  // δp_N
+  equations.add(0, states, unit(node, -1.0));
+  for (Eigen::Index j = 0; j < node + velocity; ++j) {
+    const auto variable = static_cast<Eigen::Index>(j < node ? layout_.configuration_head(j) + layout_.intervals()
+                                                             : layout_.last_velocity(j - node));
+    const Eigen::Index column = j < node ? j : 2 * states + j - node;
+    if (is_fixed(program_, variable)) {
+      equations.fix(j, column);
+    } else {
+      equations.add(j, column, Eigen::MatrixXd::Constant(1, 1, stiffness(variable)));
+    }
+  }
+  const Eigen::MatrixXd solutions = equations.solutions();
+  return {solutions.topRows(states), solutions.middleRows(states, states)};
+}
+
+/// Gains in (q, v) as gains in (q, p).
+Eigen::MatrixXd in_momenta(const Eigen::MatrixXd& gains, const Eigen::MatrixXd& mass,
+                           const Eigen::MatrixXd& momentum_by_configuration) {
+  const Eigen::Index n = mass.rows();
+  Eigen::MatrixXd result(gains.rows(), gains.cols());
+  const Eigen::MatrixXd by_momentum =
+      solve_square(Eigen::MatrixXd(mass.transpose()), Eigen::MatrixXd(gains.rightCols(n).transpose())).transpose();
+  result << gains.leftCols(n) - by_momentum * momentum_by_configuration, by_momentum;
+  return result;
+}
+
+}  // namespace
+
+FeedbackGains feedback_gains(Transcription& program, const Eigen::VectorXd& primal,
+                             const Eigen::VectorXd& multipliers) {
+  require_feedback(program, primal, multipliers);
+  const Trajectory trajectory = read_trajectory(program, primal, Eigen::VectorXd());
+  LegendreTransform legendre(program.traced_problem());
+  BackwardRecursion recursion(program, primal, multipliers);
+  const Eigen::Index s = trajectory.stages();
+  const Eigen::Index m = program.traced_problem().control_size();
+  FeedbackGains gains;
+  gains.of_stages.resize(static_cast<std::size_t>(trajectory.intervals() * s));
+  Deviations deviations = recursion.at_end();
+  for (Eigen::Index k = trajectory.intervals() - 1; k >= 0; --k) {
+    const Eigen::MatrixXd controls = recursion.step_back(k, deviations);
+    if (pivot_ratio(deviations.state) > smallest_pivot_ratio) {
+      Eigen::MatrixXd of_interval =
+          solve_square(Eigen::MatrixXd(deviations.state.transpose()), Eigen::MatrixXd(controls.transpose()))
+              .transpose();
+      if (program.layout().node_state() == NodeState::velocity) {
+        const MotionPoint node = trajectory.node(k);
+        const double t = trajectory.node_times[k];
+        of_interval = in_momenta(of_interval, legendre.mass(node.q, node.v, t),
+                                 legendre.momentum_by_configuration(node.q, node.v, t));
+      }
+      for (Eigen::Index i = 0; i < s; ++i) {
+        gains.of_stages[static_cast<std::size_t>(k * s + i)] = of_interval.middleRows(i * m, m);
+      }
+    }
+    Eigen::MatrixXd both(2 * deviations.state.rows(), deviations.state.cols());
+    both << deviations.state, deviations.costate;
+    both = orthonormal_columns(both);
+    deviations = {both.topRows(deviations.state.rows()), both.bottomRows(deviations.state.rows())};
+  }
+  return gains;
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,121 @@
+#include "methods/judgement/confirm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "methods/judgement/stop_rule.hpp"
+
+namespace dmocbench {
+
+Status judged(Status claim, double residual) {
+  if (residual <= confirmation_factor) return Status::solved;
+  const bool is_near = residual <= confirmation_factor * acceptable_factor;
+  return claim == Status::acceptable && is_near ? Status::acceptable : Status::not_confirmed;
+}
+
+namespace {
+
+/// The largest; NaN where one is.
+double largest_of(std::initializer_list<double> shares) {
+  double largest = 0.0;
+  for (const double share : shares) {
+    if (std::isnan(share)) return share;
+    largest = std::max(largest, share);
+  }
+  return largest;
+}
+
+}  // namespace
+
+void Confirmation::judge_residuals(Solution& solution) {
+  solution.objective = program_.objective(solution.primal);
+  const auto constraints = static_cast<Eigen::Index>(program_.constraint_count());
+  const bool has_multipliers = solution.multipliers.size() == constraints;
+  // A sparse least-squares problem may take minutes, which a solve whose time is over does not have.
+  const bool is_over = solution.status == Status::time_limit || solution.status == Status::interrupted;
+  if (!has_multipliers && is_over) {
+    solution.multipliers.setConstant(constraints, std::numeric_limits<double>::quiet_NaN());
+    solution.constraint_violation = constraint_violation(program_, solution.primal);
+    return;
+  }
+  if (!has_multipliers) {
+    solution.multipliers = least_squares_multipliers(program_, solution.primal);
+    solution.multipliers_are_estimated = true;
+  }
+  const KktResidual residual = kkt_residual(program_, solution.primal, solution.multipliers, memory_);
+  solution.kkt_residual = residual.stationarity;
+  solution.constraint_violation = residual.constraint_violation;
+}
+
+double Confirmation::scaled_residual(double tolerance, const Solution& solution) {
+  const StopRule allowed(program_, tolerance);
+  const Eigen::VectorXd& multipliers = solution.multipliers;
+  const bool has_multipliers = multipliers.size() > 0;
+  const double mean = has_multipliers ? multipliers.lpNorm<1>() / static_cast<double>(multipliers.size()) : 0.0;
+  const double largest = has_multipliers ? multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  const double stationarity = allowed.stationarity(mean, largest);
+  if (allowed.is_one_for_all() || !solution.kkt_residual || !solution.constraint_violation) {
+    return largest_of({solution.kkt_residual.value_or(unbounded) / stationarity,
+                       solution.constraint_violation.value_or(unbounded) / allowed.violation()});
+  }
+  kkt_entries(program_, solution.primal, multipliers, memory_, entries_);
+  const double of_slacks = has_multipliers ? entries_.multipliers.lpNorm<Eigen::Infinity>() : 0.0;
+  return largest_of({allowed.share_of_stationarity(entries_.gradient, mean, largest), of_slacks / stationarity,
+                     allowed.share_of_violation(entries_.rows), entries_.bounds / allowed.violation()});
+}
+
+/// Takes "solved" back from an answer that a Newton step would move.
+void Confirmation::require_settled(Solution& solution) {
+  if (!corrections_) corrections_.emplace(program_);
+  std::optional<double> length = corrections_->length_at(solution.primal, solution.multipliers, memory_);
+  // A long step may be an inaccurate one: elimination by intervals does not pivot across them.
+  if (!length || *length > settled) {
+    length = NewtonCorrections(program_, NewtonCorrections::Factorisation::sparse)
+                 .length_at(solution.primal, solution.multipliers, memory_);
+  }
+  if (!length) return;
+  solution.correction = *length;
+  if (*length <= settled) return;
+  if (!std::isfinite(*length)) {
+    solution.status = Status::evaluation_failed;
+    solution.message = "A second derivative is not a number at the answer.";
+    return;
+  }
+  solution.status = Status::not_confirmed;
+  solution.message = fmt::format(
+      "The residuals are below the tolerance, but a Newton step would still move the answer by {:.1g} of its size. A "
+      "cost scaled to about 1 or a smaller tolerance may settle it, but not where the cost hardly depends on what "
+      "moves, as on a control that is singular.",
+      *length);
+}
+
+void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton) {
+  if (static_cast<std::size_t>(solution.primal.size()) != program_.variable_count()) {
+    if (!is_solved(solution.status)) return;
+    solution.status = Status::not_confirmed;  // nothing to look at
+    solution.message = sentence_of(solution.status);
+    return;
+  }
+  judge_residuals(solution);
+  const bool claims_success = solution.status == Status::solved || solution.status == Status::acceptable;
+  if (!claims_success) return;
+  solution.status = judged(solution.status, scaled_residual(tolerance, solution));
+  solution.message = sentence_of(solution.status);
+  if (is_solved(solution.status) && asks_newton) require_settled(solution);
+}
+
+void judge_residuals(NonlinearProgram& program, Solution& solution) { Confirmation(program).judge_residuals(solution); }
+
+double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution) {
+  return Confirmation(program).scaled_residual(tolerance, solution);
+}
+
+void confirm(NonlinearProgram& program, double tolerance, Solution& solution) {
+  Confirmation(program).judge(tolerance, solution);
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+
+#include "methods/judgement/kkt_residual.hpp"
+#include "methods/judgement/newton_correction.hpp"
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/solution.hpp"
+
+namespace dmocbench {
+
+/// Computes the objective, KKT residual and constraint violation at `solution.primal` (variable_count() entries); where
+/// the solver gave no multipliers, also their least-squares estimate, so that every point is judged alike. Where a
+/// limit of time or an interrupt ended the solve they are not estimated: they are NaN, and there is no KKT residual.
+void judge_residuals(NonlinearProgram& program, Solution& solution);
+
+/// The larger of KKT residual and constraint violation, each divided by what `StopRule` allows it at this tolerance: at
+/// most 1 where a solver may stop. Infinity if the residuals have not been computed, NaN if one of them is NaN. The
+/// mean multiplier of the rule is that of the constraints, since those of bounds are not known. Where the rule allows
+/// constraints and variables residuals of their own, each entry counts by its own (`kkt_entries`); otherwise the
+/// residuals of `solution` decide.
+[[nodiscard]] double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
+
+/// The status of an answer that the solver calls "solved" or "acceptable", at this scaled residual.
+///
+/// "Solved" if it is at most `confirmation_factor`; an "acceptable" one stays so up to `acceptable_factor` times that;
+/// all else is "not confirmed".
+[[nodiscard]] Status judged(Status claim, double residual);
+
+/// Judges answers of one program, with memory of its own: after the first one that is solved nothing is allocated.
+class Confirmation {
+ public:
+  /// The program must outlive it.
+  explicit Confirmation(NonlinearProgram& program) : program_(program) {}
+
+  /// Computes the residuals of a solution and judges its claim; other statuses stay as they are, and so does a solution
+  /// without a point, unless it claims to be solved. The message says what the judgement was.
+  ///
+  /// "Solved" asks for a settled answer besides: a Newton step from it moves no unknown by more than `settled` of its
+  /// size, nor the cost (`NewtonCorrections`). Otherwise it is "not confirmed", although the residuals are; `polish`
+  /// may settle it. Where the step cannot be computed the residuals alone decide, and where `asks_newton` is false.
+  void judge(double tolerance, Solution& solution, bool asks_newton = true);
+
+ private:
+  void judge_residuals(Solution& solution);
+  [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);
+  void require_settled(Solution& solution);
+
+  friend void judge_residuals(NonlinearProgram& program, Solution& solution);
+  friend double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution);
+
+  NonlinearProgram& program_;
+  KktMemory memory_;
+  KktEntries entries_;
+  std::optional<NewtonCorrections> corrections_;  // made when it is first needed
+};
+
+/// `Confirmation::judge`, once.
+void confirm(NonlinearProgram& program, double tolerance, Solution& solution);
+
+/// How much larger than the tolerance our residual may be: ours is the largest entry as it is, solvers scale theirs.
+inline constexpr double confirmation_factor = 10.0;
+
+/// How much larger the residual of an acceptable solution may be than that of a solved one.
+inline constexpr double acceptable_factor = 100.0;
+
+/// The largest Newton step, relative to the answer, at which an answer is settled.
+inline constexpr double settled = 1e-4;
+
+}  // namespace dmocbench

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "methods/judgement/kkt_residual.hpp"
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// The Karush-Kuhn-Tucker conditions of a program, linearised at a point.
+///
+/// A bound that the gradient of the Lagrangian points to takes up the gradient with its multiplier, and the linearised
+/// complementarity decides whether the unknown moves to the bound: `diagonal` is the multiplier over the distance. An
+/// inequality is treated alike with its multiplier: `compliance` is the distance over the multiplier.
+struct LinearisedConditions {
+  Eigen::VectorXd hessian;                 ///< of the Lagrangian
+  Eigen::VectorXd jacobian;                ///< the entries of ∂a/∂ξ
+  Eigen::VectorXd diagonal;                ///< one per variable
+  Eigen::VectorXd compliance;              ///< one per constraint; `no_part` where nothing holds an inequality
+  Eigen::VectorXd gradient_of_cost;        ///< ∇φ
+  Eigen::VectorXd gradient_of_lagrangian;  ///< ∇φ + (∂a/∂ξ)ᵀλ
+  Eigen::VectorXd gradient;                ///< of the Lagrangian, less what bounds take up
+  Eigen::VectorXd constraints;             ///< residuals
+
+  LinearisedConditions() = default;
+  /// variable_count() and constraint_count() entries.
+  LinearisedConditions(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+  /// Those at another point of which `evaluate_kkt` left `memory`; allocates nothing where the sizes stay.
+  void compute(NonlinearProgram& program, const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+               const KktMemory& memory);
+
+  /// True if every number is finite.
+  [[nodiscard]] bool is_finite() const;
+
+  /// The compliance of an inequality that takes no part.
+  static constexpr double no_part = 1e10;
+
+ private:
+  void linearise_bound(Eigen::Index j, double x, double lower, double upper);
+  void linearise_constraint(Eigen::Index i, double multiplier, double lower, double upper);
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "methods/judgement/kkt_residual.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
+#include "methods/kkt/kkt_system.hpp"
+#include "methods/program/nonlinear_program.hpp"
+
+namespace dmocbench {
+
+/// A Newton step from a point near an optimum towards it.
+struct NewtonCorrection {
+  Eigen::VectorXd primal;       ///< δξ, variable_count() entries
+  Eigen::VectorXd multipliers;  ///< δλ, constraint_count() entries
+  /// How far it moves, see `NewtonCorrections`.
+  double length = 0.0;
+};
+
+/// How far answers of a program are from the point where the Karush-Kuhn-Tucker conditions hold exactly, to first
+/// order: the error of an answer that small residuals still permit. Where the cost is flat, or a step h is small,
+/// residuals at the tolerance may leave an unknown wrong in its second digit.
+///
+/// The step solves the linearised conditions. A bound that the gradient points to takes up the gradient with its
+/// multiplier, and the linearised complementarity decides whether the unknown moves to the bound; an inequality is
+/// treated alike with its multiplier. `length` is the largest of
+///
+///   max |δξ_j| / max |ξ_j| over the unknowns of one run of the interval structure (over all unknowns without one),
+///   |∇φ δξ| / max(1, |φ|),
+///
+/// where a run counts as at least `smallest_share` of the largest unknown, and φ is scaled as the solver sees it.
+class NewtonCorrections {
+ public:
+  /// How the linear systems are factorised.
+  enum class Factorisation : std::uint8_t {
+    by_intervals,  ///< where the program's structure allows it, in time linear in the intervals; otherwise sparse
+    sparse,        ///< with pivoting: slower, and the last digits are better
+  };
+
+  /// The program must outlive this.
+  explicit NewtonCorrections(NonlinearProgram& program, Factorisation factorisation = Factorisation::by_intervals);
+  ~NewtonCorrections();
+  NewtonCorrections(const NewtonCorrections&) = delete;
+  NewtonCorrections& operator=(const NewtonCorrections&) = delete;
+  NewtonCorrections(NewtonCorrections&&) = delete;
+  NewtonCorrections& operator=(NewtonCorrections&&) = delete;
+
+  /// The length of the step from `primal`, see `at`; `memory` holds what `evaluate_kkt` left of this point. Allocates
+  /// nothing after the first time unless the sparse factorisation is asked.
+  [[nodiscard]] std::optional<double> length_at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers,
+                                                const KktMemory& memory);
+  /// The step from `primal` (variable_count() entries) with `multipliers` (constraint_count() entries). Of infinite
+  /// length where a derivative is not finite; none where the matrix is singular.
+  [[nodiscard]] std::optional<NewtonCorrection> at(const Eigen::VectorXd& primal, const Eigen::VectorXd& multipliers);
+
+  /// See above: a run of small unknowns counts as at least this share of the largest one.
+  static constexpr double smallest_share = 1e-6;
+
+ private:
+  [[nodiscard]] double length_of(const Eigen::VectorXd& primal, const Eigen::VectorXd& step,
+                                 const Eigen::VectorXd& gradient);
+
+  NonlinearProgram& program_;
+  std::unique_ptr<kkt::KktSystem> system_;
+  LinearisedConditions conditions_;
+  NewtonCorrection step_;  // the last one
+};
+
+}  // namespace dmocbench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "methods/kkt/intervals/segment_kernel.hpp"
+
+namespace dmocbench::kkt {
+
+/// How small a pivot of the equalities may be, measured by those that the order of elimination was chosen by.
+inline constexpr double smallest_trusted_ratio = 1e-7;
+
+/// Eight segments and their memory, which is first touched by the thread that fills it.
+class GroupMemory {
+ public:
+  /// Of the intervals `begin` to `end` - 1. Where `keeps_records` is false the forward sweep makes them again.
+  GroupMemory(const Shape& shape, std::size_t begin, std::size_t end, bool keeps_records);
+
+  /// Of eight instances, one per lane, with as many intervals each.
+  [[nodiscard]] static GroupMemory of_instances(const Shape& shape, std::size_t intervals);
+
+  /// Makes room for a plan's sweeps: `numbers` is SegmentKernel::workspace_size of it.
+  void make_workspace(std::size_t numbers);
+
+  [[nodiscard]] SegmentGroup& group() noexcept { return group_; }
+  [[nodiscard]] const SegmentGroup& group() const noexcept { return group_; }
+
+ private:
+  GroupMemory() = default;
+  void allocate(const Shape& shape);
+
+  /// One number of every lane, aligned as vector registers want them.
+  struct alignas(lane_count * sizeof(double)) Line {
+    std::array<double, lane_count> numbers;
+  };
+  // NOLINTNEXTLINE(cppcoreguidelines-avoid-c-arrays,modernize-avoid-c-arrays): a vector would write zeros
+  using Lines = std::unique_ptr<Line[]>;
+
+  SegmentGroup group_;
+  Lines blocks_;
+  Lines workspace_;
+};
+
+/// Cuts the horizon into groups of eight segments: one for a short one, and one per part of a long one (parallel.hpp),
+/// whose groups threads share.
+[[nodiscard]] std::vector<GroupMemory> cut_into_groups(const Shape& shape, std::size_t intervals);
+
+/// The kernel for a shape, of the preferred instruction set.
+[[nodiscard]] SegmentKernel segment_kernel_for(const Shape& shape);
+/// The choice among the kernels of a set.
+[[nodiscard]] SegmentKernelChoice segment_kernels_of(InstructionSet set);
+
+}  // namespace dmocbench::kkt

@@ -1,0 +1,140 @@
+#include "methods/kkt/symmetric_factorisation.hpp"
+
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <dmumps_c.h>
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+
+/// MUMPS calls its subroutine of this name where an allocation fails that it does not report; its own ends the process
+/// with exit code 0. This one takes its place, as the dynamic linker looks into the program first: the exception passes
+/// through MUMPS, and through Ipopt where that called it, as one of `new` would. Work arrays of the call are lost.
+extern "C" void mumps_abort_();  // NOLINT(readability-identifier-naming)
+extern "C" void mumps_abort_() { throw std::bad_alloc(); }
+
+namespace dmocbench {
+
+namespace {
+
+constexpr int job_begin = -1;
+constexpr int job_end = -2;
+constexpr int job_analyse = 1;
+constexpr int job_factorise = 2;
+constexpr int job_solve = 3;
+constexpr int use_comm_world = -987654;  // the value that its manual prescribes
+constexpr int general_symmetric = 2;
+constexpr int order_is_given = 1;
+
+// Numbers of the manual, which counts from 1.
+constexpr int control(int number) { return number - 1; }
+
+bool is_singular(int code) { return code == -10 || code == -6; }
+bool lacks_workspace(int code) { return code == -8 || code == -9; }
+bool lacks_memory(int code) { return code == -7 || code == -13; }
+
+}  // namespace
+
+struct SymmetricFactorisation::Mumps {
+  DMUMPS_STRUC_C data{};
+  std::vector<MUMPS_INT> rows;
+  std::vector<MUMPS_INT> columns;
+  std::vector<double> values;
+  std::vector<MUMPS_INT> positions;  // from 1 on; empty to let MUMPS choose
+  bool analysed = false;
+
+  Mumps() {
+    data.job = job_begin;
+    data.par = 1;
+    data.sym = general_symmetric;
+    data.comm_fortran = use_comm_world;
+    dmumps_c(&data);
+    for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
+    data.icntl[control(4)] = 0;   // silent
+    data.icntl[control(13)] = 1;  // counts negative pivots in the root too
+    data.icntl[control(24)] = 1;  // detects pivots that are mere rounding
+  }
+  ~Mumps() {
+    data.job = job_end;
+    dmumps_c(&data);
+  }
+  Mumps(const Mumps&) = delete;
+  Mumps& operator=(const Mumps&) = delete;
+  Mumps(Mumps&&) = delete;
+  Mumps& operator=(Mumps&&) = delete;
+
+  /// False if the matrix is singular. Where workspace is lacking, tries again with more. Throws `std::bad_alloc` where
+  /// memory is, `Error` otherwise.
+  bool run(int job) {
+    constexpr int most_workspace_percent = 10'000;
+    while (true) {
+      data.job = job;
+      dmumps_c(&data);
+      const int code = data.infog[control(1)];
+      if (code >= 0) return true;
+      if (is_singular(code)) return false;
+      if (lacks_memory(code)) throw std::bad_alloc();
+      if (!lacks_workspace(code) || data.icntl[control(14)] >= most_workspace_percent) {
+        throw Error(fmt::format("MUMPS failed with code {}; its manual lists the codes", code));
+      }
+      data.icntl[control(14)] *= 4;
+    }
+  }
+
+  /// True if the pattern differs from the one analysed.
+  bool read(const Eigen::SparseMatrix<double>& lower) {
+    std::vector<MUMPS_INT> new_rows;
+    std::vector<MUMPS_INT> new_columns;
+    values.clear();
+    for (Eigen::Index j = 0; j < lower.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, j); entry; ++entry) {
+        new_rows.push_back(static_cast<MUMPS_INT>(entry.row() + 1));
+        new_columns.push_back(static_cast<MUMPS_INT>(entry.col() + 1));
+        values.push_back(entry.value());
+      }
+    }
+    const bool changed = !analysed || new_rows != rows || new_columns != columns;
+    rows = std::move(new_rows);
+    columns = std::move(new_columns);
+    data.n = static_cast<MUMPS_INT>(lower.rows());
+    data.nnz = static_cast<MUMPS_INT8>(values.size());
+    data.irn = rows.data();
+    data.jcn = columns.data();
+    data.a = values.data();
+    return changed;
+  }
+};
+
+SymmetricFactorisation::SymmetricFactorisation(const std::vector<int>& positions) : mumps_(std::make_shared<Mumps>()) {
+  constexpr int more_workspace_percent = 100;  // for rows whose pivots are postponed; to start again takes longer
+  for (const int position : positions) mumps_->positions.push_back(static_cast<MUMPS_INT>(position + 1));
+  if (positions.empty()) return;
+  mumps_->data.icntl[control(7)] = order_is_given;
+  mumps_->data.icntl[control(14)] = more_workspace_percent;
+  mumps_->data.perm_in = mumps_->positions.data();
+}
+
+bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower) {
+  if (!(lower.coeffs().abs() <= largest_entry).all()) return false;  // NaN fails it too
+  if (mumps_->read(lower)) {
+    mumps_->analysed = mumps_->run(job_analyse);
+    if (!mumps_->analysed) return false;
+  }
+  return mumps_->run(job_factorise) && mumps_->data.infog[control(28)] == 0;  // pivots that are mere rounding
+}
+
+Eigen::Index SymmetricFactorisation::negative_eigenvalues() const { return mumps_->data.infog[control(12)]; }
+
+double SymmetricFactorisation::floating_point_operations() const { return mumps_->data.rinfog[control(3)]; }
+
+Eigen::VectorXd SymmetricFactorisation::solve(Eigen::VectorXd right_hand_side) {
+  mumps_->data.rhs = right_hand_side.data();
+  mumps_->data.nrhs = 1;
+  mumps_->data.lrhs = static_cast<MUMPS_INT>(right_hand_side.size());
+  static_cast<void>(mumps_->run(job_solve));
+  return right_hand_side;
+}
+
+}  // namespace dmocbench

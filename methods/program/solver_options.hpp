@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+namespace dmocbench {
+
+/// What every solver understands. What one of our own solvers alone understands is typed: `SequentialOptions`,
+/// `InteriorPointOptions`. Ipopt and NLopt take `NamedOptions`.
+struct SolverOptions {
+  /// For the KKT residual of the program as the solver sees it (scaled cost).
+  double tolerance = 1e-10;
+  int most_iterations = 500;  ///< after which a solve has failed
+  /// Wall clock; 0 for no limit. The time of the innermost `StopScope` is a limit too.
+  double most_seconds = 0.0;
+  /// The solver's own output goes to standard output.
+  bool verbose = false;
+  /// Asked once per iteration; true ends the solve with status "interrupted".
+  std::function<bool()> stop_requested;
+
+  /// Throws `Error` that names the option if one is out of range.
+  void validate() const;
+};
+
+}  // namespace dmocbench

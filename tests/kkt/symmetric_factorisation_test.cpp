@@ -1,0 +1,80 @@
+#include "methods/kkt/symmetric_factorisation.hpp"
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include "tests/solvers/sqp/random_quadratic_program.hpp"
+
+namespace dmocbench {
+namespace {
+
+using sqp::tests::random_matrix;
+
+Eigen::SparseMatrix<double> lower_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd triangle = matrix.triangularView<Eigen::Lower>();
+  return triangle.sparseView();
+}
+
+TEST(SymmetricFactorisation, CountsNegativeEigenvaluesAndSolves) {
+  std::mt19937 generator(11);
+  SymmetricFactorisation factorisation;  // reused: the pattern changes with the size
+  for (const Eigen::Index size : {1, 2, 5, 20, 21}) {
+    const Eigen::MatrixXd root = random_matrix(size, size, generator);
+    const Eigen::MatrixXd matrix = root + root.transpose();
+    ASSERT_TRUE(factorisation.factorise(lower_of(matrix)));
+    const Eigen::VectorXd eigenvalues = matrix.selfadjointView<Eigen::Lower>().eigenvalues();
+    EXPECT_EQ(factorisation.negative_eigenvalues(), (eigenvalues.array() < 0.0).count());
+    const Eigen::VectorXd right_hand_side = random_matrix(size, 1, generator);
+    EXPECT_LT((matrix * factorisation.solve(right_hand_side) - right_hand_side).lpNorm<Eigen::Infinity>(), 1e-9);
+  }
+}
+
+/// What MUMPS calls is the subroutine that the dynamic linker finds first.
+TEST(SymmetricFactorisation, ThrowsWhereMumpsWouldEndTheProcess) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): dlsym knows no functions
+  auto* const abort = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "mumps_abort_"));
+  ASSERT_NE(abort, nullptr);
+  EXPECT_THROW(abort(), std::bad_alloc);
+}
+
+TEST(SymmetricFactorisation, FindsTheSameInAnyOrder) {
+  std::mt19937 generator(12);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Index size = 1 + i % 7;
+    const Eigen::MatrixXd root = random_matrix(size, size, generator);
+    const Eigen::MatrixXd matrix = root + root.transpose();
+    std::vector<int> positions(static_cast<std::size_t>(size));
+    std::iota(positions.begin(), positions.end(), 0);
+    std::ranges::shuffle(positions, generator);
+    SymmetricFactorisation factorisation(positions);
+    ASSERT_TRUE(factorisation.factorise(lower_of(matrix)));
+    const Eigen::VectorXd eigenvalues = matrix.selfadjointView<Eigen::Lower>().eigenvalues();
+    EXPECT_EQ(factorisation.negative_eigenvalues(), (eigenvalues.array() < 0.0).count());
+    const Eigen::VectorXd right_hand_side = random_matrix(size, 1, generator);
+    EXPECT_LT((matrix * factorisation.solve(right_hand_side) - right_hand_side).lpNorm<Eigen::Infinity>(), 1e-9);
+  }
+}
+
+TEST(SymmetricFactorisation, SolvesWithAZeroDiagonal) {
+  Eigen::MatrixXd matrix(3, 3);
+  matrix << 0.0, 1.0, 0.0,  //
+      1.0, 0.0, 2.0,        //
+      0.0, 2.0, 1.0;
+  SymmetricFactorisation factorisation;
+  ASSERT_TRUE(factorisation.factorise(lower_of(matrix)));
+  EXPECT_EQ(factorisation.negative_eigenvalues(), 1);
+}
+
+TEST(SymmetricFactorisation, TellsASingularMatrix) {
+  SymmetricFactorisation factorisation;
+  EXPECT_FALSE(factorisation.factorise(lower_of(Eigen::MatrixXd::Ones(3, 3))));
+  EXPECT_TRUE(factorisation.factorise(lower_of(Eigen::MatrixXd::Identity(3, 3))));
+}
+
+}  // namespace
+}  // namespace dmocbench
