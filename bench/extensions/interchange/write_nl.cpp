@@ -37,8 +37,9 @@ int write(CommandLine& line) {
   std::string file;
   add_options(line, options);
   line.option(
-      "FILE.nl", file,
-      "the program of one case and its start; the names of constraints and unknowns go to FILE.row and FILE.col");
+      "--to", file,
+      "FILE.nl, for the program of one case and its start; the names of constraints and unknowns go to FILE.row "
+      "and FILE.col");
   parse_with_libraries(line);
   const Case the_case = exchanged_case(expand_cases(options));
   check(file);

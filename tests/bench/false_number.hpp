@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/claims/claim.hpp"
+#include "tests/bench/all_tables_for_claims.hpp"
+
+namespace dmocbench::tests {
+
+/// A number that turns a claim, in the rows of a table that a predicate chooses.
+struct FalseNumber {
+  std::string table;
+  Where where;
+  std::string column;
+  double number;
+  std::string claim;
+};
+
+/// The verdict on the claim where the tables agree with the paper but for that number.
+inline ClaimVerdict verdict_with(const FalseNumber& doctored) {
+  ResultTables results;
+  for (const auto& [name, rows] : all_rows()) {
+    Table table;
+    for (Row row : rows) {
+      if (name == doctored.table && doctored.where(row)) row.set(doctored.column, doctored.number);
+      table.append(std::move(row));
+    }
+    results.add(name, std::move(table));
+  }
+  for (const JudgedClaim& judged : judge_claims(results)) {
+    if (judged.id == doctored.claim) return judged.verdict;
+  }
+  ADD_FAILURE() << "no claim " << doctored.claim;
+  return ClaimVerdict::not_yet;
+}
+
+/// Each claim is reproduced by the tables as they are, and differs with its false number.
+inline void expect_to_differ(const std::vector<FalseNumber>& all) {
+  for (const FalseNumber& doctored : all) {
+    EXPECT_EQ(verdict_with({doctored.table, [](const Row&) { return false; }, doctored.column, 0.0, doctored.claim}),
+              ClaimVerdict::reproduced)
+        << doctored.claim;
+    EXPECT_EQ(verdict_with(doctored), ClaimVerdict::differs) << doctored.claim << ", " << doctored.column;
+  }
+}
+
+}  // namespace dmocbench::tests
