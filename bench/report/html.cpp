@@ -79,6 +79,33 @@ std::string anchor(std::string_view kind, std::string_view name) {
   return result;
 }
 
+std::string link_to_file(std::string_view path) {
+  std::string link = "./";
+  for (const char letter : path) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (std::isalnum(byte) != 0 || std::string_view("/._-~").find(letter) != std::string_view::npos) {
+      link += letter;
+    } else {
+      link += fmt::format("%{:02X}", byte);
+    }
+  }
+  return link;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+      group = group << 8U | (k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0U);
+    for (const unsigned shift : {18U, 12U, 6U, 0U}) text += letters[group >> shift & 63U];
+  }
+  std::fill_n(text.rbegin(), (3 - bytes.size() % 3) % 3, '=');
+  return text;
+}
+
 std::string in_words(std::string_view name) {
   std::string words(name);
   std::ranges::replace(words, '_', ' ');

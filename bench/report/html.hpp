@@ -14,6 +14,12 @@ namespace dmocbench {
 /// "two_link_manipulator/state_slope" as a name for links within the page: letters, digits and dashes.
 [[nodiscard]] std::string anchor(std::string_view kind, std::string_view name);
 
+/// A path that is not absolute as a link: it leads to a file whatever letters it holds.
+[[nodiscard]] std::string link_to_file(std::string_view path);
+
+/// Bytes in the letters of base64.
+[[nodiscard]] std::string base64(std::string_view bytes);
+
 /// "two link manipulator" of "two_link_manipulator".
 [[nodiscard]] std::string in_words(std::string_view name);
 

@@ -14,7 +14,7 @@ namespace dmocbench {
 /// Every problem that the program knows: its motions, its statement, its optimum and who reaches it; nothing where no
 /// motion was written.
 [[nodiscard]] std::string gallery_section(const ResultsFolder& results);
-/// Every figure, its own markup in the page.
+/// Every figure, as an image in the page.
 [[nodiscard]] std::string figures_section(const ResultsFolder& results);
 /// Every table: columns that differ between rows, as many rows as `most_rows`; `folder` as `report_page`.
 [[nodiscard]] std::string tables_section(const ResultsFolder& results, const std::string& folder);

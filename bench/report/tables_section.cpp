@@ -40,8 +40,8 @@ std::string table_html(const ReportedTable& reported, const Json* metadata, cons
                   is_whole ? "" : fmt::format(", the first {} here", most_rows));
   if (metadata != nullptr && !metadata->value("complete", true))
     html += "<p class=\"warning\">The run is not complete.</p>\n";
-  html += fmt::format("<p><a href=\"{0}{1}\" download>{1}</a> has {2}.", escaped(folder), escaped(reported.file),
-                      table.rows().empty() ? "no row" : "all rows and digits");
+  html += fmt::format("<p><a href=\"{}\" download>{}</a> has {}.", link_to_file(folder + reported.file),
+                      escaped(reported.file), table.rows().empty() ? "no row" : "all rows and digits");
   if (!columns.constant.empty())
     html += escaped_prose(fmt::format(" In all rows {}", fmt::join(columns.constant, ", ")));
   html += "</p>\n";

@@ -36,7 +36,7 @@ function show_figures(claim) {
   if (claim.dataset.shown) return;
   claim.dataset.shown = "yes";
   for (const link of claim.querySelectorAll("a[href^='#figure-']")) {
-    const drawn = document.getElementById(link.hash.slice(1))?.querySelector("svg");
+    const drawn = document.getElementById(link.hash.slice(1))?.querySelector("img");
     if (!drawn) continue;
     const figure = document.createElement("figure");
     figure.append(drawn.cloneNode(true));

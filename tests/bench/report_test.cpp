@@ -1,6 +1,3 @@
-#include <cctype>
-#include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +7,7 @@
 
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/comparison_page.hpp"
-#include "bench/report/figure_markup.hpp"
 #include "bench/report/html.hpp"
-#include "bench/report/packed_svg.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/reached_optima.hpp"
 #include "problems/registry.hpp"
@@ -54,6 +49,18 @@ TEST(Html, KeepsNumbersWithAnExponentOnOneLine) {
 TEST(Html, LinksHaveNoLetterThatEndsThem) {
   EXPECT_EQ(anchor("claim", "two_link/state_slope"), "claim-two-link-state-slope");
   EXPECT_EQ(anchor("table", "\"><script>"), "table----script-");
+}
+
+TEST(Html, WritesBytesInTheLettersOfBase64) {  // the examples of RFC 4648
+  const std::vector<std::pair<std::string, std::string>> examples{{"", ""},
+                                                                  {"f", "Zg=="},
+                                                                  {"fo", "Zm8="},
+                                                                  {"foo", "Zm9v"},
+                                                                  {"foob", "Zm9vYg=="},
+                                                                  {"fooba", "Zm9vYmE="},
+                                                                  {"foobar", "Zm9vYmFy"},
+                                                                  {"\xfb\xff\xfe", "+//+"}};
+  for (const auto& [bytes, letters] : examples) EXPECT_EQ(base64(bytes), letters);
 }
 
 TEST(Html, ShortensNumbersAndLeavesTexts) {
@@ -127,92 +134,56 @@ TEST(Report, RunsNothingThatStandsInATable) {
   EXPECT_FALSE(has(page, "\"name\":\"</script>"));
 }
 
-TEST(Report, FiguresShareNoNames) {
+/// What stands between two marks for the first time; empty if nothing does.
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t at = text.find(begin);
+  if (at == std::string::npos) return "";
+  return text.substr(at + begin.size(), text.find(end, at + begin.size()) - at - begin.size());
+}
+
+TEST(Report, NothingOfAFigureStandsInThePageAsItIs) {
   ResultsFolder results;
-  const std::string svg =
-      "<?xml version=\"1.0\"?>\n<svg ><title>Gnuplot</title><g id=\"gnuplot_plot_1\" ><title>a</title></g><path "
-      "id='gpPt0'/><use xlink:href='#gpPt0'/></svg>\n";
-  results.figures = {{"one", svg}, {"two", svg}};
+  results.figures = {{"script", "<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>"},
+                     {"event", "<svg onload=\"alert(2)\"/>"},
+                     {"link", "<svg><a href='javascript:alert(3)'><text>x</text></a></svg>"},
+                     {"end", "</svg>\"></figure><script>alert(4)</script>"},
+                     {"bytes", "<svg>\xff\xfe alert(5)</svg>"},
+                     {"number", "<svg><path d='M" + std::string(400, '9') + ",1.00'/></svg>"}};
   const std::string page = report_page(results, "");
-  EXPECT_TRUE(has(page, "id='f0-p0'") && has(page, "href='#f0-p0'"));
-  EXPECT_TRUE(has(page, "id='f1-p0'") && has(page, "href='#f1-p0'"));
-  EXPECT_FALSE(has(page, "<g"));
-  EXPECT_FALSE(has(page, "<?xml") || has(page, "Gnuplot"));
-}
-
-TEST(Report, LeavesOutOfFiguresWhatDoesNotShow) {
-  const std::string svg = figure_markup(
-      "<svg ><defs><path id='gpPt0' d='M-1,0 h2'/><use id='gpPt1' href='#gpPt0'/><circle id='gpDot' r='0.5'/></defs>\n"
-      "<g id=\"a\"><g fill=\"none\">\n</g>\n</g>\n<path d='M93.47,455.01 L9.25,0.178'/><use href='#gpPt1'/>"
-      "<text>slope 12.34</text></svg>",
-      "f", "a figure");
-  EXPECT_TRUE(has(svg, "d='M93.5 455l-84.2-454.8'"));
-  EXPECT_TRUE(has(svg, "slope 12.34"));
-  EXPECT_TRUE(has(svg, "id='fp0'") && has(svg, "href='#fp1'"));
-  EXPECT_FALSE(has(svg, "gpDot") || has(svg, "<g"));
-}
-
-/// The points of a path of M, L and what `packed_svg` writes instead.
-std::vector<std::pair<double, double>> points_of(const std::string& path) {
-  std::vector<std::pair<double, double>> points;
-  std::istringstream letters(path);
-  double x = 0.0;
-  double y = 0.0;
-  char command = ' ';
-  const auto number = [&letters] {
-    double value = 0.0;
-    letters >> value;
-    return value;
-  };
-  while (letters >> std::ws && letters.peek() != EOF) {
-    if (std::isalpha(letters.peek()) != 0) command = static_cast<char>(letters.get());
-    const bool is_absolute = command == 'M';
-    if (command != 'v') x = number() + (is_absolute ? 0.0 : x);
-    if (command != 'h') y = number() + (is_absolute ? 0.0 : y);
-    points.emplace_back(x, y);
-    if (command == 'm') command = 'l';
+  EXPECT_FALSE(has(page, "alert(") || has(page, "\xff") || has(page, "<svg") || has(page, "999999"));
+  for (const ReportedFigure& figure : results.figures) {
+    const std::string markup = between(page, fmt::format("<figure id=\"figure-{}\">", figure.name), "</figure>");
+    EXPECT_EQ(markup, fmt::format("<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{0}</figcaption>",
+                                  figure.name, base64(figure.svg)));
   }
-  return points;
 }
 
-TEST(PackedSvg, PathsGoThroughTheSamePointsToATenth) {
-  std::mt19937 engine(7);
-  std::uniform_real_distribution<double> anywhere(-5.0, 1700.0);
-  std::vector<std::pair<double, double>> points;
-  std::string path;
-  for (int i = 0; i < 200; ++i) {
-    const bool keeps_column = i % 7 == 3;
-    const bool keeps_line = i % 5 == 2;
-    points.emplace_back(keeps_column ? points.back().first : anywhere(engine),
-                        keeps_line ? points.back().second : anywhere(engine));
-    path += fmt::format("{}{:.2f},{:.2f} ", i % 9 == 0 ? "M" : (i % 9 == 1 ? "L" : ""), points.back().first,
-                        points.back().second);
+TEST(Report, NamesOfFiguresEndNoAttribute) {
+  ResultsFolder results;
+  results.figures = {{"\" onerror=\"alert(1)", "no SVG"}, {"<img src=x onerror=alert(2)>", "<svg/>"}};
+  const std::string page = report_page(results, "");
+  EXPECT_TRUE(has(page, "<img alt=\"&quot; onerror=&quot;alert(1)\" src=\"data:"));
+  EXPECT_FALSE(has(page, "<img src=x"));
+}
+
+TEST(Report, AllowsOneScriptByItsDigest) {
+  for (const std::string& page :
+       {report_page(folder_with(two_solves()), ""),
+        comparison_page({"before", folder_with(two_solves())}, {"after", folder_with(two_solves())})}) {
+    const std::string allowed = between(page, "script-src ", "\"");
+    EXPECT_TRUE(allowed.starts_with("'sha256-") && allowed.ends_with("='") && allowed.size() == 53U) << allowed;
+    EXPECT_EQ(page.find("<script"), page.rfind("<script"));
   }
-  const std::string packed = packed_svg("<path d='" + path + "'/>");
-  const std::vector<std::pair<double, double>> found = points_of(packed.substr(9, packed.size() - 12));
-  ASSERT_EQ(found.size(), points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_NEAR(found[i].first, points[i].first, 0.0551);
-    EXPECT_NEAR(found[i].second, points[i].second, 0.0551);
-  }
-  EXPECT_LT(packed.size(), path.size());
 }
 
-TEST(PackedSvg, LeavesWhatItDoesNotKnow) {
-  for (const std::string svg : {"<path d='M1,2 A3,4 0 0 1 5,6'/>", "<path id='p' d='M0,1.33 L-1.33,-0.67 z'/>",
-                                "<text>rgb is (no colour) > M1,2</text>", "a < b", "<use xlink:href='#a' id='b'/>"})
-    EXPECT_EQ(packed_svg(svg), svg);
-  EXPECT_EQ(packed_svg("<a fill='rgb(  0, 114, 178)'/>"), "<a fill='#0072b2'/>");
-}
-
-TEST(PackedSvg, MarksOfOneColourShareAGroupAndKeepTheirPlaces) {
-  const auto mark = [](const std::string& place, const std::string& colour) {
-    return fmt::format("<use xlink:href='#a' transform='translate({}) scale(2)' color='{}'/>\n", place, colour);
-  };
-  EXPECT_EQ(packed_svg(mark("1,2", "red") + mark("3,4", "red") + mark("5,6", "blue") + "<path/>"),
-            "<g color='red'><use xlink:href='#a' transform='translate(1,2)scale(2)'/><use xlink:href='#a' "
-            "transform='translate(3,4)scale(2)'/></g><g color='blue'><use xlink:href='#a' "
-            "transform='translate(5,6)scale(2)'/></g>\n<path/>");
+TEST(Report, LinksToFilesLeadToFilesWhateverTheirNames) {
+  ResultsFolder results;
+  results.tables.push_back({"javascript:alert(1)||x.csv", "", two_solves()});
+  results.tables.push_back({"a\"b #1?\xc3\xa4%.csv", "", two_solves()});
+  const std::string page = report_page(results, "../my results/");
+  EXPECT_TRUE(has(page, "<a href=\"./../my%20results/javascript%3Aalert%281%29%7C%7Cx.csv\" download>"));
+  EXPECT_TRUE(has(page, "<a href=\"./../my%20results/a%22b%20%231%3F%C3%A4%25.csv\" download>"));
+  EXPECT_TRUE(has(report_page(results, ""), "<a href=\"./javascript%3Aalert"));
 }
 
 TEST(Report, ShowsTheRowsAndColumnsThatDecidedOnAClaimAndTheCommands) {
