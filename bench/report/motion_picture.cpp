@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/report/html.hpp"
+#include "methods/runtime/parsed.hpp"
 #include "methods/tables/motion_file.hpp"
 
 namespace dmocbench {
@@ -108,8 +109,8 @@ std::string as_script(const Json& data) {
   return text;
 }
 
-/// A number with five digits.
-double short_number(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+/// A number with five digits, or as it is where those are none of a double (of the largest one, say).
+double short_number(double value) { return parsed<double>(fmt::format("{:.5g}", value)).value_or(value); }
 
 std::vector<double> short_numbers(std::vector<double> values) {
   std::ranges::transform(values, values.begin(), short_number);

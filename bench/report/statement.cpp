@@ -9,6 +9,7 @@
 #include "bench/report/html.hpp"
 #include "bench/report/mathml.hpp"
 #include "bench/report/stated_problem.hpp"
+#include "methods/runtime/parsed.hpp"
 
 namespace dmocbench {
 
@@ -36,7 +37,7 @@ bool is_exact(double value) {
 
 /// A number as it is, or else with eight digits.
 std::string number_html(double value) {
-  return mathml_of_number(is_exact(value) ? value : std::stod(fmt::format("{:.8g}", value)));
+  return mathml_of_number(is_exact(value) ? value : parsed<double>(fmt::format("{:.8g}", value)).value_or(value));
 }
 
 /// What is said of a component: that it is given, or what bounds it; nothing if it is free.

@@ -186,6 +186,12 @@ TEST(Report, LinksToFilesLeadToFilesWhateverTheirNames) {
   EXPECT_TRUE(has(report_page(results, ""), "<a href=\"./javascript%3Aalert"));
 }
 
+TEST(Report, DrawsMotionsWithNumbersAtTheEndsOfTheRange) {
+  ResultsFolder results;
+  results.motions.push_back({"arm", "dmoc", Table::from_csv("t,x,y\n0,1e-310,0\n1,1.7976931348623157e308,-5e-324\n")});
+  EXPECT_TRUE(has(report_page(results, ""), "1e-310"));
+}
+
 TEST(Report, ShowsTheRowsAndColumnsThatDecidedOnAClaimAndTheCommands) {
   ResultsFolder results = folder_with(two_solves());
   results.claims = Table::from_csv("claim,verdict,whose,states,evidence\narm/order,differs,ours,two,objective.csv\n");
