@@ -97,7 +97,10 @@ class Typesetter {
     TypesetFormulas result;
     for (Place place = 0; place < steps_.size(); ++place) {
       sizes[place] = size_of(place, sizes);
-      if (readers[place] < 2 || sizes[place] < long_enough || is_output(place, outputs)) continue;
+      // What is a formula itself is written out once more, unless it is so long that its readers would outgrow all
+      // bounds.
+      const std::size_t enough = is_output(place, outputs) ? 20 * long_enough : long_enough;
+      if (readers[place] < 2 || sizes[place] < enough) continue;
       const std::string name =
           fmt::format("<msub>{}<mn>{}</mn></msub>", mathml_of_name(shared_name), result.shared.size() + 1);
       result.shared.emplace_back(name, sum(place));
@@ -122,7 +125,7 @@ class Typesetter {
     for (const Schedule::Step& step : steps_) {
       const std::size_t count = operand_count(step.operation);
       if (count > 0) ++readers[step.left];
-      if (count > 1 && step.right != step.left) ++readers[step.right];
+      if (count > 1 && !is_square(step)) ++readers[step.right];
     }
     for (const Place output : outputs) ++readers[output];
     return readers;
@@ -133,7 +136,12 @@ class Typesetter {
     const std::size_t count = operand_count(step.operation);
     if (count == 0) return 1;
     if (count == 1) return sizes[step.left] + 1;
-    return sizes[step.left] + (step.left == step.right ? 0 : sizes[step.right]);
+    return sizes[step.left] + (is_square(step) ? 0 : sizes[step.right]);
+  }
+
+  /// What reads one operand twice and writes it once.
+  static bool is_square(const Schedule::Step& step) {
+    return step.operation == Operation::multiply && step.left == step.right;
   }
 
   [[nodiscard]] bool is_named(Place place) const { return !names_[place].empty(); }
@@ -184,11 +192,13 @@ class Typesetter {
     multiply_whole(place, exponent, product);
   }
 
+  /// The exponent is 1 or -1, or even where there are squares.
   void multiply_whole(Place place, double exponent, Product& product) const {
     const Schedule::Step& step = steps_[place];
-    const bool is_plain = exponent == 1.0 || exponent == -1.0;
     switch (step.operation) {
       case Operation::multiply:
+        // Walked once, or else every operation of repeated squaring would double the walk.
+        if (is_square(step)) return multiply(step.left, 2.0 * exponent, product);
         multiply(step.left, exponent, product);
         return multiply(step.right, exponent, product);
       case Operation::divide:
@@ -197,15 +207,13 @@ class Typesetter {
       case Operation::reciprocal:
         return multiply(step.left, -exponent, product);
       case Operation::negate:
-        if (!is_plain) break;
-        product.coefficient = -product.coefficient;
+        if (exponent == 1.0 || exponent == -1.0) product.coefficient = -product.coefficient;
         return multiply(step.left, exponent, product);
       case Operation::power:
-        if (!is_plain) break;
         return multiply_by_factor(step.left, exponent * step.value, product);
       case Operation::constant:
-        if (!is_plain) break;
-        product.coefficient = exponent > 0.0 ? product.coefficient * step.value : product.coefficient / step.value;
+        if (exponent > 0.0) product.coefficient *= std::pow(step.value, exponent);
+        if (exponent < 0.0) product.coefficient /= std::pow(step.value, -exponent);
         return;
       default:
         break;
@@ -354,8 +362,19 @@ class Typesetter {
 
 TypesetFormulas typeset(std::span<const Expression> formulas, const std::vector<std::string>& inputs,
                         std::size_t parameters, std::string_view shared_name) {
-  const Schedule schedule(formulas);
-  return Typesetter(schedule, inputs, parameters).typeset(schedule.outputs(), shared_name);
+  std::vector<Expression> short_ones(formulas.begin(), formulas.end());
+  std::vector<std::pair<std::size_t, std::size_t>> long_ones;  // with their operations
+  for (std::size_t i = 0; i < formulas.size(); ++i) {
+    const std::size_t operations = Schedule(formulas.subspan(i, 1)).operation_count();
+    if (operations <= most_typeset_operations) continue;
+    short_ones[i] = {};
+    long_ones.emplace_back(i, operations);
+  }
+  const Schedule schedule(short_ones);
+  TypesetFormulas result = Typesetter(schedule, inputs, parameters).typeset(schedule.outputs(), shared_name);
+  for (const auto& [i, operations] : long_ones)
+    result.formulas[i] = {fmt::format("<mtext>a formula of {} operations</mtext>", operations)};
+  return result;
 }
 
 }  // namespace dmocbench

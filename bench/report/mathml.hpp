@@ -31,9 +31,15 @@ struct TypesetFormulas {
   std::vector<std::pair<std::string, MathTerms>> shared;
 };
 
+/// The operations of the longest formula that is typeset.
+inline constexpr std::size_t most_typeset_operations = 1000;
+
 /// Typesets traced formulas. `inputs` are the names of their inputs as MathML; the first `parameters` of them are
 /// constants, which stand before other factors. `shared_name` is the name of shared parts, which get an index: not that
 /// of an input.
+///
+/// A formula of more than `most_typeset_operations` is not typeset but told as "a formula of 10000 operations": nobody
+/// could read it, and typesetting recurses.
 ///
 /// Sums and products are written without the brackets that do not change their value; apart from rounding, what is
 /// written has the value of the formula wherever that is defined.

@@ -149,6 +149,48 @@ TEST(Mathml, NamesWhatIsLongAndReadTwice) {
   EXPECT_TRUE(typeset(std::vector{a * sin(b), b * sin(b)}, abc, 0, "w").shared.empty());
 }
 
+TEST(Mathml, TellsTheLengthOfWhatIsTooLongToRead) {
+  const Expression a = Expression::input(0);
+  Expression sum = a;
+  Expression nested = a;
+  for (int i = 0; i < 100000; ++i) {
+    sum += sin(Expression(1.0 + i) * a);
+    nested = sin(nested);
+  }
+  const TypesetFormulas written = typeset(std::vector{sum, a * a, nested}, abc, 0, "w");
+  EXPECT_EQ(plain(in_one_row(written.formulas[0])), "a formula of 299999 operations");
+  EXPECT_EQ(plain(in_one_row(written.formulas[1])), "a2");
+  EXPECT_EQ(plain(in_one_row(written.formulas[2])), "a formula of 100000 operations");
+  EXPECT_TRUE(written.shared.empty());
+}
+
+TEST(Mathml, TypesetsTheLongestFormulasThatItTakes) {
+  const Expression a = Expression::input(0);
+  Expression nested = a;
+  for (std::size_t i = 0; i < most_typeset_operations; ++i) nested = sin(nested);
+  EXPECT_NE(typeset(std::vector{nested}, abc, 0, "w").formulas[0][0].find("sin"), std::string::npos);
+}
+
+TEST(Mathml, TakesNoLongerWhereFewOperationsMakeALongFormula) {
+  const Expression a = Expression::input(0);
+  const Expression b = Expression::input(1);
+  Expression power = a;
+  Expression angle = a;
+  for (int i = 0; i < 50; ++i) {
+    power = power * power;
+    angle = atan2(angle, angle);
+  }
+  EXPECT_EQ(plain_formula(power), "a1125899906842624");
+  EXPECT_LT(plain_formula(angle).size(), 1000U);
+  std::vector<Expression> each_reads_the_one_before{a + b};
+  for (int i = 0; i < 60; ++i)
+    each_reads_the_one_before.push_back(sin(each_reads_the_one_before.back()) * cos(each_reads_the_one_before.back()));
+  std::size_t size = 0;
+  for (const MathTerms& terms : typeset(each_reads_the_one_before, abc, 0, "w").formulas)
+    size += in_one_row(terms).size();
+  EXPECT_LT(size, 1000000U);
+}
+
 TEST(Mathml, SetsNamesAndNumbers) {
   EXPECT_EQ(mathml_of_name("theta_1"), "<msub><mi>θ</mi><mn>1</mn></msub>");
   EXPECT_EQ(mathml_of_name("u_phi"), "<msub><mi>u</mi><mi>φ</mi></msub>");
