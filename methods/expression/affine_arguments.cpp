@@ -145,6 +145,7 @@ std::vector<Expression> replaced(std::span<const Expression> formulas, const Exp
 AffineArguments::AffineArguments(std::span<const Expression> formulas, const ExpressionVector& x) {
   const std::vector<Node*> nodes = operands_first(formulas);
   std::vector<Expression> arguments = find_arguments(formulas, nodes, x);
+  if (arguments.size() > most_per_entry * static_cast<std::size_t>(x.size())) arguments.assign(x.begin(), x.end());
   definitions_.formulas = Eigen::Map<ExpressionVector>(arguments.data(), static_cast<Eigen::Index>(arguments.size()));
   definitions_.inputs = input_vector(first_unused_input(nodes, x), definitions_.formulas.size());
   formulas_ = replaced_among(nodes, formulas, definitions_.formulas, definitions_.inputs);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,13 @@ namespace dmocbench {
 /// reads its ends through a midpoint and a velocity: g is differentiated there, where it is short, and A, which holds
 /// constants and steps, carries the result to the ends. An argument is an affine node that a nonlinear operation reads,
 /// or a formula that is affine itself, without its sign and numeric factor: those may meet others while formulas are
-/// differentiated.
+/// differentiated. Where there are more than `most_per_entry` for each entry of x, y is x itself: g_yy grows with the
+/// square of their number.
 class AffineArguments {
  public:
+  /// Arguments for each entry of x at most.
+  static constexpr std::size_t most_per_entry = 16;
+
   /// Throws `Error` if an entry of `x` is not an input.
   AffineArguments(std::span<const Expression> formulas, const ExpressionVector& x);
 

@@ -91,6 +91,26 @@ TEST(AffineArguments, MidpointTakesFewerOperationsThanTheEnds) {
   EXPECT_LT(Schedule(entries_of(by_middle), found.definitions).operation_count(), Schedule(by_ends).operation_count());
 }
 
+TEST(AffineArguments, AreTheUnknownsThemselvesWhereThereAreTooMany) {
+  const ExpressionVector x = input_vector(0, 2);
+  const auto product_of = [&x](std::size_t factors) {
+    Expression product(1.0);
+    for (std::size_t i = 1; i <= factors; ++i) product *= Expression(1.0 + 1e-4 * static_cast<double>(i)) - 1e-5 * x[0];
+    return product * x[1];
+  };
+  constexpr std::size_t most = 2 * AffineArguments::most_per_entry - 1;  // beside x[1]
+  EXPECT_EQ(AffineArguments(std::vector{product_of(most)}, x).definitions().inputs.size(), Eigen::Index{most} + 1);
+  const Expression f = product_of(3000);
+  const AffineArguments arguments(std::vector{f}, x);
+  ASSERT_EQ(arguments.coefficients().rows(), 2);
+  EXPECT_TRUE(arguments.coefficients()(0, 0).is_same(Expression(1.0)) && arguments.coefficients()(0, 1).is_zero());
+  const std::vector<double> point{0.5, 1.25};
+  const DefinedDerivatives found = gradient_and_hessian(f, x);
+  const ExpressionVector second = symmetric_jacobian(gradient(f, x), x).reshaped();
+  expect_same_values(values_at(point, entries_of(ExpressionVector(found.hessian.reshaped())), found.definitions),
+                     values_at(point, entries_of(second)));
+}
+
 TEST(AffineArguments, OfFormulasAreRefused) {
   const ExpressionVector x = input_vector(0, 1);
   EXPECT_THROW(AffineArguments(std::vector{sin(x[0])}, ExpressionVector{{sin(x[0])}}), Error);
