@@ -1,8 +1,8 @@
 #include "bench/report/statement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -96,8 +96,17 @@ WrittenFormulas written(const std::vector<StatedFormula>& formulas, const std::v
 
 /// "m/s^2" with its exponents raised.
 std::string unit_in_print(const std::string& unit) {
-  static const std::regex exponent(R"(\^(-?[0-9]+))");
-  return std::regex_replace(escaped(unit), exponent, "<sup>$1</sup>");
+  const std::string text = escaped(unit);
+  std::string html;
+  std::size_t told = 0;
+  for (std::size_t at = text.find('^'); at != std::string::npos; at = text.find('^', at + 1)) {
+    const std::size_t digits = at + 1 + (text.compare(at + 1, 1, "-") == 0 ? 1 : 0);
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", digits), text.size());
+    if (end == digits) continue;
+    html += text.substr(told, at - told) + "<sup>" + text.substr(at + 1, end - at - 1) + "</sup>";
+    told = end;
+  }
+  return html + text.substr(told);
 }
 
 std::string letters_html(const StatedProblem& stated) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/report/stated_problem.hpp"
+#include "bench/report/statement.hpp"
 #include "methods/expression/replay.hpp"
 #include "problems/registry.hpp"
 #include "tests/bench/mathml_value.hpp"
@@ -189,6 +190,38 @@ TEST(Mathml, TakesNoLongerWhereFewOperationsMakeALongFormula) {
   for (const MathTerms& terms : typeset(each_reads_the_one_before, abc, 0, "w").formulas)
     size += in_one_row(terms).size();
   EXPECT_LT(size, 1000000U);
+}
+
+/// A mass whose unit is said in any way.
+class MassInUnit : public Problem {
+ public:
+  explicit MassInUnit(const std::string& unit)
+      : Problem({{.name = "mass", .value = 2.0, .unit = unit, .meaning = "that is pushed"}}) {}
+  [[nodiscard]] std::string name() const override { return "mass_in_unit"; }
+  [[nodiscard]] std::vector<std::string> configuration_names() const override { return {"x"}; }
+  [[nodiscard]] std::vector<std::string> control_names() const override { return {"push"}; }
+  [[nodiscard]] Expression lagrangian(const State& x) const override { return 0.5 * varying("mass") * x.v[0] * x.v[0]; }
+  [[nodiscard]] ExpressionVector force(const ControlledState& x) const override { return x.u; }
+  [[nodiscard]] Expression running_cost(const ControlledState& x) const override { return 0.5 * x.u[0] * x.u[0]; }
+  [[nodiscard]] BoundaryState initial_state() const override {
+    return BoundaryState::at_rest(Eigen::VectorXd::Zero(1));
+  }
+  [[nodiscard]] BoundaryState final_state() const override { return BoundaryState::at_rest(Eigen::VectorXd::Ones(1)); }
+  [[nodiscard]] double horizon() const override { return 1.0; }
+};
+
+TEST(Statement, RaisesTheExponentsOfUnits) {
+  const auto unit_of = [](const std::string& unit) {
+    const std::string html = statement_html(MassInUnit(unit));
+    const std::string begin = "</math> ";
+    const std::size_t at = html.rfind(begin) + begin.size();
+    return html.substr(at, html.find(", that is pushed", at) - at);
+  };
+  EXPECT_EQ(unit_of("m/s^2"), "m/s<sup>2</sup>");
+  EXPECT_EQ(unit_of("kg m^-12 s^3/x"), "kg m<sup>-12</sup> s<sup>3</sup>/x");
+  EXPECT_EQ(unit_of("^, m^, m^-, <^^2"), "^, m^, m^-, &lt;^<sup>2</sup>");
+  const std::string digits(1000000, '1');  // a regular expression would overflow the stack
+  EXPECT_EQ(unit_of("m^" + digits), "m<sup>" + digits + "</sup>");
 }
 
 TEST(Mathml, SetsNamesAndNumbers) {
