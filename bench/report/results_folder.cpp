@@ -71,9 +71,16 @@ void read_motions(const std::filesystem::path& folder, ResultsFolder& results) {
   }
 }
 
+/// JSON without what is nested deeper than any metadata: copying and writing it recurses.
+Json parsed_json(const std::string& text) {
+  constexpr int deepest = 16;
+  const auto keeps = [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) { return depth <= deepest; };
+  return Json::parse(text, keeps, false);
+}
+
 void read_runs(const std::filesystem::path& folder, ResultsFolder& results) {
   for (const std::filesystem::path& file : files_in(folder, ".json")) {
-    Json metadata = Json::parse(read_file(file), nullptr, false);
+    Json metadata = parsed_json(read_file(file));
     if (!metadata.is_object() || !metadata.contains("command_line")) continue;  // not a run's
     results.runs.push_back({file.stem().string(), std::move(metadata)});
   }

@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "bench/experiment/result_file.hpp"
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/reached_optima.hpp"
 #include "problems/registry.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {
 namespace {
@@ -278,6 +280,18 @@ TEST(Comparison, TellsClaimsWhoseVerdictChangedAndWhatOneRunLacks) {
   EXPECT_TRUE(has(page, "1 claim has another verdict, 0 have the same one, 1 is in one of the runs only"));
   EXPECT_TRUE(has(page, "<td>arm/order<td>two<td>reproduced<td>differs<td>2.0<td>1.0"));
   EXPECT_TRUE(has(page, "Only in A: objective.csv."));
+}
+
+class ReportOfAFolder : public tests::InTemporaryFolder {};
+
+TEST_F(ReportOfAFolder, LeavesOutWhatMetadataNestWithoutEnd) {
+  const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
+  write_file(folder() / "t.csv", "a,b\n1,2\n3,4\n");
+  write_file(folder() / "t.json",
+             fmt::format(R"({{"command_line": ["x"], "commit": "abc", "compiler": {0}, "motions": {0}}})", deep));
+  const std::string page = report_page(read_results_folder(folder()), "");
+  EXPECT_TRUE(has(page, "<dt>Commit<dd>abc"));
+  EXPECT_FALSE(has(page, std::string(20, '[')));
 }
 
 TEST(Report, MotionsHaveRodsWhereDistancesStay) {
