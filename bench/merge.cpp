@@ -4,25 +4,33 @@
 #include <vector>
 
 #include "bench/run/command_line.hpp"
-#include "bench/run/joining_run.hpp"
 #include "bench/run/part_file.hpp"
+#include "bench/run/problem_libraries.hpp"
+#include "bench/run/joining_run.hpp"
 
 namespace dmocbench::merge_program {
 
 int merge(CommandLine& line) {
-  std::string name;
-  std::filesystem::path out = "results";
+  JoiningOptions options;
+  options.out = "results";
   std::vector<std::string> folders;
-  line.option("--name", name, "name of the table: that of the experiment, unless its --name gave another");
-  line.option("--out", out, "results folder where the parts are (in NAME.parts), and where the table is written");
+  line.option("--name", options.name, "name of the table: that of the experiment, unless its --name gave another");
+  line.option("--out", options.out,
+              "results folder where the parts are (in NAME.parts), and where the table is written");
   line.option("--from", folders,
               "results folder of another machine with parts, besides the one of --out; may be repeated");
+  line.option("--grid", options.grid, "that of the parts: what names a file is taken from no part");
+  line.option("--start", options.start, "that of the parts, if it was a file");
+  line.option("--option", options.passed_on, "that of the parts, if it is of a foreign solver; may be repeated");
+  add_library_option(line, options.libraries);
   line.parse();
-  require_name(name, out);
-  std::vector<std::filesystem::path> places(folders.begin(), folders.end());
-  if (folders.empty() || std::filesystem::exists(folder_of_parts(out / name))) places.insert(places.begin(), out);
-  const std::vector<PartFile> parts = read_all_parts(places, name);
-  run_in_place(joining_run(parts.front(), places, out, name));
+  require_name(options.name, options.out);
+  options.folders.assign(folders.begin(), folders.end());
+  if (folders.empty() || std::filesystem::exists(folder_of_parts(options.out / options.name))) {
+    options.folders.insert(options.folders.begin(), options.out);
+  }
+  const std::vector<PartFile> parts = read_all_parts(options.folders, options.name);
+  run_in_place(joining_run(parts.front(), options));
 }
 
 int run(int argc, char** argv) {

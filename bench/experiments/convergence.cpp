@@ -124,7 +124,7 @@ class Convergence final : public Experiment {
   }
 
   [[nodiscard]] nlohmann::ordered_json findings() const override { return indirect_ ? indirect_->findings() : nullptr; }
-  void add_findings(const nlohmann::ordered_json& findings) override {
+  void add_findings(const JsonPlace& findings) override {
     if (indirect_) indirect_->add_findings(findings);
   }
 

@@ -114,7 +114,7 @@ class StructureAdvantage final : public Experiment {
   }
 
   [[nodiscard]] nlohmann::ordered_json findings() const override { return reference_.findings(); }
-  void add_findings(const nlohmann::ordered_json& findings) override { reference_.add_findings(findings); }
+  void add_findings(const JsonPlace& findings) override { reference_.add_findings(findings); }
 
   [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
   void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {

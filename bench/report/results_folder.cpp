@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 
@@ -78,11 +79,23 @@ Json parsed_json(const std::string& text) {
   return Json::parse(text, keeps, false);
 }
 
+/// Throws `Error` unless what every section reads of a run's metadata is of its type.
+void require_types(const JsonPlace& metadata) {
+  static_cast<void>(metadata.at("command_line").texts());
+  if (metadata.has("complete")) static_cast<void>(metadata.at("complete").boolean());
+  if (metadata.has("utc_time")) static_cast<void>(metadata.at("utc_time").text());
+}
+
 void read_runs(const std::filesystem::path& folder, ResultsFolder& results) {
   for (const std::filesystem::path& file : files_in(folder, ".json")) {
-    Json metadata = parsed_json(read_file(file));
-    if (!metadata.is_object() || !metadata.contains("command_line")) continue;  // not a run's
-    results.runs.push_back({file.stem().string(), std::move(metadata)});
+    try {
+      Json metadata = parsed_json(read_file(file));
+      if (!metadata.is_object() || !metadata.contains("command_line")) continue;  // not a run's
+      require_types({metadata, file.filename().string()});
+      results.runs.push_back({file.stem().string(), std::move(metadata)});
+    } catch (const Error& error) {
+      results.faults.emplace_back(error.what());
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/run/case_list.hpp"
+#include "bench/run/json_place.hpp"
 #include "bench/run/options.hpp"
 
 namespace dmocbench {
@@ -87,7 +88,7 @@ class Experiment {
   /// What `finish` needs of the cases that were solved, besides their rows: a part keeps it in its file.
   [[nodiscard]] virtual nlohmann::ordered_json findings() const;
   /// Takes in what a part has found, part after part, before `finish` is called of all.
-  virtual void add_findings(const nlohmann::ordered_json& /*findings*/) {}
+  virtual void add_findings(const JsonPlace& /*findings*/) {}
   /// Writes further files when all rows are there, or as the card says; may add to the metadata. `prefix` is the folder
   /// and name of the table.
   virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,

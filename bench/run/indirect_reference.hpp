@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/column.hpp"
+#include "bench/run/json_place.hpp"
 #include "methods/indirect/indirect_solution.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/transcription/motions/trajectory.hpp"
@@ -42,8 +43,8 @@ class IndirectReference {
 
   /// All that table, metadata and notes are made of, an object per problem, and the same found by other parts of a run.
   [[nodiscard]] nlohmann::ordered_json findings() const;
-  /// Adds what an experiment has found to its metadata.
-  void add_findings(const nlohmann::ordered_json& findings);
+  /// Adds what another part has found. Throws `Error` if it is not what `findings` returns.
+  void add_findings(const JsonPlace& findings);
 
   /// A row per problem that was asked for; the last columns are the costate at t = 0, psi_q_NAME and psi_p_NAME of
   /// every configuration.

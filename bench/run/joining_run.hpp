@@ -8,15 +8,25 @@
 
 namespace dmocbench {
 
-/// Throws `Error` that lists what parts there are if no name is given or there is nothing of that name.
+/// Throws `Error` unless `name` is that of a table, or if none is given: the sentence lists what parts there are.
 void require_name(const std::string& name, const std::filesystem::path& out);
 
-/// The command line of the experiment that wrote a part, with its options, but to join the parts in `folders` and write
-/// to `out`. The program is the one beside this, or this one where it is all experiments. Throws `Error` if there is
-/// none.
-[[nodiscard]] std::vector<std::string> joining_run(const PartFile& part,
-                                                   const std::vector<std::filesystem::path>& folders,
-                                                   const std::filesystem::path& out, const std::string& name);
+/// What the command line of `merge` says of a joining run. Whoever wrote a part may have written anything into it, so
+/// that what names files to be read or code to be loaded is taken from here alone.
+struct JoiningOptions {
+  std::filesystem::path out;                   ///< where the table is written
+  std::string name;                            ///< of the table
+  std::vector<std::filesystem::path> folders;  ///< where the parts are
+  std::vector<std::string> libraries;          ///< of problems
+  std::string grid;                            ///< file of node times; empty for none
+  std::string start;                           ///< file of a motion; empty for none
+  std::vector<std::string> passed_on;          ///< "option=value" for a solver
+};
+
+/// The command line of the experiment that wrote a part, with its options, but to join the parts and write to `out`.
+/// The program is the one beside this, or this one where it is all experiments. Throws `Error` if the part names no
+/// experiment of this build, has an option that no part has, or needs what `merge` was not given.
+[[nodiscard]] std::vector<std::string> joining_run(const PartFile& part, const JoiningOptions& options);
 
 /// Becomes that program. Throws `Error` if it cannot be run.
 [[noreturn]] void run_in_place(const std::vector<std::string>& command_line);

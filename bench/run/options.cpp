@@ -275,14 +275,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
   const auto solvers = in_order("solver", options.solvers, solver_names());
   for (const std::string& name : options.derivatives) static_cast<void>(derivative_back_end_description(name));
   const auto back_ends = in_order("back end of derivatives", options.derivatives, derivative_back_end_names());
-  if (options.name.empty() || options.name.find('/') != std::string::npos) {
-    throw Error(
-        fmt::format("--name \"{}\" must be a file's name without a folder; --out names the folder", options.name));
-  }
-  constexpr std::size_t longest_name = 100;  // what names of files begin with
-  if (options.name.size() > longest_name) {
-    throw Error(fmt::format("--name takes at most {} letters, not {}", longest_name, options.name.size()));
-  }
+  require_name_of_table(options.name);
   if (options.repeats < 1) throw Error(fmt::format("--repeats must be at least 1, got {}", options.repeats));
   const std::vector<Grid> grids = make_grids(options);
   const CostForm form = cost_form_named(options.form);

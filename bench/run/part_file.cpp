@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
+#include "bench/run/run_identity.hpp"
 #include "bench/run/written_tables.hpp"
 #include "methods/error.hpp"
 
@@ -29,6 +31,17 @@ std::string entry_in_words(std::string path) {
 std::string value_at(const Json& json, const std::string& path) {
   const Json::json_pointer place(path);
   return json.contains(place) ? json.at(place).dump() : "nothing";
+}
+
+/// Throws `Error` unless a description has all that is read of it, of the right types: a checksum tells damage, not who
+/// has written the file.
+void require_whole(const JsonPlace& description) {
+  static_cast<void>(parse_part("the part", description.at("part").text()));
+  for (const char* const key : {"commit", "utc_time"}) static_cast<void>(description.at(key).text());
+  static_cast<void>(description.at("identity").at("experiment").text());
+  static_cast<void>(description.at("command_line").texts());
+  for (const char* const key : keys_of_machine) static_cast<void>(description.at("machine").at(key));
+  static_cast<void>(description.at("findings"));
 }
 
 std::vector<std::filesystem::path> part_files_in(const std::vector<std::filesystem::path>& folders,
@@ -92,11 +105,11 @@ PartFile read_part(const std::filesystem::path& path) {
   PartFile file{.path = path,
                 .description = Json::parse(description, nullptr, false),
                 .table = content.substr(std::min(line + 1, content.size()))};
-  const bool is_whole = content.substr(0, space) == checksum_in_words(description, file.table) &&
-                        file.description.is_object() && file.description.contains("part") &&
-                        file.description.contains("identity") && file.description.contains("commit");
-  if (is_whole) return file;
-  throw Error(fmt::format("{} is no part as it was written; remove it and run that part again", path.string()));
+  if (content.substr(0, space) != checksum_in_words(description, file.table) || !file.description.is_object()) {
+    throw Error(fmt::format("{} is no part as it was written; remove it and run that part again", path.string()));
+  }
+  require_whole({file.description, path.string()});
+  return file;
 }
 
 std::vector<PartFile> read_all_parts(const std::vector<std::filesystem::path>& folders, const std::string& name) {

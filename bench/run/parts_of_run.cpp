@@ -1,13 +1,18 @@
 #include "bench/run/parts_of_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/run_identity.hpp"
 #include "methods/error.hpp"
+#include "methods/program/status.hpp"
+#include "methods/runtime/parsed.hpp"
+#include "methods/tables/table_file.hpp"
 
 namespace dmocbench {
 
@@ -30,6 +35,20 @@ std::vector<SharedBy> respects_of(const Experiment& experiment) {
   return respects;
 }
 
+/// Throws `Error` if a row holds what no run writes: a number that is none, or an answer without its cost.
+void require_measured(const Row& row, const std::vector<std::string>& columns, const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& column) {
+    throw Error(fmt::format("{}: {} of case {} is {}, which no run writes; remove the file and run that part again",
+                            file.string(), column, row.text(case_column),
+                            row.text(column).empty() ? "missing" : row.text(column)));
+  };
+  for (const std::string& column : columns) {
+    const auto number = parsed<double>(row.text(column));
+    if (number && !std::isfinite(*number)) refuse(column);
+  }
+  if (is_solved(status_named(row.text("status"))) && !row.number("objective")) refuse("objective");
+}
+
 /// What the metadata of the whole run tell of its parts and of the machines that they ran on.
 void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
   Json machines = Json::array();
@@ -47,9 +66,10 @@ void describe_parts(const std::vector<PartFile>& files, Json& metadata) {
     times.push_back(file.description.at("utc_time"));
   }
   // Times in the table are those of these machines, not of the one that joins them.
-  for (const auto& [key, first] : machines.front().items()) {
-    const auto is_equal = [&key = key, &first = first](const Json& machine) { return machine.at(key) == first; };
-    if (key != "host") metadata[key] = std::ranges::all_of(machines, is_equal) ? first : Json("several, see parts");
+  for (const char* const key : keys_of_machine) {
+    const Json& first = machines.front().at(key);
+    const auto is_equal = [key, &first](const Json& machine) { return machine.at(key) == first; };
+    metadata[key] = std::ranges::all_of(machines, is_equal) ? first : Json("several, see parts");
   }
   for (std::size_t i = 0; i < machines.size(); ++i) machines[i]["parts"] = in_ranges(numbers[i]);
   const auto [first, last] = std::ranges::minmax(times);
@@ -108,9 +128,7 @@ bool PartsOfRun::is_there(const Part& part) const {
 }
 
 void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
-  std::vector<std::string> columns{case_column};
-  columns.insert(columns.end(), columns_.begin(), columns_.end());
-  Table table(columns);
+  Table table(columns_of_part());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::optional<Row>& measured = rows[i];
     if (!measured) continue;
@@ -137,12 +155,24 @@ std::vector<std::size_t> PartsOfRun::missing() const {
   return numbers;
 }
 
-void PartsOfRun::take_rows(const PartFile& file, RowsOfCases& rows) {
-  const Table table = Table::from_csv(file.table);
+std::vector<std::string> PartsOfRun::columns_of_part() const {
+  std::vector<std::string> columns{case_column};
+  columns.insert(columns.end(), columns_.begin(), columns_.end());
+  return columns;
+}
+
+void PartsOfRun::take_rows(const PartFile& file, RowsOfCases& rows) const {
+  const Table table = table_in(file.table, file.path);
+  if (table.columns() != columns_of_part()) {
+    throw Error(fmt::format("{} has other columns than this run writes; remove it and run that part again",
+                            file.path.string()));
+  }
   for (const Row& row : table.rows()) {
-    const auto number = static_cast<std::size_t>(row.needed(case_column));
+    require_measured(row, columns_, file.path);
+    const std::size_t number = parsed<std::size_t>(row.text(case_column)).value_or(0);
     if (number < 1 || number > rows.size() || rows[number - 1]) {
-      throw Error(fmt::format("{} has a row of case {}, which is not its own", file.path.string(), number));
+      throw Error(
+          fmt::format("{} has a row of case {}, which is not its own", file.path.string(), row.text(case_column)));
     }
     rows[number - 1] = row;
   }
@@ -156,7 +186,7 @@ RowsOfCases PartsOfRun::join(Json& metadata) const {
   RowsOfCases rows(cases_.size());
   for (const PartFile& file : files) {
     take_rows(file, rows);
-    experiment_.add_findings(file.description.at("findings"));
+    experiment_.add_findings(JsonPlace(file.description, file.path.string()).at("findings"));
   }
   const auto lost = std::ranges::find(rows, false, &std::optional<Row>::has_value);
   if (lost != rows.end())

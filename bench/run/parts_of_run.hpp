@@ -40,14 +40,16 @@ class PartsOfRun {
   [[nodiscard]] std::vector<std::size_t> missing() const;
 
   /// The rows of all cases from the parts in some folders; hands the experiment their findings, and says in the
-  /// metadata what they were made by. Throws `Error` that names it if a part is missing, damaged, there twice or of
-  /// another run.
+  /// metadata what they were made by. Throws `Error` that names it if a part is missing, damaged, there twice, of
+  /// another run, or has what no run writes.
   [[nodiscard]] RowsOfCases join(nlohmann::ordered_json& metadata) const;
 
  private:
   [[nodiscard]] std::filesystem::path file_of(const Part& part) const;
   [[nodiscard]] bool is_there(const Part& part) const;
-  static void take_rows(const PartFile& file, RowsOfCases& rows);
+  /// The number of the case, then the columns of the table.
+  [[nodiscard]] std::vector<std::string> columns_of_part() const;
+  void take_rows(const PartFile& file, RowsOfCases& rows) const;
 
   Experiment& experiment_;
   const std::vector<Case>& cases_;

@@ -26,18 +26,6 @@ nlohmann::ordered_json& loaded_libraries() {
   return libraries;
 }
 
-std::vector<std::string> libraries_of_environment() {
-  std::vector<std::string> libraries;
-  const char* const value = std::getenv("DMOCBENCH_LIBRARIES");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-  std::string_view rest = value == nullptr ? "" : value;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(':'), rest.size());
-    if (end > 0) libraries.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return libraries;
-}
-
 void load(const std::filesystem::path& file) {
   std::error_code none;  // a file that is not there is refused below
   const std::string path = std::filesystem::weakly_canonical(file, none).string();
@@ -53,6 +41,18 @@ void load(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::vector<std::string> libraries_of_environment() {
+  std::vector<std::string> libraries;
+  const char* const value = std::getenv("DMOCBENCH_LIBRARIES");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  std::string_view rest = value == nullptr ? "" : value;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) libraries.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return libraries;
+}
 
 void add_library_option(CommandLine& line, std::vector<std::string>& libraries) {
   line.option("--library", libraries,

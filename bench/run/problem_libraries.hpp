@@ -12,8 +12,11 @@ namespace dmocbench {
 /// Registers the option --library of a program that takes problems by their names.
 void add_library_option(CommandLine& line, std::vector<std::string>& libraries);
 
-/// Loads the libraries of problems that the environment variable DMOCBENCH_LIBRARIES names (colons between them), then
-/// the given ones, each once, and adds their problems to the known ones. Throws `Error` as `load_problem_library`.
+/// The libraries of problems that the environment variable DMOCBENCH_LIBRARIES names (colons between them).
+[[nodiscard]] std::vector<std::string> libraries_of_environment();
+
+/// Loads those of the environment, then the given ones, each once, and adds their problems to the known ones. Throws
+/// `Error` as `load_problem_library`.
 void load_problem_libraries(const std::vector<std::string>& libraries);
 
 /// Registers --library behind all other options, parses, and loads the libraries; the program and its arguments.

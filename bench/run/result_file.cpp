@@ -121,6 +121,20 @@ OutputFolder::~OutputFolder() {
   for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, none);
 }
 
+void require_name_of_table(const std::string& name) {
+  constexpr std::size_t longest = 100;  // what names of files begin with
+  const auto does_not_fit = [](unsigned char letter) { return letter == '/' || std::iscntrl(letter) != 0; };
+  if (name.empty() || name.starts_with('.') || name.starts_with('-') || std::ranges::any_of(name, does_not_fit)) {
+    throw Error(
+        fmt::format("--name \"{}\" must be a file's name without a folder, and without a dot or a dash in front; --out "
+                    "names the folder",
+                    name));
+  }
+  if (name.size() > longest) {
+    throw Error(fmt::format("--name takes at most {} letters, not {}", longest, name.size()));
+  }
+}
+
 const std::string& host_name() {
   static const std::string name = [] {
     std::array<char, 64> letters{};

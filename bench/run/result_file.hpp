@@ -30,6 +30,10 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
+/// Throws `Error` unless the name of a table, given by --name, is that of a file in the results folder: not empty, at
+/// most 100 letters, no slash, no control character, and no dot or dash in front.
+void require_name_of_table(const std::string& name);
+
 /// The name of this machine, fit to be part of a file's name: letters, digits and dashes.
 [[nodiscard]] const std::string& host_name();
 

@@ -84,8 +84,7 @@ Json identity_of(const ExperimentCard& card, const std::vector<Case>& cases, con
 
 Json machine_of(const Json& metadata) {
   Json machine{{"host", host_name()}};
-  for (const char* const key : {"processor", "cores", "memory_gib", "operating_system"})
-    machine[key] = metadata.at(key);
+  for (const char* const key : keys_of_machine) machine[key] = metadata.at(key);
   return machine;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,10 @@ namespace dmocbench {
                                                  const nlohmann::ordered_json& metadata,
                                                  const std::vector<std::pair<std::string, std::string>>& options);
 
-/// The machine that a part ran on, from its metadata.
+/// What metadata tell of a machine.
+inline constexpr std::array keys_of_machine{"processor", "cores", "memory_gib", "operating_system"};
+
+/// The machine that a part ran on, from its metadata: those keys and "host".
 [[nodiscard]] nlohmann::ordered_json machine_of(const nlohmann::ordered_json& metadata);
 
 }  // namespace dmocbench

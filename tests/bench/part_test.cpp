@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/run/case_batch.hpp"
+#include "bench/run/json_place.hpp"
 #include "bench/run/part_file.hpp"
 #include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
@@ -120,9 +121,21 @@ TEST(Dealing, MixesFineAndCoarseGrids) {
 
 using PartFiles = tests::InTemporaryFolder;
 
+/// The description of a part as every run writes it.
+nlohmann::ordered_json description(const std::string& part) {
+  return {
+      {"part", part},
+      {"commit", "a"},
+      {"identity", {{"experiment", "objective"}, {"x", 0.1}}},
+      {"command_line", {"objective", "--part", part}},
+      {"utc_time", "2026-01-01T00:00:00Z"},
+      {"machine", {{"host", "h"}, {"processor", "p"}, {"cores", 2}, {"memory_gib", 1.0}, {"operating_system", "s"}}},
+      {"findings", nullptr}};
+}
+
 TEST_F(PartFiles, AreReadAsTheyWereWritten) {
   const PartFile written{.path = folder() / "1-of-2.part",
-                         .description = {{"part", "1/2"}, {"identity", {{"x", 0.1}}}, {"commit", "a"}},
+                         .description = description("1/2"),
                          .table = "case,message\n3,\"a, \"\"b\"\"\nc\"\n"};
   write_part(written);
   const PartFile read = read_part(written.path);
@@ -137,13 +150,56 @@ TEST_F(PartFiles, AreNoneWithOneByteMissingOrChanged) {
     std::ofstream(path) << content;
     expect_error_naming({"1-of-1.part"}, [&] { static_cast<void>(read_part(path)); });
   };
-  write_part({.path = path, .description = {{"part", "1/1"}, {"identity", 1}, {"commit", "a"}}, .table = "case\n1\n"});
+  write_part({.path = path, .description = description("1/1"), .table = "case\n1\n"});
   const std::string whole = read_file(path);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string changed = whole;
     changed[i] = static_cast<char>(changed[i] ^ 1);
     expect_none(changed);
     expect_none(whole.substr(0, i));
+  }
+}
+
+TEST_F(PartFiles, NameThemselvesAndTheKeyThatIsMissingOrOfAnotherType) {
+  const std::filesystem::path path = folder() / "1-of-1.part";
+  const auto refused = [&path](const nlohmann::ordered_json& changed, const std::string& key) {
+    write_part({.path = path, .description = changed, .table = "case\n1\n"});
+    expect_error_naming({"1-of-1.part", key}, [&] { static_cast<void>(read_part(path)); });
+  };
+  const nlohmann::ordered_json whole = description("1/1");
+  for (const auto& [key, value] : whole.items()) {
+    nlohmann::ordered_json changed = whole;
+    changed.erase(key);
+    refused(changed, key);
+    if (key == "findings") continue;  // which the experiment judges
+    for (const nlohmann::ordered_json& other : {nlohmann::ordered_json(7), nlohmann::ordered_json::array({7})}) {
+      changed[key] = other;
+      refused(changed, key);
+    }
+  }
+}
+
+TEST(Json, IsReadByTypeOrRefusedByFileKeyAndContent) {
+  const nlohmann::ordered_json json{{"outer", {{"text", "a"}, {"number", 1}, {"flag", true}, {"list", {"x", 2}}}}};
+  const JsonPlace outer = JsonPlace(json, "f.json").at("outer");
+  EXPECT_EQ(outer.at("text").text(), "a");
+  EXPECT_EQ(outer.at("number").number(), 1.0);
+  EXPECT_TRUE(outer.at("flag").boolean());
+  expect_error_naming({"f.json", "outer none", "missing"}, [&] { static_cast<void>(outer.at("none")); });
+  expect_error_naming({"f.json", "outer text", "\"a\"", "number"},
+                      [&] { static_cast<void>(outer.at("text").number()); });
+  expect_error_naming({"outer number", "1", "text"}, [&] { static_cast<void>(outer.at("number").text()); });
+  expect_error_naming({"outer flag", "true", "text"}, [&] { static_cast<void>(outer.at("flag").text()); });
+  expect_error_naming({"outer text", "true or false"}, [&] { static_cast<void>(outer.at("text").boolean()); });
+  expect_error_naming({"outer list 2", "2", "text"}, [&] { static_cast<void>(outer.at("list").texts()); });
+  expect_error_naming({"outer", "object", "array"}, [&] { static_cast<void>(outer.entries()); });
+  expect_error_naming({"outer text", "object"}, [&] { static_cast<void>(outer.at("text").at("deeper")); });
+}
+
+TEST(TableName, IsThatOfAFileInItsFolder) {
+  for (const char* const name : {"objective", "a b", "x.csv", "é"}) EXPECT_NO_THROW(require_name_of_table(name));
+  for (const char* const name : {"", ".", "..", ".hidden", "-x", "a/b", "/tmp/x", "a\nb", "\x1b[31m"}) {
+    expect_error_naming({"--name"}, [&] { require_name_of_table(name); });
   }
 }
 

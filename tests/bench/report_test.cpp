@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "bench/experiment/result_file.hpp"
+#include "bench/run/result_file.hpp"
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/html.hpp"

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace dmocbench {
+
+/// A value in a JSON file that others may have written: what is missing, or of another type than is read, is an `Error`
+/// that names the file, the place and what stands there. It refers to the JSON, which has to outlive it.
+class JsonPlace {
+ public:
+  /// The whole of `json`; `file` is its name for errors.
+  JsonPlace(const nlohmann::ordered_json& json, std::string file) : JsonPlace(json, std::move(file), "") {}
+
+  /// True of an object that has this key.
+  [[nodiscard]] bool has(const std::string& key) const;
+  /// The value of a key. Throws `Error` if this is no object or lacks it.
+  [[nodiscard]] JsonPlace at(const std::string& key) const;
+  /// The keys of an object and their values. Throws `Error` if this is none.
+  [[nodiscard]] std::vector<std::pair<std::string, JsonPlace>> members() const;
+  /// The entries of an array. Throws `Error` if this is none.
+  [[nodiscard]] std::vector<JsonPlace> entries() const;
+  /// The value. Each throws `Error` if it is of another type.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] double number() const;
+  [[nodiscard]] bool boolean() const;
+  /// The entries of an array of texts.
+  [[nodiscard]] std::vector<std::string> texts() const;
+  /// What stands there.
+  [[nodiscard]] const nlohmann::ordered_json& json() const noexcept { return *json_; }
+
+ private:
+  JsonPlace(const nlohmann::ordered_json& json, std::string file, std::string path)
+      : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
+  /// Throws `Error`: the place is not `wanted`, such as "a text".
+  [[noreturn]] void refuse(const char* wanted) const;
+  [[nodiscard]] JsonPlace inner(const nlohmann::ordered_json& json, const std::string& key) const;
+
+  const nlohmann::ordered_json* json_;
+  std::string file_;
+  std::string path_;  // keys with spaces between them; empty for the whole
+};
+
+}  // namespace dmocbench
