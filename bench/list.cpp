@@ -100,7 +100,10 @@ std::string guess_in_words(const Problem& problem) {
     const double t = share * problem.horizon();
     const MotionPoint own = problem.guess(t);
     const MotionPoint usual = problem.Problem::guess(t);
-    if (own.q != usual.q || own.v != usual.v || own.u != usual.u) {
+    const auto differ = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+      return a.size() != b.size() || a != b;
+    };
+    if (differ(own.q, usual.q) || differ(own.v, usual.v) || differ(own.u, usual.u)) {
       return "one of its own, which its card (ProblemCard::guess) does not describe";
     }
   }

@@ -107,8 +107,6 @@ void load_problem_library(const std::filesystem::path& file, Registry& registry)
   Registry problems;
   try {
     entry_of(path)(problems);
-  } catch (const Error&) {
-    throw;
   } catch (const std::exception& error) {
     throw Error(fmt::format("a problem of {} cannot be made: {}", path.string(), error.what()));
   } catch (...) {

@@ -31,7 +31,8 @@ class Registry {
 
   /// In the order in which they were added.
   [[nodiscard]] std::vector<std::string> names() const;
-  /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none.
+  /// The problem of that name with its default parameters. Throws `Error` that lists the names if there is none, or as
+  /// `check_problem`.
   [[nodiscard]] std::unique_ptr<Problem> make(std::string_view name) const;
   /// Where the problem of that name comes from; empty for what was added one by one. Throws as `make`.
   [[nodiscard]] const std::string& origin(std::string_view name) const;

@@ -4,6 +4,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/problem_check.hpp"
 #include "problems/acrobot.hpp"
 #include "problems/beam.hpp"
 #include "problems/brachistochrone.hpp"
@@ -88,7 +89,11 @@ void Registry::add_all(const Registry& others, const std::string& origin) {
 
 std::vector<std::string> Registry::names() const { return names_of(entries_, &Entry::name); }
 
-std::unique_ptr<Problem> Registry::make(std::string_view name) const { return entry(name).make(); }
+std::unique_ptr<Problem> Registry::make(std::string_view name) const {
+  std::unique_ptr<Problem> problem = entry(name).make();
+  check_problem(*problem);
+  return problem;
+}
 
 const std::string& Registry::origin(std::string_view name) const { return entry(name).origin; }
 

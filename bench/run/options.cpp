@@ -15,6 +15,7 @@
 #include "bench/run/result_file.hpp"
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/problem_check.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/elements/element.hpp"
@@ -265,6 +266,9 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
     };
     if (std::ranges::none_of(problems, has_parameter)) problems.back()->set_parameter(name, value);  // throws
     for (const auto& problem : problems | std::views::filter(has_parameter)) problem->set_parameter(name, value);
+  }
+  if (!settings.empty()) {  // bounds and ends may have moved
+    for (const auto& problem : problems) check_problem(*problem);
   }
   return {problems.begin(), problems.end()};
 }

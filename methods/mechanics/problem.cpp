@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/asked.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 #include "methods/mechanics/point_function.hpp"
 
@@ -51,7 +52,8 @@ std::optional<double> magnitude_of_guessed_cost(const Problem& problem) {
   if (n == 0 || !has_ends || !(horizon > 0.0)) return std::nullopt;
   PointFunction cost(n, m, [&](const ControlledState& x) {
     ExpressionVector both(2);
-    both << problem.running_cost(x), problem.final_cost(x.state());
+    both << asked(problem, "running_cost", [&] { return problem.running_cost(x); }),
+        asked(problem, "final_cost", [&] { return problem.final_cost(x.state()); });
     return both;
   });
   Eigen::Vector2d values;

@@ -10,6 +10,8 @@
 #include "methods/error.hpp"
 #include "methods/expression/derivatives.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/parameter_scope.hpp"
 
 namespace dmocbench {
@@ -19,27 +21,6 @@ namespace {
 void require_size(Eigen::Index actual, Eigen::Index wanted, const Problem& problem, const char* formula) {
   if (actual == wanted) return;
   throw Error(fmt::format("{}: {} has {} entries, expected {}", problem.name(), formula, actual, wanted));
-}
-
-/// Names of q and u are columns of tables side by side, so that each needs one of its own.
-void require_names(const Problem& problem) {
-  std::vector<std::string> names = problem.configuration_names();
-  const std::vector<std::string> controls = problem.control_names();
-  names.insert(names.end(), controls.begin(), controls.end());
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    const char* fault = nullptr;
-    if (name->empty() || name->find_first_of(",\"\n\r") != std::string::npos) {
-      fault = "is no name of a column: it is empty, or has a comma, a quotation mark or a line break";
-    } else if (*name == "t") {
-      fault = "is the name of the time";
-    } else if (std::find(names.begin(), name, *name) != name) {
-      fault = "names two of them";
-    }
-    if (fault != nullptr) {
-      throw Error(
-          fmt::format(R"({}: among configuration_names and control_names "{}" {})", problem.name(), *name, fault));
-    }
-  }
 }
 
 /// Constraints have names all or none.
@@ -87,11 +68,13 @@ class FormulaReader {
 }  // namespace
 
 TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::string>& open_parameters)
-    : n_(problem.configuration_size()), m_(problem.control_size()) {
-  if (n_ == 0) throw Error(problem.name() + ": configuration_names is empty; a problem needs a configuration");
+    : n_(asked(problem, "configuration_names", [&] { return problem.configuration_size(); })),
+      m_(asked(problem, "control_names", [&] { return problem.control_size(); })) {
   require_names(problem);
   const Eigen::VectorXd values = parameter_values(problem);
-  const ProblemCard card = problem.card();  // before the trace: parameters that it reads are no constants of formulas
+  const ProblemCard card = asked(problem, "card", [&] {
+    return problem.card();
+  });  // before the trace: parameters that it reads are no constants of formulas
   const ParameterTrace parameters(problem, open_parameters);
   open_ = parameters.open();
   open_values_.resize(static_cast<Eigen::Index>(open_.size()));
@@ -110,8 +93,8 @@ TracedProblem::TracedProblem(const Problem& problem, const std::vector<std::stri
 void TracedProblem::trace_formulas(const Problem& problem) {
   InputCounter inputs(open_.size());
   const ControlledState point{inputs.take(n_), inputs.take(n_), inputs.take(m_), inputs.take()};
-  const Expression lagrangian = problem.lagrangian(point.state());
-  const ExpressionVector force = problem.force(point);
+  const Expression lagrangian = asked(problem, "lagrangian", [&] { return problem.lagrangian(point.state()); });
+  const ExpressionVector force = asked(problem, "force", [&] { return problem.force(point); });
   require_size(force.size(), n_, problem, "force");
 
   const ExpressionVector momentum = gradient(lagrangian, point.v);
@@ -130,8 +113,9 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   append(formulas, momentum);
   append(formulas, configuration_force);
   append(formulas, force);
-  formulas.push_back(problem.running_cost(point));
-  const ExpressionVector path_constraints = problem.path_constraints(point);
+  formulas.push_back(asked(problem, "running_cost", [&] { return problem.running_cost(point); }));
+  const ExpressionVector path_constraints =
+      asked(problem, "path_constraints", [&] { return problem.path_constraints(point); });
   path_constraints_ = path_constraints.size();
   append(formulas, path_constraints);
   append(formulas, mass);
@@ -139,7 +123,7 @@ void TracedProblem::trace_formulas(const Problem& problem) {
   const ExpressionVector momentum_by_time = jacobian(momentum, ExpressionVector::Constant(1, point.t));
   momentum_depends_on_time_ = !std::all_of(momentum_by_time.begin(), momentum_by_time.end(), is_zero);
   append(formulas, momentum_by_time);
-  if (const auto generator = problem.symmetry(point.q)) {
+  if (const auto generator = asked(problem, "symmetry", [&] { return problem.symmetry(point.q); })) {
     require_size(generator->size(), n_, problem, "symmetry");
     has_symmetry_ = true;
     append(formulas, *generator);
@@ -154,11 +138,12 @@ void TracedProblem::trace_ends(const Problem& problem) {
   InputCounter inputs(open_.size());
   const State first{inputs.take(n_), inputs.take(n_), Expression(0.0)};
   const State last{inputs.take(n_), inputs.take(n_), inputs.take()};
-  const ExpressionVector conditions = problem.boundary_conditions(first, last);
+  const ExpressionVector conditions =
+      asked(problem, "boundary_conditions", [&] { return problem.boundary_conditions(first, last); });
   boundary_conditions_ = conditions.size();
   std::vector<Expression> formulas;
   append(formulas, conditions);
-  formulas.push_back(problem.final_cost(last));
+  formulas.push_back(asked(problem, "final_cost", [&] { return problem.final_cost(last); }));
   ends_ = Schedule(formulas);
 }
 

@@ -1,6 +1,5 @@
 #include "methods/tables/motion_file.hpp"
 
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <utility>
@@ -167,22 +166,6 @@ Table picture_table(const Problem& problem, const Trajectory& trajectory) {
   const Unit time = problem.card().time_unit;
   return series_table(name_with_unit("t", time.name), trajectory.node_times * time.factor,
                       {{"", names, values, "a quantity of the picture", units}}, time.name);
-}
-
-std::string name_with_unit(const std::string& name, const std::string& unit) {
-  std::string word;
-  for (const char letter : unit.starts_with("1/") ? unit.substr(1) : unit) {
-    if (letter == '/') word += word.empty() ? "per_" : "_per_";
-    if (letter == ' ') word += '_';
-    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) word += letter;
-  }
-  return word.empty() ? name : name + "_in_" + word;
-}
-
-std::pair<std::string, std::string> name_and_unit(const std::string& column) {
-  const std::size_t end = column.rfind("_in_");
-  if (end == std::string::npos) return {column, ""};
-  return {column.substr(0, end), column.substr(end + 4)};
 }
 
 void write_motion(const Problem& problem, const Trajectory& trajectory, const std::filesystem::path& nodes_file) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "methods/mechanics/column_names.hpp"
 #include "methods/mechanics/problem.hpp"
 #include "methods/tables/table.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
@@ -21,12 +22,6 @@ namespace dmocbench {
 /// What a picture shows, at the nodes: `t` in the problem's unit of time, then the quantities of
 /// `ProblemCard::picture`, each named by `name_with_unit`. The control at a node is that of `control_at`.
 [[nodiscard]] Table picture_table(const Problem& problem, const Trajectory& trajectory);
-
-/// A column's name that tells its unit and that MATLAB and R keep: "t_in_s", "thrust_in_m_per_s2", "tau_in_N_m"; the
-/// name alone where there is no unit.
-[[nodiscard]] std::string name_with_unit(const std::string& name, const std::string& unit);
-/// The name and the unit, as such a column spells it; the unit is empty where none is told.
-[[nodiscard]] std::pair<std::string, std::string> name_and_unit(const std::string& column);
 
 /// Writes a motion: its nodes to X_nodes.csv, the file that is named, and its stages to X_stages.csv beside it. Throws
 /// `Error` if the name has another ending or a file cannot be written.

@@ -10,6 +10,7 @@
 
 #include "methods/choose.hpp"
 #include "methods/error.hpp"
+#include "methods/mechanics/problem_check.hpp"
 #include "methods/transcription/derivatives/part_places.hpp"
 #include "methods/transcription/motions/guess_check.hpp"
 #include "methods/transcription/program_floors.hpp"
@@ -17,12 +18,6 @@
 namespace dmocbench {
 
 namespace {
-
-double positive_cost_scale(const Problem& problem) {
-  const double scale = problem.cost_scale();
-  if (scale > 0.0 && std::isfinite(scale)) return scale;
-  throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
-}
 
 LayoutShape layout_shape(std::size_t intervals, const TracedProblem& traced, const Tableau& tableau,
                          const EndRules& ends, const IntervalFunctions& functions) {

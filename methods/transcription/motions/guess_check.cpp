@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/mechanics/asked.hpp"
 #include "methods/mechanics/formula_check.hpp"
+#include "methods/mechanics/problem_check.hpp"
 #include "methods/numerics/dense_solve.hpp"
 
 namespace dmocbench {
@@ -25,13 +27,7 @@ std::string place_of(double t, const Problem& problem, const Grid& grid) {
 
 /// What is wrong with a point of the guess; empty if nothing is.
 std::string flaw_of(const MotionPoint& point, const TracedProblem& traced) {
-  const auto flaw_of_size = [](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
-    return part.size() == size ? "" : fmt::format("{} has {} entries, expected {}", name, part.size(), size);
-  };
-  const Eigen::Index n = traced.configuration_size();
-  std::string flaw = flaw_of_size("q", point.q, n);
-  if (flaw.empty()) flaw = flaw_of_size("v", point.v, n);
-  if (flaw.empty()) flaw = flaw_of_size("u", point.u, traced.control_size());
+  const std::string flaw = flaw_of_sizes(point, traced.configuration_size(), traced.control_size());
   if (!flaw.empty()) return flaw;
   const bool is_finite = point.q.allFinite() && point.v.allFinite() && point.u.allFinite();
   return is_finite ? "" : "the guess itself is not a number";
@@ -68,7 +64,7 @@ GuessMagnitudes check_guess(const Problem& problem, const TracedProblem& traced,
   Eigen::VectorXd times(count + 2);
   for (int i = 0; i < count; ++i) {
     times[i] = horizon * (i + 0.5) / count;
-    points.push_back(problem.guess(times[i]));
+    points.push_back(asked(problem, "guess", [&] { return problem.guess(times[i]); }));
     const std::string flaw = flaw_of(points.back(), traced);
     if (!flaw.empty()) throw Error(place_of(times[i], problem, grid) + flaw);
   }

@@ -1,0 +1,33 @@
+#include "methods/mechanics/asked.hpp"
+
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/runtime/stop_scope.hpp"
+
+namespace dmocbench {
+
+void throw_as_told_by(const Problem& problem, const char* function) {
+  const std::string name = problem.name();
+  try {
+    throw;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).starts_with(name)) throw;
+    throw Error(fmt::format("{}: {}: {}", name, function, error.what()));
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: {} throws an exception: {}", name, function, error.what()));
+  } catch (...) {
+    throw Error(
+        fmt::format("{}: {} throws what is no std::exception; throw dmocbench::Error with a sentence", name, function));
+  }
+}
+
+}  // namespace dmocbench

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "methods/mechanics/problem.hpp"
+
+namespace dmocbench {
+
+/// The problem's bounds, complete (no part is empty), those of q also applied to both ends. Throws `Error` that names
+/// the function if a size is wrong, a lower bound is above the upper one, no value is left at an end (for v by those of
+/// the ends and of the stages together), or the state or the horizon of the problem lies outside.
+[[nodiscard]] ProblemBounds problem_bounds(const Problem& problem);
+
+/// The same for bounds that are given in place of the problem's, whose states may lie outside of them.
+[[nodiscard]] ProblemBounds complete_bounds(const Problem& problem, ProblemBounds bounds);
+
+}  // namespace dmocbench

@@ -1,0 +1,127 @@
+#include "methods/mechanics/problem_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "methods/error.hpp"
+#include "methods/expression/vectors.hpp"
+#include "methods/mechanics/asked.hpp"
+#include "methods/mechanics/column_names.hpp"
+#include "methods/mechanics/problem_bounds.hpp"
+#include "methods/mechanics/traced_problem.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Throws `Error` if a text of `owner`, such as "card().source", would leave its line or be obeyed by a terminal.
+void require_one_line(const Problem& problem, std::string_view owner, std::string_view text) {
+  if (!has_control_character(text)) return;
+  throw Error(
+      fmt::format("{}: {} has a line break or another control character; write it on one line", problem.name(), owner));
+}
+
+void check_parameters(const Problem& problem) {
+  for (const Parameter& parameter : problem.parameters()) {
+    const auto is_odd = [](unsigned char letter) {
+      return letter <= ' ' || std::string_view("=,\"\x7f").find(static_cast<char>(letter)) != std::string_view::npos;
+    };
+    if (parameter.name.empty() || std::ranges::any_of(parameter.name, is_odd)) {
+      throw Error(
+          fmt::format("{}: a parameter has no name for --set NAME=VALUE: it is empty, or has a blank, a control "
+                      "character, an equals sign, a comma or a quotation mark",
+                      problem.name()));
+    }
+    const std::string owner = "parameter " + parameter.name;
+    require_one_line(problem, "the unit of " + owner, parameter.unit);
+    require_one_line(problem, "the meaning of " + owner, parameter.meaning);
+  }
+}
+
+void check_guess_sizes(const Problem& problem) {
+  constexpr int points = 64;
+  for (int i = 0; i <= points; ++i) {
+    const double t = problem.horizon() * i / points;
+    const MotionPoint point = asked(problem, "guess", [&] { return problem.guess(t); });
+    const std::string flaw = flaw_of_sizes(point, problem.configuration_size(), problem.control_size());
+    if (!flaw.empty()) throw Error(fmt::format("{}: guess({:g}): {}", problem.name(), t, flaw));
+  }
+}
+
+void check_reference(const Problem& problem, const ReferenceOptimum& reference) {
+  constexpr int most_digits = 17;  // of a double
+  const std::string owner = problem.name() + ": card().reference";
+  if (reference.digits < 0 || reference.digits > most_digits) {
+    throw Error(fmt::format("{} has {} digits; a double has between 0 and {}", owner, reference.digits, most_digits));
+  }
+  if (!std::isfinite(reference.objective)) throw Error(owner + ": the objective is not a finite number");
+  require_one_line(problem, "card().reference.certificate", reference.certificate);
+  require_one_line(problem, "card().reference.remark", reference.remark);
+  for (const PublishedOptimum& published : reference.published) {
+    if (!std::isfinite(published.objective)) throw Error(owner + ": a published objective is not a finite number");
+    require_one_line(problem, "card().reference.published", published.source);
+  }
+}
+
+void check_card(const Problem& problem, const ProblemCard& card) {
+  require_one_line(problem, "card().description", card.description);
+  require_one_line(problem, "card().source", card.source);
+  require_one_line(problem, "card().guess", card.guess);
+  require_one_line(problem, "card().time_unit", card.time_unit.name);
+  for (const std::string& name : card.path_constraint_names) {
+    require_one_line(problem, "card().path_constraint_names", name);
+  }
+  for (const std::string& name : card.boundary_condition_names) {
+    require_one_line(problem, "card().boundary_condition_names", name);
+  }
+  if (!(card.time_unit.factor > 0.0) || !std::isfinite(card.time_unit.factor)) {
+    throw Error(fmt::format("{}: card().time_unit.factor must be a positive number, got {:g}", problem.name(),
+                            card.time_unit.factor));
+  }
+  if (card.reference) check_reference(problem, *card.reference);
+}
+
+void check_picture(const Problem& problem) {
+  InputCounter inputs;
+  ControlledState x;
+  x.q = inputs.take(problem.configuration_size());
+  x.v = inputs.take(problem.configuration_size());
+  x.u = inputs.take(problem.control_size());
+  x.t = inputs.take();
+  const Picture picture = asked(problem, "card().picture", [&] { return pictured_quantities(problem, x); });
+  for (const PictureQuantity& quantity : picture) require_one_line(problem, "a unit of the picture", quantity.unit);
+  require_names(problem, picture);
+}
+
+}  // namespace
+
+void check_problem(const Problem& problem) {
+  check_parameters(problem);
+  const TracedProblem traced(problem);
+  static_cast<void>(problem_bounds(problem));
+  check_guess_sizes(problem);
+  static_cast<void>(positive_cost_scale(problem));
+  check_card(problem, asked(problem, "card", [&] { return problem.card(); }));
+  check_picture(problem);
+}
+
+double positive_cost_scale(const Problem& problem) {
+  const double scale = asked(problem, "cost_scale", [&] { return problem.cost_scale(); });
+  if (scale > 0.0 && std::isfinite(scale)) return scale;
+  throw Error(fmt::format("{}: cost_scale must be a positive number, got {:g}", problem.name(), scale));
+}
+
+std::string flaw_of_sizes(const MotionPoint& point, Eigen::Index n, Eigen::Index m) {
+  const auto flaw_of = [](const char* name, const Eigen::VectorXd& part, Eigen::Index size) {
+    return part.size() == size ? "" : fmt::format("{} has {} entries, expected {}", name, part.size(), size);
+  };
+  std::string flaw = flaw_of("q", point.q, n);
+  if (flaw.empty()) flaw = flaw_of("v", point.v, n);
+  if (flaw.empty()) flaw = flaw_of("u", point.u, m);
+  return flaw;
+}
+
+}  // namespace dmocbench
