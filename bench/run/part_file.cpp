@@ -52,7 +52,9 @@ std::vector<std::filesystem::path> part_files_in(const std::vector<std::filesyst
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(parts, none)) {
       const std::filesystem::path& path = entry.path();
-      if (path.extension() == ".part" && !path.filename().string().starts_with('.')) files.push_back(path);
+      std::error_code unknown;  // what is no file may never end
+      const bool is_file = entry.is_regular_file(unknown);
+      if (is_file && path.extension() == ".part" && !path.filename().string().starts_with('.')) files.push_back(path);
     }
     if (none) throw Error(fmt::format("there are no parts of {} in {}: {}", name, parts.string(), none.message()));
   }

@@ -107,7 +107,8 @@ ProblemBounds problem_bounds(const Problem& problem) {
   require_state(first, problem, "initial_state");
   require_state(last, problem, "final_state");
   if (!(horizon > 0.0) || !std::isfinite(horizon)) {
-    throw Error(fmt::format("{}: the horizon must be positive and finite, got {:g}", problem.name(), horizon));
+    throw Error(fmt::format("{}: the horizon must be {}, got {:g}", problem.name(),
+                            horizon > 0.0 ? "finite" : "positive", horizon));
   }
   ProblemBounds bounds = complete_bounds(problem, asked(problem, "bounds", [&] { return problem.bounds(); }));
   require_inside(horizon, bounds.horizon.lower, bounds.horizon.upper, problem.name() + ": horizon");

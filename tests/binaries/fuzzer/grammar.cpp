@@ -32,7 +32,7 @@ const Values& known_values() {
       {"--grid", {"grid.txt", "bad_grid.txt", "narrow.txt", "file", "folder", "dangling"}},
       {"--intervals", {"2", "4", "8", "4,8", "2:32", "16,4,16", "3", "8:4", "16,", "1,2"}},
       {"--from", {"results", "folder", "none", "file", "."}},
-      {"--name", {"table", "a b", ".", "..", ".hidden", "x.csv", "other/place"}},
+      {"--name", {"table", "a b", ".", "..", ".hidden", "-dash", "x.csv", "other/place"}},
       {"--join", {"results", "folder", "none", "file"}},
       {"--library", {"folder", "none", "file", "dangling"}},
       {"--missing-parts", {"1", "3", "0"}},
