@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/run/command_line.hpp"
+#include "bench/run/joining_run.hpp"
 #include "bench/run/part_file.hpp"
 #include "bench/run/problem_libraries.hpp"
-#include "bench/run/joining_run.hpp"
 
 namespace dmocbench::merge_program {
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "bench/run/result_file.hpp"
 #include "bench/report/compared_tables.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/html.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/reached_optima.hpp"
+#include "bench/run/result_file.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/temporary_folder.hpp"
 

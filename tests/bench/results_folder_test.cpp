@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/run/result_file.hpp"
 #include "bench/report/comparison_page.hpp"
 #include "bench/report/page.hpp"
+#include "bench/run/result_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dmocbench {

@@ -33,7 +33,7 @@ void check(const std::filesystem::path& nl) {
 }
 
 int write(CommandLine& line) {
-  ExperimentOptions options{.intervals = "128", .start = "guess"};
+  ExperimentOptions options{.intervals = "128", .start = "guess", .name = "write-nl"};
   std::string file;
   add_options(line, options);
   line.option(

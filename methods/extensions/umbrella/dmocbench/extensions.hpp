@@ -1,8 +1,8 @@
 #pragma once
 
-// `#include <dmocbench/extensions.hpp>` and the target dmocbench::extensions: feedback gains and sensitivities of an optimum,
-// steps tied to the motion, roadmaps of DMOC primitives, programs for AMPL's solvers. Only where dmocbench was built with
-// DMOCBENCH_EXTENSIONS (the default).
+// `#include <dmocbench/extensions.hpp>` and the target dmocbench::extensions: feedback gains and sensitivities of an
+// optimum, steps tied to the motion, roadmaps of DMOC primitives, programs for AMPL's solvers. Only where dmocbench was
+// built with DMOCBENCH_EXTENSIONS (the default).
 #include <dmocbench/dmocbench.hpp>
 
 #include "methods/extensions/interchange/ampl_answer.hpp"
