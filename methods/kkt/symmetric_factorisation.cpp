@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
+#include "methods/kkt/mumps_lock.hpp"
 
 /// MUMPS calls its subroutine of this name where an allocation fails that it does not report; its own ends the process
 /// with exit code 0. This one takes its place, as the dynamic linker looks into the program first: the exception passes
@@ -31,6 +32,12 @@ constexpr int order_is_given = 1;
 // Numbers of the manual, which counts from 1.
 constexpr int control(int number) { return number - 1; }
 
+void call_mumps(DMUMPS_STRUC_C& data, int job) {
+  const auto lock = lock_mumps();
+  data.job = job;
+  dmumps_c(&data);
+}
+
 bool is_singular(int code) { return code == -10 || code == -6; }
 bool lacks_workspace(int code) { return code == -8 || code == -9; }
 bool lacks_memory(int code) { return code == -7 || code == -13; }
@@ -46,20 +53,16 @@ struct SymmetricFactorisation::Mumps {
   bool analysed = false;
 
   Mumps() {
-    data.job = job_begin;
     data.par = 1;
     data.sym = general_symmetric;
     data.comm_fortran = use_comm_world;
-    dmumps_c(&data);
+    call_mumps(data, job_begin);
     for (const int stream : {1, 2, 3}) data.icntl[control(stream)] = -1;
     data.icntl[control(4)] = 0;   // silent
     data.icntl[control(13)] = 1;  // counts negative pivots in the root too
     data.icntl[control(24)] = 1;  // detects pivots that are mere rounding
   }
-  ~Mumps() {
-    data.job = job_end;
-    dmumps_c(&data);
-  }
+  ~Mumps() { call_mumps(data, job_end); }
   Mumps(const Mumps&) = delete;
   Mumps& operator=(const Mumps&) = delete;
   Mumps(Mumps&&) = delete;
@@ -70,8 +73,7 @@ struct SymmetricFactorisation::Mumps {
   bool run(int job) {
     constexpr int most_workspace_percent = 10'000;
     while (true) {
-      data.job = job;
-      dmumps_c(&data);
+      call_mumps(data, job);
       const int code = data.infog[control(1)];
       if (code >= 0) return true;
       if (is_singular(code)) return false;

@@ -8,7 +8,8 @@
 
 namespace dmocbench {
 
-/// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS).
+/// Factors L D Lᵀ of a sparse symmetric, possibly indefinite matrix, with its inertia (by MUMPS). Threads may have one
+/// each: calls of MUMPS wait for each other, and for solves by `ipopt` and `sqp` (`lock_mumps`).
 class SymmetricFactorisation {
  public:
   /// Eliminates in a given order, which is kept: `positions` says for every row of the matrix when it is eliminated,

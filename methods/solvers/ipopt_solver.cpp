@@ -37,6 +37,8 @@
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
+#include "methods/kkt/mumps_lock.hpp"
+#include "methods/solvers/run_alone.hpp"
 
 namespace dmocbench {
 
@@ -309,7 +311,9 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> application_with(const SolverOptions& o
 
 IpoptSolver::IpoptSolver(SolverOptions options, NamedOptions named)
     : SolverWithoutMemory(std::move(options)), named_(std::move(named)) {
-  if (!named_.empty()) static_cast<void>(application_with(this->options(), named_));
+  if (named_.empty()) return;
+  const auto lock = lock_mumps();
+  static_cast<void>(application_with(this->options(), named_));
 }
 
 std::string IpoptSolver::description() const {
@@ -317,6 +321,10 @@ std::string IpoptSolver::description() const {
 }
 
 Solution IpoptSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
+  return run_alone(program, start, options(), [&] { return run_ipopt(program, start); });
+}
+
+Solution IpoptSolver::run_ipopt(CountedProgram& program, const Eigen::VectorXd& start) const {
   Solution solution;
   const Clock::time_point begin = Clock::now();
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = application_with(options(), named_);

@@ -41,6 +41,10 @@ class PreparedRun {
 };
 
 /// A method for nonlinear programs.
+///
+/// Threads may solve at the same time, each its own program. Solves by `ipopt` and `sqp` wait for each other, as MUMPS
+/// has global state; so does `auto` where it goes to Ipopt. That wait counts for the limit of time and heeds stop
+/// requests. A single factorisation by MUMPS, as where an answer is confirmed, waits for them to the end.
 class Solver {
  public:
   virtual ~Solver() = default;

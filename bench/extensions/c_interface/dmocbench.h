@@ -2,8 +2,9 @@
  *
  * Nothing here is C++: pointers to opaque handles, numbers, strings (UTF-8), arrays of doubles row by row. What fails
  * returns NULL, or a number other than 0, and leaves a sentence for a person: dmocbench_last_error(). No exception
- * comes out. All functions may be called by several threads at once; one handle is used by one thread at a time. A
- * string belongs to the handle that it was asked of, or to the library, and nobody frees it. */
+ * comes out. All functions may be called by several threads at once; one handle is used by one thread at a time.
+ * Threads may solve at the same time; solves by "ipopt" and "sqp" wait for each other, and so does "auto" where it goes
+ * to Ipopt. A string belongs to the handle that it was asked of, or to the library, and nobody frees it. */
 #ifndef DMOCBENCH_H
 #define DMOCBENCH_H
 

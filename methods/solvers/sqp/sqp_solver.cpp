@@ -13,6 +13,7 @@
 #include "methods/kkt/linearisation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/solvers/named_options.hpp"
+#include "methods/solvers/run_alone.hpp"
 #include "methods/solvers/sqp/globalisation.hpp"
 #include "methods/solvers/sqp/hessians.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
@@ -230,7 +231,8 @@ std::string SqpSolver::description() const {
 }
 
 Solution SqpSolver::run(CountedProgram& program, const Eigen::VectorXd& start) const {
-  return sqp::SequentialRun(program, start, options(), choices_).run();
+  return run_alone(program, start, options(),
+                   [&] { return sqp::SequentialRun(program, start, options(), choices_).run(); });
 }
 
 }  // namespace dmocbench
