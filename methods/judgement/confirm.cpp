@@ -108,6 +108,42 @@ void Confirmation::judge(double tolerance, Solution& solution, bool asks_newton)
   if (is_solved(solution.status) && asks_newton) require_settled(solution);
 }
 
+namespace {
+
+double largest_of_free(const NonlinearProgram& program, const Eigen::VectorXd& gradient) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+    if (!is_fixed(program, j)) largest = std::max(largest, std::abs(gradient[j]));
+  }
+  return largest;
+}
+
+/// The largest entry of the Hessian of the cost.
+double largest_curvature(NonlinearProgram& program, const Eigen::VectorXd& at) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(program.hessian_structure().size()));
+  program.hessian(at, 1.0, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(program.constraint_count())), values);
+  double largest = 0.0;
+  program.hessian_structure().for_each([&](Eigen::Index e, int i, int j) {
+    if (!is_fixed(program, i) && !is_fixed(program, j)) largest = std::max(largest, std::abs(values[e]));
+  });
+  return largest;
+}
+
+}  // namespace
+
+double Confirmation::factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution) {
+  const double enough = confirmation_factor * tolerance;
+  double size = largest_of_free(program_, memory_.gradient_of_cost);
+  if (!(size < enough)) return 1.0;
+  Eigen::VectorXd gradient(start.size());
+  program_.gradient(start, gradient);
+  size = std::max({size, largest_of_free(program_, gradient), largest_curvature(program_, solution.primal),
+                   largest_curvature(program_, start)});
+  if (!(size < enough) || size == 0.0) return 1.0;
+  constexpr int most = 1000;  // the factor stays finite
+  return std::ldexp(1.0, std::min(most, -std::ilogb(size)));
+}
+
 void judge_residuals(NonlinearProgram& program, Solution& solution) { Confirmation(program).judge_residuals(solution); }
 
 double scaled_residual(NonlinearProgram& program, double tolerance, const Solution& solution) {

@@ -41,6 +41,12 @@ class Confirmation {
   /// may settle it. Where the step cannot be computed the residuals alone decide, and where `asks_newton` is false.
   void judge(double tolerance, Solution& solution, bool asks_newton = true);
 
+  /// The power of two by which the cost has to be multiplied before the tolerance can tell an optimum from any other
+  /// feasible point, for the answer judged last; 1 where it can already. It cannot where no entry of ∇φ and ∇²φ over
+  /// the free variables, at the answer and at the start, reaches `confirmation_factor` times the tolerance: then λ = 0
+  /// passes everywhere. 1 too where all of them vanish: a program without a cost asks for no more than feasibility.
+  [[nodiscard]] double factor_of_cost(double tolerance, const Eigen::VectorXd& start, const Solution& solution);
+
  private:
   void judge_residuals(Solution& solution);
   [[nodiscard]] double scaled_residual(double tolerance, const Solution& solution);

@@ -31,7 +31,7 @@ const Solution& PreparedSolve::solve(const Eigen::VectorXd& start, const Eigen::
   solution_.evaluations.reset();
   counted_.restart(solver_->seconds_allowed());
   run_->run(start, multipliers, barrier_parameter, solution_);
-  solver_->complete(counted_, start, confirmation_, judgement_ == Judgement::confirmed, solution_);
+  static_cast<void>(solver_->complete(counted_, start, confirmation_, judgement_ == Judgement::confirmed, solution_));
   return solution_;
 }
 

@@ -13,10 +13,13 @@
 #include "methods/judgement/least_violation.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/solvers/scaled_cost.hpp"
 
 namespace dmocbench {
 
 namespace {
+
+constexpr double shortest_limit = 1e-9;  // in seconds; 0 is no limit
 
 /// " Entry 3 of the start is nan."; empty if the start is finite.
 std::string fault_of_start(const Eigen::VectorXd& start) {
@@ -24,6 +27,29 @@ std::string fault_of_start(const Eigen::VectorXd& start) {
     if (!std::isfinite(start[i])) return fmt::format(" Entry {} of the start is {}.", i, start[i]);
   }
   return {};
+}
+
+/// Nothing is known of an answer whose cost the tolerance cannot see. No Newton step may settle it either: its matrix
+/// holds the cost's curvature next to entries that round it away.
+void refuse_small_cost(double factor, Solution& solution) {
+  solution.status = Status::not_confirmed;
+  solution.correction.reset();
+  solution.message = fmt::format(
+      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum. "
+      "Multiply "
+      "the cost by about {:.0e}; `cost_scale` of a problem does so.",
+      factor);
+}
+
+/// The answer to a program whose cost was multiplied by a factor, as one of the program itself.
+void state_without_factor(NonlinearProgram& program, double factor, Solution& solution) {
+  solution.message += fmt::format(
+      " The cost was too small for the tolerance: the solver saw it times {:.0e}, as `cost_scale` of a problem does.",
+      factor);
+  if (solution.status == Status::not_confirmed) solution.correction.reset();  // Newton steps would not see the factor
+  if (solution.barrier_parameter) *solution.barrier_parameter /= factor;
+  solution.multipliers /= factor;
+  if (solution.primal.size() > 0) judge_residuals(program, solution);
 }
 
 class RunWithoutMemory final : public PreparedRun {
@@ -48,8 +74,7 @@ std::unique_ptr<PreparedRun> SolverWithoutMemory::prepare(CountedProgram& progra
 }
 
 double Solver::seconds_allowed() const {
-  constexpr double shortest = 1e-9;  // 0 is no limit
-  const double in_scope = std::max(seconds_left(), shortest);
+  const double in_scope = std::max(seconds_left(), shortest_limit);
   return options_.most_seconds > 0.0 ? std::min(options_.most_seconds, in_scope) : in_scope;
 }
 
@@ -68,16 +93,22 @@ void Solver::check(const NonlinearProgram& program, const Eigen::VectorXd& start
   }
 }
 
-void Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation,
-                      bool asks_newton, Solution& solution) const {
+double Solver::complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation,
+                        bool asks_newton, Solution& solution) const {
   solution.seconds = counted.elapsed_seconds();
   solution.evaluation_seconds = counted.evaluation_seconds();
   if (counted.counts().total() > 0) solution.evaluations = counted.counts();
   judge_infeasibility(counted, options_, solution);
+  const bool claims_success = is_solved(solution.status) || solution.status == Status::acceptable;
+  const bool has_point = solution.primal.size() == start.size();
   confirmation.judge(options_.tolerance, solution, asks_newton);
+  double factor = 1.0;
+  if (claims_success && has_point) factor = confirmation.factor_of_cost(options_.tolerance, start, solution);
+  if (factor != 1.0) refuse_small_cost(factor, solution);
   if (solution.solver.empty()) solution.solver = name();
   if (solution.message.empty()) solution.message = sentence_of(solution.status);
   if (solution.status == Status::evaluation_failed) solution.message += fault_of_start(start);
+  return factor;
 }
 
 Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
@@ -87,7 +118,17 @@ Solution Solver::solve(NonlinearProgram& program, const Eigen::VectorXd& start, 
   CountedProgram counted(program, seconds_allowed());
   Solution solution;
   prepare(counted)->run(start, multipliers, barrier_parameter, solution);
-  complete(counted, start, confirmation, true, solution);
+  const double factor = complete(counted, start, confirmation, true, solution);
+  if (factor == 1.0) return solution;
+
+  ScaledCost scaled(program, factor);
+  Confirmation of_scaled(scaled);
+  CountedProgram counted_again(scaled, std::max(counted.seconds_left(), shortest_limit));
+  solution = {};
+  if (barrier_parameter) *barrier_parameter *= factor;
+  prepare(counted_again)->run(start, factor * multipliers, barrier_parameter, solution);
+  static_cast<void>(complete(counted_again, start, of_scaled, true, solution));
+  state_without_factor(program, factor, solution);
   return solution;
 }
 

@@ -68,6 +68,10 @@ class Solver {
   /// The same for every solver: checks what is given, counts and times the evaluations, measures the time of
   /// `PreparedRun::run`, judges its answer (`judge_infeasibility`, `Confirmation`) and says in a sentence what
   /// happened.
+  ///
+  /// Where the cost is so small that the tolerance says nothing of it (`Confirmation::factor_of_cost`), it is solved
+  /// once more with the cost times that factor, and the message says so. Counts and times are those of the second
+  /// solve, the limit of time holds for both.
   [[nodiscard]] Solution solve(NonlinearProgram& program, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
                                std::optional<double> barrier_parameter = std::nullopt) const;
@@ -90,9 +94,10 @@ class Solver {
   /// Throws `Error` that names what does not fit the program.
   static void check(const NonlinearProgram& program, const Eigen::VectorXd& start, const Eigen::VectorXd& multipliers,
                     std::optional<double> barrier_parameter);
-  /// Adds what was measured, judges the answer (`Confirmation::judge`) and says what happened.
-  void complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
-                Solution& solution) const;
+  /// Adds what was measured, judges the answer (`Confirmation::judge`) and says what happened. Returns
+  /// `Confirmation::factor_of_cost`; where that is not 1, the answer is not confirmed.
+  double complete(CountedProgram& counted, const Eigen::VectorXd& start, Confirmation& confirmation, bool asks_newton,
+                  Solution& solution) const;
 
   SolverOptions options_;
 };

@@ -357,7 +357,9 @@ TEST_P(EverySolver, IsCountedByWhatTheProgramSees) {
     WatchedProgram judged(known.statement, WatchedProgram::Broken::nothing);
     Solution again = solution;
     again.status = Status::solved;
-    confirm(judged, contract().tolerance, again);
+    Confirmation confirmation(judged);
+    confirmation.judge(contract().tolerance, again);
+    EXPECT_EQ(confirmation.factor_of_cost(contract().tolerance, known.start, again), 1.0);
     EXPECT_EQ(counts.hessian + judged.calls().hessian, calls.hessian);
     EXPECT_GT(counts.objective, 0);
     EXPECT_GT(counts.jacobian, 0);
