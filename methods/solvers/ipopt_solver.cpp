@@ -34,10 +34,10 @@
 
 #include "methods/error.hpp"
 #include "methods/judgement/stop_rule.hpp"
+#include "methods/kkt/mumps_lock.hpp"
 #include "methods/program/counted_program.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
-#include "methods/kkt/mumps_lock.hpp"
 #include "methods/solvers/run_alone.hpp"
 
 namespace dmocbench {

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "methods/program/solution.hpp"
-#include "methods/program/counted_program.hpp"
 #include "methods/kkt/mumps_lock.hpp"
+#include "methods/program/counted_program.hpp"
+#include "methods/program/solution.hpp"
 #include "methods/solvers/solver.hpp"
 
 namespace dmocbench {
