@@ -11,7 +11,10 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL program library development)
+set(CPACK_COMPONENTS_ALL program development)
+if(DMOCBENCH_EXTENSIONS)
+  list(APPEND CPACK_COMPONENTS_ALL library)
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 
 # Whoever builds a package maintains it: DEBFULLNAME and DEBEMAIL, as for Debian's own tools, or git's user.

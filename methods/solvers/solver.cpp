@@ -35,9 +35,8 @@ void refuse_small_cost(double factor, Solution& solution) {
   solution.status = Status::not_confirmed;
   solution.correction.reset();
   solution.message = fmt::format(
-      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum. "
-      "Multiply "
-      "the cost by about {:.0e}; `cost_scale` of a problem does so.",
+      "The derivatives of the cost are below the tolerance, so that every feasible point passes for an optimum; "
+      "multiply the cost by about {:.0e} (`cost_scale` of a problem does so).",
       factor);
 }
 

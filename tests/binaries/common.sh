@@ -15,6 +15,9 @@ complain() {
 }
 verdict() { exit $((complaints > 0)); }
 
+# Whether the suite was built with its extensions.
+has_extensions() { [[ -x $bin/primitives ]]; }
+
 # The values of a column of a CSV file; texts in quotes count as fields, but their content is dropped.
 column() { # column FILE NAME
   sed 's/"[^"]*"//g' "$1" | awk -F, -v name="$2" '
