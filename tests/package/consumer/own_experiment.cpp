@@ -1,5 +1,5 @@
 // An experiment of one's own: the highest torque beside the cost, on the grids and by the methods of the command line.
-#include "bench/run/experiment.hpp"
+#include <dmocbench/experiment.hpp>
 
 namespace {
 
