@@ -19,7 +19,7 @@ BEGIN {
 }
 
 # Words of a table become parts of commands that gnuplot gives to a shell: what means something there is no part of a name.
-{ gsub(/"[^"]*"/, ""); gsub(/[`'$\\"();|&<>]/, "_") }
+{ gsub(/"[^"]*"/, ""); gsub(/[/`'$\\"();|&<>]/, "_") }
 
 NR == 1 {
   for (i = 1; i <= NF; ++i) position[$i] = i

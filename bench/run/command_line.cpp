@@ -13,8 +13,10 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "bench/run/process_pool.hpp"
 #include "methods/error.hpp"
@@ -35,8 +37,18 @@ int report_error(const std::string& name, std::string sentence) {
   // One line without control characters, whatever was typed.
   std::ranges::replace_if(
       sentence, [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
-  fmt::print(stderr, "{}: {}\n", name, sentence);
+  // Not by fmt::print, which throws where standard error is closed or full.
+  static_cast<void>(std::fputs((name + ": " + sentence + "\n").c_str(), stderr));
   return 2;
+}
+
+/// Files that are opened must not take the place of standard streams that are closed, or messages would end up in them.
+/// Nothing can be written to a closed standard output, which /dev/full says in its place.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    static_cast<void>(::open(stream == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR));
+  }
 }
 
 /// True for the error of std::thread when the system has no more threads.
@@ -152,6 +164,7 @@ std::vector<std::pair<std::string, std::string>> CommandLine::values() const {
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body) {
   CLI::App app(description, name);
+  occupy_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of writing
   try {
     CommandLine line(app, argc, argv);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "methods/tables/text_file.hpp"
+#include "methods/tables/table_file.hpp"
 
 namespace dmocbench {
 

@@ -6,7 +6,6 @@
 
 #include "methods/adaptive/interval_conditions.hpp"
 #include "methods/error.hpp"
-#include "methods/judgement/kkt_of_conditions.hpp"
 #include "methods/judgement/linearised_conditions.hpp"
 
 namespace dmocbench {

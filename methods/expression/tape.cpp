@@ -98,11 +98,7 @@ Tape::Tape(const Schedule& schedule, InstructionSet set, NativeCodeUse use)
     const std::uint32_t output = first_output() + j;
     if (source != output) instructions_.push_back(copy_instruction(source, output));
   }
-  const bool has_code = use != NativeCodeUse::never && has_native_code(set);
-  if (!has_code || operation_count_ == 0 || operation_count_ > LateCode::most_operations) return;
-  late_code_ = std::make_shared<LateCode>(
-      schedule, TapeSeries{places, first_output(), static_cast<std::uint32_t>(series_count())}, set,
-      use == NativeCodeUse::always ? 0 : LateCode::worthwhile_intervals(operation_count_));
+  late_code_ = late_code_for(schedule, {places, first_output(), static_cast<std::uint32_t>(series_count())}, set, use);
 }
 
 std::vector<std::uint32_t> Tape::place_values(const Schedule& schedule, const std::vector<CompoundStep>& compounds) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "methods/kkt/intervals/interval_kkt.hpp"
+#include "methods/kkt/sparse_kkt.hpp"
 #include "methods/runtime/long_vectors.hpp"
 
 namespace dmocbench {
@@ -65,6 +68,15 @@ void LinearisedConditions::linearise_constraint(Eigen::Index i, double multiplie
   compliance[i] = std::min(distance / std::abs(multiplier), no_part);
   if (!(compliance[i] < no_part)) compliance[i] = no_part;  // also where the multiplier is 0
   if (compliance[i] == no_part) constraints[i] = 0.0;
+}
+
+std::unique_ptr<kkt::KktSystem> kkt_system_of(const NonlinearProgram& program) {
+  if (auto by_intervals = kkt::IntervalKkt::make(program)) return std::move(*by_intervals);
+  return kkt_system_of_any_point(program);
+}
+
+std::unique_ptr<kkt::KktSystem> kkt_system_of_any_point(const NonlinearProgram& program) {
+  return std::make_unique<kkt::SparseKkt>(program, kkt::SparseKkt::Order::found, kkt::SparseKkt::Inertia::any);
 }
 
 }  // namespace dmocbench

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "methods/judgement/kkt_of_conditions.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
 #include "methods/kkt/sparse_kkt.hpp"
 
 namespace dmocbench {

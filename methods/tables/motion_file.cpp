@@ -9,7 +9,6 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/point_function.hpp"
 #include "methods/tables/table_file.hpp"
-#include "methods/tables/text_file.hpp"
 
 namespace dmocbench {
 

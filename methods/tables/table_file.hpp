@@ -7,6 +7,9 @@
 
 namespace dmocbench {
 
+/// The content of a regular file; others might have no end. Throws `Error` that names it if it cannot be read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
 /// The table in a text, which stands in a file of this name. Throws `Error` that names the file if it is no table.
 [[nodiscard]] Table table_in(const std::string& text, const std::filesystem::path& file);
 

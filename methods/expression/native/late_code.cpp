@@ -25,4 +25,13 @@ void LateCode::make() {
   ready_.store(code_.get(), std::memory_order_release);
 }
 
+std::shared_ptr<LateCode> late_code_for(const Schedule& schedule, TapeSeries series, InstructionSet set,
+                                        NativeCodeUse use) {
+  const std::size_t operations = schedule.operation_count();
+  if (use == NativeCodeUse::never || !has_native_code(set)) return nullptr;
+  if (operations == 0 || operations > LateCode::most_operations) return nullptr;
+  return std::make_shared<LateCode>(schedule, std::move(series), set,
+                                    use == NativeCodeUse::always ? 0 : LateCode::worthwhile_intervals(operations));
+}
+
 }  // namespace dmocbench

@@ -8,6 +8,7 @@
 #include "methods/expression/native/native_code.hpp"
 #include "methods/expression/schedule.hpp"
 #include "methods/runtime/instruction_set.hpp"
+#include "methods/runtime/native_code_use.hpp"
 
 namespace dmocbench {
 
@@ -50,5 +51,10 @@ class LateCode {
   std::unique_ptr<const NativeCode> code_;
   std::atomic<const NativeCode*> ready_{nullptr};
 };
+
+/// The machine code of a tape: all that a tape knows of this folder. Null where a tape stays interpreted: if `use` says
+/// so, there is no code for the set, or the schedule computes nothing or too much.
+[[nodiscard]] std::shared_ptr<LateCode> late_code_for(const Schedule& schedule, TapeSeries series, InstructionSet set,
+                                                      NativeCodeUse use);
 
 }  // namespace dmocbench

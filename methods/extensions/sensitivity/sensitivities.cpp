@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/error.hpp"
-#include "methods/judgement/kkt_of_conditions.hpp"
+#include "methods/judgement/linearised_conditions.hpp"
 
 namespace dmocbench {
 
