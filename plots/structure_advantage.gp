@@ -5,17 +5,17 @@ load plots."/style.gp"
 name = "structure_advantage_ratios"
 eval require(name, "problem,method,tableau,stages,solver,factorisation,intervals,quantity,ratio_at_equal_intervals")
 
-# Solvers in the order of the legend. Ipopt tells neither the time of its linear systems nor their operations: it is drawn
-# by its time per iteration without evaluations.
+# Solvers in the order of the legend. Ipopt does not tell the time of its linear systems: it is drawn by its time per
+# iteration without evaluations.
 orange = "#E69F00"
-ways = "ipopt sparse banded intervals"
-way_labels = "'Ipopt (MUMPS), per iteration' 'interior point, MUMPS' 'interior point, band (LAPACK)' 'interior point, by intervals'"
-colour(w) = w == 1 ? vermilion : w == 2 ? orange : w == 3 ? purple : blue
-point(w) = word("9 11 5 7", w) + 0
+ways = "ipopt sparse intervals"
+way_labels = "'Ipopt (MUMPS), per iteration' 'interior point, MUMPS' 'interior point, by intervals'"
+colour(w) = w == 1 ? vermilion : w == 2 ? orange : blue
+point(w) = word("9 11 7", w) + 0
 way_of(w) = w == 1 ? "solver=ipopt" : "solver=interior_point,factorisation=".word(ways, w)
 
-panels = "'time of a linear system' 'operations of a factorisation'"
-quantity_of(panel, w) = panel == 2 ? "operations" : w == 1 ? "linear_algebra_per_iteration" : "seconds_per_linear_system"
+panels = "'time of a linear system' 'time of a solve'"
+quantity_of(panel, w) = panel == 2 ? "seconds" : w == 1 ? "linear_algebra_per_iteration" : "seconds_per_linear_system"
 
 ratio = "ratio_at_equal_intervals"
 do for [where in problems_of(name, ratio)] {
@@ -58,7 +58,7 @@ do for [where in problems_of(name, ratio)] {
       set ylabel "Hamiltonian / DMOC, ".word(panels, panel)
       if (panel == 1) { set key at screen 0.5, screen 0.015 center bottom vertical maxrows 3 width 2 } else { unset key }
       plot 1 with lines linecolor rgb grey linewidth 1 notitle,\
-           for [w in "1 2 3 4"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
+           for [w in "1 2 3"] keyentry with linespoints linecolor rgb colour(w + 0) linewidth 1.8 dashtype 1\
              pointtype point(w + 0) pointsize 0.8 title word(way_labels, w + 0),\
            for [w in drawn] rows(name, conditions.",".way_of(w + 0).",quantity=".quantity_of(panel, w + 0), ratio)\
              using (column("intervals")):(column(ratio)) with linespoints linecolor rgb colour(w + 0) linewidth 1.8\

@@ -149,7 +149,7 @@ void add_claims(ClaimTopic topic);
 [[nodiscard]] Claims stage_control_claims();      ///< and of the controls of the stages
 [[nodiscard]] Claims accuracy_claims();           ///< replay, and what rounding costs
 [[nodiscard]] Claims iteration_claims();          ///< minor iterations
-[[nodiscard]] Claims cost_claims();               ///< variables, operations, time, also at equal accuracy
+[[nodiscard]] Claims cost_claims();               ///< variables, time, also at equal accuracy
 [[nodiscard]] Claims derivative_claims();         ///< automatic differentiation
 [[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
 [[nodiscard]] Claims order_theorem_claims();      ///< the theorem on it, and the exact Legendre transforms

@@ -1,6 +1,5 @@
-// What DMOC saves: variables and constraints ("needs less discrete variables and less constraints"), operations and
-// time
-// ("numerically more expensive"), and what is left of that where the methods are equally accurate.
+// What DMOC saves: variables and constraints ("needs less discrete variables and less constraints"), time ("numerically
+// more expensive"), and what is left of that where the methods are equally accurate.
 #include <functional>
 
 #include "bench/claims/timed_ratios.hpp"
@@ -28,17 +27,6 @@ Selection on_finest_grid(const Selection& ratios) {
 
 std::string way_of(const Row& row) { return row.text(row.text("solver") == "ipopt" ? "solver" : "factorisation"); }
 
-std::string ratios_in_words(const Selection& ratios) {
-  return ratios.in_words(", ", [](const Row& row) {
-    return fmt::format("{} {:.2f}", way_of(row), row.needed("ratio_at_equal_intervals"));
-  });
-}
-
-/// Operations of an elimination on the same grids: counts come before times.
-std::string operations_in_words(const ResultTables& tables, const std::string& problem) {
-  return ratios_in_words(on_finest_grid(hamiltonian_ratios(tables, problem, "elimination_operations")));
-}
-
 std::vector<double> rounds_of(const Row& row) {
   std::vector<double> of_rounds = row.numbers("round_ratios");
   require(!of_rounds.empty(), "{}, column round_ratios: there is no number", row.place());
@@ -56,9 +44,7 @@ Predicate more_expensive_by(const ExpenseByWay& add_ratios) {
     TimedRatios ratios(more_expensive);
     add_ratios(ratios, ipopt);
     add_ratios(ratios, hamiltonian_ratios(tables, problem, "seconds_per_linear_system"));
-    return judged(ratios, fmt::format("Hamiltonian to DMOC, operations of an elimination at the finest N: {}; time of "
-                                      "an iteration by ipopt, of a linear system by the others: ",
-                                      operations_in_words(tables, problem)));
+    return judged(ratios, "Hamiltonian to DMOC, time of an iteration by ipopt, of a linear system by interior_point: ");
   };
 }
 
@@ -79,15 +65,6 @@ void add_coarse_grids(TimedRatios& ratios, const Selection& rows) {
     ratios.add(fmt::format("{} N = {}", way_of(way.front()), fmt::join(way.distinct("intervals"), " and ")),
                means_of_rounds(of_grids));
   }
-}
-
-Finding factorisation_more_expensive(const ResultTables& tables, const std::string& problem) {
-  const Selection eliminations = on_finest_grid(hamiltonian_ratios(tables, problem, "elimination_operations"));
-  require(!eliminations.where("factorisation", "intervals").empty(),
-          "structure_advantage_ratios.csv has no elimination of {} by intervals", problem);
-  return found(eliminations.min("ratio_at_equal_intervals") > more_expensive,
-               "Hamiltonian to DMOC at N = {}, operations of an elimination: {}",
-               eliminations.front().text("intervals"), ratios_in_words(eliminations));
 }
 
 /// The counts of (rem:savings) for n configurations and s stages; those of DMOC without the 2n conditions of the ends.
@@ -158,12 +135,6 @@ Claims cost_claims() {
        .states = "more expensive on coarse grids too",
        .judge = more_expensive_by(add_coarse_grids),
        .condition = "times are warm, from the common start; geometric mean over the coarse grids",
-       .evidence = advantage},
-      {.id = "factorisation_more_expensive_by_any_solver",
-       .where = "section 3.4, rem:savings",
-       .states = "more expensive by its size, whichever way the system is eliminated in the form that it has",
-       .judge = factorisation_more_expensive,
-       .condition = "combined without momenta its equations are DMOC's (methods/README.md, \"Equal solutions\")",
        .evidence = advantage},
       {.id = "savings_at_equal_state_error",
        .where = "section 5",

@@ -18,15 +18,9 @@ constexpr double same_error = 1e-4;
 struct Quantity {
   const char* name = "";
   const char* column = "";
-  bool is_per_interval = false;  ///< in the table
-  const char* rounds = "";       ///< column with the times of the rounds, and
-  const char* parts = "";        ///< what they are divided by, if anything
+  const char* rounds = "";  ///< column with the times of the rounds, and
+  const char* parts = "";   ///< what they are divided by, if anything
 
-  [[nodiscard]] std::optional<double> cost(const Row& row) const {
-    auto value = row.number(column);
-    if (value && is_per_interval) *value *= row.number("intervals", 0.0);
-    return value;
-  }
   /// The ratios to another row, one of each round; none where the quantity is no time.
   [[nodiscard]] std::vector<double> ratios(const Row& row, const Row& other) const {
     std::vector<double> ratios = round_ratios(row.numbers(rounds), other.numbers(rounds));
@@ -37,13 +31,11 @@ struct Quantity {
 };
 
 constexpr std::array quantities{
-    Quantity{"seconds", "seconds", false, "round_seconds"},
-    Quantity{"seconds_per_iteration", "seconds_per_iteration", false, "round_seconds", "major_iterations"},
+    Quantity{"seconds", "seconds", "round_seconds"},
+    Quantity{"seconds_per_iteration", "seconds_per_iteration", "round_seconds", "major_iterations"},
     Quantity{"linear_algebra_per_iteration", "linear_algebra_per_iteration"},
-    Quantity{"seconds_per_linear_system", "seconds_per_linear_system", false, "round_linear_seconds", "linear_systems"},
+    Quantity{"seconds_per_linear_system", "seconds_per_linear_system", "round_linear_seconds", "linear_systems"},
     Quantity{"iterations", "major_iterations"},
-    Quantity{"operations", "operations_per_interval", true},
-    Quantity{"elimination_operations", "elimination_operations_per_interval", true},
 };
 
 const ColumnNames program_columns{"problem", "method", "tableau", "stages", "intervals"};
@@ -68,7 +60,7 @@ Table advantage_ratios(const Selection& advantage) {
                                .matching(line.front(), {"problem", "tableau", "stages", "solver", "factorisation"});
     if (line.front().text("method") == "dmoc" || dmoc.empty()) continue;
     for (const Quantity& quantity : quantities) {
-      const Cost cost = [&](const Row& row) { return quantity.cost(row); };
+      const Cost cost = [&](const Row& row) { return row.number(quantity.column); };
       for (const Row& row : line.where([&](const Row& solved) { return cost(solved).has_value(); })) {
         const Row& on_same_grid = dmoc.matching(row, {"intervals"}).front();
         costs.push_back({.head = row,

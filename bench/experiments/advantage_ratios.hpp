@@ -8,7 +8,7 @@ namespace dmocbench {
 ///
 /// Quantities are "seconds" of a solve, "seconds_per_iteration", the same without evaluations of the program
 /// ("linear_algebra_per_iteration"), "seconds_per_linear_system" (without finding its structure; interior_point alone
-/// tells it), "iterations", and "operations" of one factorisation ("elimination_operations" is the same number).
+/// tells it), and "iterations".
 ///
 /// At equal accuracy the cost on N intervals stands beside what DMOC costs where its error of the objective is the same
 /// (straight lines in logarithms between its grids; empty outside of them).

@@ -9,8 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/advantage_ratios.hpp"
-#include "bench/experiments/banded_kkt.hpp"
-#include "bench/experiments/operation_count.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
 #include "bench/run/meanings.hpp"
@@ -19,7 +17,7 @@
 
 namespace dmocbench::structure_advantage_program {
 
-const std::vector<std::string> all_factorisations{"intervals", "banded", "sparse"};
+const std::vector<std::string> all_factorisations{"intervals", "sparse"};
 
 /// Empty where the solver does not tell.
 std::string linear_rounds(const SolvedCase& solved) {
@@ -38,9 +36,8 @@ class StructureAdvantage final : public Experiment {
             {.name = "structure_advantage",
              .description =
                  "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by "
-                 "intervals, as a band, or as any sparse matrix: iterations, linear systems, seconds, operations of a "
-                 "factorisation. NAME_ratios.csv sets them against DMOC at equal N and at equal error of the "
-                 "objective.",
+                 "intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv sets them "
+                 "against DMOC at equal N and at equal error of the objective.",
              .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
              .takes_turns = true}) {}
 
@@ -53,9 +50,6 @@ class StructureAdvantage final : public Experiment {
         {"linear_algebra_per_iteration", "s", "the same without evaluations",
          of(measured_.linear_algebra_per_iteration)},
         {"seconds_per_linear_system", "s", "factorisation and substitution", of(measured_.per_linear_system)},
-        {"operations_per_interval", "", "multiplications and divisions of a factorisation", of(measured_.operations)},
-        {"elimination_operations_per_interval", "", "the same", of(measured_.operations)},
-        {"half_bandwidth", "", "of the band", of(measured_.half_bandwidth)},
         {"objective_error", "", "of the objective, relative, against the indirect solution",
          of(measured_.objective_error)},
         {"round_linear_seconds", "s", "spent in linear systems in each round, with spaces between them", linear_rounds},
@@ -75,11 +69,7 @@ class StructureAdvantage final : public Experiment {
   [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
     if (the_case.variant.empty()) return Experiment::solver_for(the_case, options);
     InteriorPointOptions choices = interior_point_options(named_options(this->options()));
-    if (the_case.variant == "banded") {
-      choices.make_kkt_system = [](NonlinearProgram& program) { return std::make_unique<kkt::BandedKkt>(program); };
-    } else {
-      choices.factorisation = factorisation_named(the_case.variant);
-    }
+    choices.factorisation = factorisation_named(the_case.variant);
     return std::make_unique<InteriorPointSolver>(options, std::move(choices));
   }
 
@@ -101,9 +91,6 @@ class StructureAdvantage final : public Experiment {
     }
     const int systems = solution.linear_systems.value_or(0);
     if (solution.linear_seconds && systems > 0) measured_.per_linear_system = *solution.linear_seconds / systems;
-    const OperationCount count = count_operations(*solved.program, solution, solved.the_case.variant);
-    if (count.elimination) measured_.operations = *count.elimination / static_cast<double>(solved.the_case.intervals());
-    measured_.half_bandwidth = count.half_bandwidth;
     if (!is_usable(solved) || !solved.trajectory) return;
     try {
       const double exact = reference_.near(*solved.the_case.problem, *solved.trajectory).cost();
@@ -129,8 +116,6 @@ class StructureAdvantage final : public Experiment {
     std::optional<double> per_iteration;
     std::optional<double> linear_algebra_per_iteration;
     std::optional<double> per_linear_system;
-    std::optional<double> operations;
-    std::optional<long long> half_bandwidth;
     std::optional<double> objective_error;
   } measured_;  // of the case that is completed
 };

@@ -26,7 +26,7 @@ constexpr std::array questions{
     Question{"Accuracy", "equal_solutions", 1, "state_slope"},
     Question{"Structure", "momentum_consistency", 1, "replay_beside_tangent"},
     Question{"Size", "savings_at_equal_state_error", 1, "variable_ratio"},
-    Question{"Cost", "collocation_more_expensive", 1, "factorisation_more_expensive_by_any_solver"},
+    Question{"Cost", "collocation_more_expensive", 1, "collocation_more_expensive_on_coarse_grids"},
     Question{"Robustness", "cold_starts_confirmed_as_often", 3, "cold_starts_best_as_often"},
 };
 

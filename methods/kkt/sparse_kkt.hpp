@@ -38,9 +38,6 @@ class SparseKkt final : public KktSystem {
   [[nodiscard]] FactorisationStatus solve(const KktMatrix& matrix, const KktRightHandSide& right_hand_side,
                                           const KktStep& step) override;
 
-  /// Of the last factorisation, each with an addition, as MUMPS counts them.
-  [[nodiscard]] double factorisation_operations() const { return 0.5 * factorisation_.floating_point_operations(); }
-
  private:
   [[nodiscard]] Eigen::SparseMatrix<double> lower_triangle(const KktMatrix& matrix) const;
 

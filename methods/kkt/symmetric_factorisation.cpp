@@ -129,8 +129,6 @@ bool SymmetricFactorisation::factorise(const Eigen::SparseMatrix<double>& lower)
 
 Eigen::Index SymmetricFactorisation::negative_eigenvalues() const { return mumps_->data.infog[control(12)]; }
 
-double SymmetricFactorisation::floating_point_operations() const { return mumps_->data.rinfog[control(3)]; }
-
 Eigen::VectorXd SymmetricFactorisation::solve(Eigen::VectorXd right_hand_side) {
   mumps_->data.rhs = right_hand_side.data();
   mumps_->data.nrhs = 1;

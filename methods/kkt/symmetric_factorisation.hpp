@@ -26,8 +26,6 @@ class SymmetricFactorisation {
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& lower);
   /// Number of negative eigenvalues of the matrix factorised last.
   [[nodiscard]] Eigen::Index negative_eigenvalues() const;
-  /// Additions and multiplications of the last factorisation, as MUMPS counts them.
-  [[nodiscard]] double floating_point_operations() const;
   /// The solution for a right-hand side.
   [[nodiscard]] Eigen::VectorXd solve(Eigen::VectorXd right_hand_side);
 

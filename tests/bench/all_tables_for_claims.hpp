@@ -157,14 +157,12 @@ inline Rows advantage_rows() {
           row_of_texts({"problem", "method", "tableau", "stages", "solver", "factorisation", "intervals", "quantity",
                         "ratio_at_equal_intervals"},
                        {orbit, "hamiltonian", "gauss", "1", solver, factorisation, intervals, quantity, "1.5"}));
-      if (!std::string(quantity).ends_with("operations")) rows.back().set("round_ratios", rounds_around(1.5));
+      rows.back().set("round_ratios", rounds_around(1.5));
     }
   };
   append("ipopt", "", "seconds_per_iteration");
-  for (const char* factorisation : {"intervals", "sparse"}) {
+  for (const char* factorisation : {"intervals", "sparse"})
     append("interior_point", factorisation, "seconds_per_linear_system");
-    append("interior_point", factorisation, "elimination_operations");
-  }
   return rows;
 }
 

@@ -184,8 +184,6 @@ std::vector<Mistake> mistakes_about_cost() {
       {"a verdict at the threshold", "structure_advantage_ratios",
        set(sparse, "round_ratios", tests::rounds_around(1.05)), on_orbit("collocation_more_expensive_on_coarse_grids"),
        ClaimVerdict::undecided},
-      {"fewer operations by one elimination", "structure_advantage_ratios",
-       set(sparse, "ratio_at_equal_intervals", 0.9), on_orbit("factorisation_more_expensive_by_any_solver")},
       {"differences that are as fast but for noise", "derivatives",
        set(differences, "round_seconds", tests::rounds_around(0.01, 2.0)), on_orbit("automatic_differentiation_faster"),
        ClaimVerdict::undecided},

@@ -26,7 +26,7 @@ const Values& known_values() {
       {"--counter", {"cpu_time", "real_time"}},
       {"--crash", {"none", "all", "boundary"}},
       {"--csv", {"table.csv", "folder", "file/inner", "file"}},
-      {"--factorisation", {"intervals", "banded", "sparse"}},
+      {"--factorisation", {"intervals", "sparse"}},
       {"--fit", {"4:16", "8:8", "16:4", "4:"}},
       {"--form", {"bolza", "mayer"}},
       {"--grid", {"grid.txt", "bad_grid.txt", "narrow.txt", "file", "folder", "dangling"}},
