@@ -104,7 +104,7 @@ bool run_and_write(const BenchmarkProgram& program, const std::filesystem::path&
 int BenchmarkProgram::run(int argc, char** argv) const try {
   CLI::App app(description + " All flags of Google Benchmark hold as well:", name);
   std::filesystem::path file;
-  app.add_option("--csv", file, csv)->option_text("FILE");
+  if (tables) app.add_option("--csv", file, csv)->option_text("FILE");
   app.allow_extras();
   std::vector<std::string> flags;
   try {

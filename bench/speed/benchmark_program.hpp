@@ -15,14 +15,15 @@ namespace dmocbench::speed {
 /// Tables by the suffixes of their files: "_machine" goes to FILE_machine.csv.
 using TablesBySuffix = std::vector<std::pair<std::string, Table>>;
 
-/// A program of Google Benchmark that can write its results as tables.
+/// A program of Google Benchmark. Its results are JSON (`--benchmark_out`), from which `bench/speed/page` makes pages;
+/// or tables, if it has some.
 struct BenchmarkProgram {
   std::string name;            ///< of the binary
   std::string description;     ///< a sentence
-  std::string csv;             ///< what `--csv` writes, for `--help`
+  std::string csv = {};        ///< what `--csv` writes, for `--help`
   std::string default_filter;  ///< of the benchmarks that run without flags; a "-" in front excludes
   std::function<void()> register_benchmarks;
-  std::function<TablesBySuffix(const Benchmarks&)> tables;  ///< of a run
+  std::function<TablesBySuffix(const Benchmarks&)> tables = {};  ///< of a run, for `--csv`
 
   /// Reads the command line, `--csv FILE` and the flags of Google Benchmark, runs the benchmarks and writes the tables,
   /// each whole or not at all, and their metadata, FILE_tables.json (FILE.json is free for `--benchmark_out`). Returns

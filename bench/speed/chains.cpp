@@ -1,20 +1,16 @@
-// How the cost of an iteration grows with the number of configurations: chains of 2 to 32 links, DMOC, N = 256; and how
-// long the program of a chain takes to make, up to 64 links.
-#include <list>
+// How the cost of an iteration grows with the number of configurations: chains of links by DMOC; and how long the
+// program of a chain takes to make. `page` turns the result into chains.md.
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/measured_page.hpp"
-#include "methods/diagnostics/convergence_order.hpp"
 #include "methods/error.hpp"
 #include "methods/kkt/intervals/interval_kkt.hpp"
-#include "methods/numerics/median.hpp"
-#include "methods/runtime/clock.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -22,94 +18,39 @@ namespace dmocbench::speed {
 namespace {
 
 constexpr int intervals = 256;
-constexpr double nanoseconds = 1e9;  // of a second
-constexpr int most_iterated = 32;    // links of a chain whose iterations are measured
-constexpr int longest = 64;          // of which only the making of the program is
 
-/// A share of a round: chains of few links iterate as often as this allows.
-constexpr double seconds_of_a_round = 0.02;
-
-/// Of an exponent: from here on the highest power shows.
-constexpr int first_fitted = 8;
-
-std::shared_ptr<const Problem> chain_of(int links) {
-  auto problem = make_problem("link_chain");
+GuessedProgram chain_of(int links) {
+  const std::shared_ptr<Problem> problem = make_problem("link_chain");
   problem->set_parameter("links", links);
-  return problem;
+  return {problem, "dmoc", intervals};
 }
 
-/// The chain at its guess: what an iteration of `interior_point` evaluates, and the system that it then eliminates. A
+/// What an iteration of `interior_point` evaluates at the guess of a chain, and the system that it then eliminates. A
 /// shift makes the Hessian positive definite, as the solver does where it is not.
-class Chain {
+class Iteration {
  public:
-  explicit Chain(int links) : links_(links), made_(chain_of(links), "dmoc", intervals) {
-    if (links > most_iterated) return;
-    const auto constraints = static_cast<Eigen::Index>(made_.program->constraint_count());
+  explicit Iteration(const GuessedProgram& made)
+      : program_(*made.program), start_(made.start), step_(start_.size()), gradient_(start_.size()) {
+    constexpr double small_multiplier = 0.01;
+    constexpr double large_shift = 1e4;
+    const auto constraints = static_cast<Eigen::Index>(program_.constraint_count());
     multipliers_ = Eigen::VectorXd::Constant(constraints, small_multiplier);
-    hessian_.resize(static_cast<Eigen::Index>(made_.program->hessian_structure().size()));
-    jacobian_.resize(static_cast<Eigen::Index>(made_.program->jacobian_structure().size()));
-    gradient_.resize(made_.start.size());
+    shift_ = Eigen::VectorXd::Constant(start_.size(), large_shift);
+    hessian_.resize(static_cast<Eigen::Index>(program_.hessian_structure().size()));
+    jacobian_.resize(static_cast<Eigen::Index>(program_.jacobian_structure().size()));
     residuals_.resize(constraints);
-    shift_ = Eigen::VectorXd::Constant(made_.start.size(), large_shift);
-    step_.resize(made_.start.size());
     step_of_multipliers_.resize(constraints);
-    auto made = kkt::IntervalKkt::make(*made_.program);
-    if (!made) throw Error(made.error());
-    kkt_ = std::move(*made);
+    auto kkt = kkt::IntervalKkt::make(program_);
+    if (!kkt) throw Error(kkt.error());
+    kkt_ = std::move(*kkt);
+    evaluate();
   }
-
-  /// A round: the program is made, and iterations follow until the time of a round is over.
-  void measure() {
-    const bool is_first = setup_seconds_.empty();
-    setup_seconds_.push_back(is_first ? made_.setup_seconds
-                                      : GuessedProgram(made_.problem, "dmoc", intervals).setup_seconds);
-    if (!kkt_) return;
-    std::vector<double> of_evaluation;
-    std::vector<double> of_elimination;
-    const Clock::time_point begin = Clock::now();
-    do {
-      const Clock::time_point before = Clock::now();
-      evaluate();
-      of_evaluation.push_back(seconds_since(before));
-      const Clock::time_point between = Clock::now();
-      eliminate();
-      of_elimination.push_back(seconds_since(between));
-    } while (seconds_since(begin) < seconds_of_a_round);
-    const double evaluation = nanoseconds / intervals * median(of_evaluation);
-    const double elimination = nanoseconds / intervals * median(of_elimination);
-    evaluation_.push_back(evaluation);
-    elimination_.push_back(elimination);
-    iteration_.push_back(evaluation + elimination);
-  }
-
-  [[nodiscard]] static Columns<Chain> columns() {
-    const auto functions = [](const Chain& chain) { return &chain.made_.program->functions(); };
-    return Columns<Chain>{
-               {"problem", "", "name of the problem", [](const Chain&) { return "link_chain"; }},
-               {"method", "", "family of elements", [](const Chain&) { return "dmoc"; }},
-               {"intervals", "", "number of intervals N", [](const Chain&) { return intervals; }},
-               {"links", "", "links of the chain, its number of configurations", &Chain::links_},
-               {"rounds", "", "how often the chain took its turn", from(&Chain::setup_seconds_, &Rounds::size)},
-               {"lagrangian_operations", "", "of the tape of an interval's Lagrangian",
-                from(functions, [](const LocalFunctions& of) { return of.lagrangian.operation_count(); })},
-               {"hessian_operations", "", "of the tape of its Hessian",
-                from(functions, [](const LocalFunctions& of) { return of.hessian.schedule.operation_count(); })},
-               {"evaluation_ns", "ns", "evaluating all derivatives, per interval", from(&Chain::evaluation_, median)},
-               {"elimination_ns", "ns", "eliminating a system, per interval", from(&Chain::elimination_, median)}} +
-           median_columns<Chain>("iteration_ns", "ns", "both", &Chain::iteration_) +
-           median_columns<Chain>("setup_seconds", "s", "making the program", &Chain::setup_seconds_);
-  }
-
- private:
-  static constexpr double small_multiplier = 0.01;
-  static constexpr double large_shift = 1e4;
 
   void evaluate() {
-    Transcription& program = *made_.program;
-    program.constraints(made_.start, residuals_);
-    program.gradient(made_.start, gradient_);
-    program.jacobian(made_.start, jacobian_);
-    program.hessian(made_.start, 1.0, multipliers_, hessian_);
+    program_.constraints(start_, residuals_);
+    program_.gradient(start_, gradient_);
+    program_.jacobian(start_, jacobian_);
+    program_.hessian(start_, 1.0, multipliers_, hessian_);
   }
 
   void eliminate() {
@@ -118,92 +59,67 @@ class Chain {
     if (status != kkt::FactorisationStatus::solved) throw Error("the system of a chain is not eliminated");
   }
 
-  using Rounds = std::vector<double>;
-
-  int links_;
-  GuessedProgram made_;
-  std::unique_ptr<kkt::IntervalKkt> kkt_;
-  Eigen::VectorXd multipliers_;
-  Eigen::VectorXd hessian_;
-  Eigen::VectorXd jacobian_;
+ private:
+  Transcription& program_;
+  Eigen::VectorXd start_;
+  Eigen::VectorXd step_;
   Eigen::VectorXd gradient_;
-  Eigen::VectorXd residuals_;
+  Eigen::VectorXd multipliers_;
   Eigen::VectorXd shift_;
   Eigen::VectorXd no_compliance_;
-  Eigen::VectorXd step_;
+  Eigen::VectorXd hessian_;
+  Eigen::VectorXd jacobian_;
+  Eigen::VectorXd residuals_;
   Eigen::VectorXd step_of_multipliers_;
-  // A number per round.
-  Rounds setup_seconds_;
-  Rounds evaluation_;   // nanoseconds
-  Rounds elimination_;  // nanoseconds
-  Rounds iteration_;    // nanoseconds
+  std::unique_ptr<kkt::IntervalKkt> kkt_;
 };
 
-/// The exponent of n in a column, as a sentence.
-std::string exponent_of(const Table& table, const std::string& column, const std::string& words) {
-  std::vector<GridError> points;
-  for (const Row& row : table.rows()) {
-    const double links = row.needed("links");
-    const auto value = row.number(column);
-    if (links >= first_fitted && value) points.push_back({links, *value});
-  }
-  const auto fitted = fit_order(points);
-  if (!fitted) return fmt::format("- {}: too few chains to fit an exponent\n", words);
-  return fmt::format("- {}: {:.2f} ± {:.2f}, over {} chains of {:.0f} to {:.0f} links\n", words, fitted->order,
-                     fitted->standard_error, fitted->points, fitted->first_abscissa, fitted->last_abscissa);
+/// Adds QUANTITY/LINKS, where `run` times what it is of the chain.
+void add(const std::string& quantity, int links, void (*run)(benchmark::State&, const GuessedProgram&)) {
+  const auto run_or_tell = [=](benchmark::State& state) {
+    try {
+      const GuessedProgram made = chain_of(links);
+      run(state, made);
+      const LocalFunctions& functions = made.program->functions();
+      state.SetLabel(fmt::format("quantity={} links={} intervals={}", quantity, links, intervals));
+      state.counters["lagrangian_operations"] = static_cast<double>(functions.lagrangian.operation_count());
+      state.counters["hessian_operations"] = static_cast<double>(functions.hessian.schedule.operation_count());
+    } catch (const Error& error) {
+      state.SkipWithError(error.what());
+    }
+  };
+  benchmark::RegisterBenchmark(fmt::format("{}/{}", quantity, links).c_str(), run_or_tell)
+      ->Unit(benchmark::kMicrosecond);
 }
 
-std::string page_of(const Table& table) {
-  std::string page = fmt::format(
-      "`link_chain` by DMOC with the midpoint rule, N = {}. An iteration of `interior_point` evaluates residuals, "
-      "gradient, Jacobian and Hessian and eliminates one system; times are per interval, medians over rounds in which "
-      "every chain takes its turn, intervals of 99 % (bootstrap). Operations are those of the tape of an interval's "
-      "Lagrangian ℓ = factor · cost + multipliers · rows, and of its Hessian. Making the program is tracing, "
-      "differentiating and numbering.\n\n",
-      intervals);
-  page += page_table(table.rows(), {{"links", "links"},
-                                    {"lagrangian_operations", "operations of ℓ", 9},
-                                    {"hessian_operations", "of its Hessian", 9},
-                                    {"evaluation_ns", "evaluation ns"},
-                                    {"elimination_ns", "elimination ns"},
-                                    {"iteration_ns", "both ns"},
-                                    {"iteration_ns_lower", "from"},
-                                    {"iteration_ns_upper", "to"},
-                                    {"setup_seconds", "making s"},
-                                    {"setup_seconds_lower", "from"},
-                                    {"setup_seconds_upper", "to"}});
-  page += "## Exponents of n, by least squares\n\n";
-  page += exponent_of(table, "lagrangian_operations", "operations of ℓ");
-  page += exponent_of(table, "hessian_operations", "operations of its Hessian");
-  page += exponent_of(table, "evaluation_ns", "time of evaluation");
-  page += exponent_of(table, "elimination_ns", "time of elimination");
-  page += exponent_of(table, "iteration_ns", "time of both");
-  page += exponent_of(table, "setup_seconds", "time of making the program");
-  return page;
+template <void (Iteration::*part)()>
+void run_part(benchmark::State& state, const GuessedProgram& made) {
+  Iteration iteration(made);
+  for ([[maybe_unused]] auto turn : state) (iteration.*part)();
 }
 
-MeasuredPage measure(int most_links, int rounds) {
-  std::list<Chain> chains;
-  for (const int links : {2, 3, 4, 6, 8, 10, 16, 32, longest}) {
-    if (links <= most_links) chains.emplace_back(links);
+void run_making(benchmark::State& state, const GuessedProgram& made) {
+  const auto links = static_cast<int>(made.problem->configuration_size());
+  for ([[maybe_unused]] auto turn : state) benchmark::DoNotOptimize(chain_of(links));
+}
+
+void register_chains() {
+  constexpr int most_iterated = 32;  // links; of longer chains only making the program is timed
+  for (const int links : {2, 3, 4, 6, 8, 10, 16, 32, 64}) {
+    add("making", links, run_making);
+    if (links > most_iterated) continue;
+    add("evaluation", links, run_part<&Iteration::evaluate>);
+    add("elimination", links, run_part<&Iteration::eliminate>);
   }
-  for (int round = 0; round < rounds; ++round) {
-    for (Chain& chain : chains) chain.measure();
-  }
-  const Table table = table_of(Chain::columns(), chains);
-  return {"Chains of links: what an interval takes in an iteration", page_of(table), {{"", table}}};
 }
 
 }  // namespace
 
 int run_chains(int argc, char** argv) {
-  int most_links = longest;
-  const PageProgram program{
-      .name = "chains",
-      .description = "Chains of links: what an interval takes in an iteration, over n.",
-      .columns = describe(Chain::columns()),
-      .options = [&](CommandLine& line) { line.number("--links", most_links, 2, longest, "the longest chain"); },
-      .measure = [&](int rounds) { return measure(most_links, rounds); }};
+  const BenchmarkProgram program{.name = "chains",
+                                 .description = "What an iteration takes with chains of links, over their number.",
+                                 .default_filter = ".",
+                                 .register_benchmarks = register_chains};
   return program.run(argc, argv);
 }
 

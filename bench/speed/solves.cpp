@@ -18,8 +18,8 @@
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
 #include "bench/speed/speed_tables.hpp"
+#include "bench/speed/timed_solves.hpp"
 #include "methods/runtime/parallel.hpp"
-#include "methods/solvers/solver.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
 
@@ -93,35 +93,13 @@ std::optional<double> peak_bytes(const SolveCase& solve) {
   return before && peak ? std::optional(std::max(0.0, *peak - *before)) : std::nullopt;
 }
 
-/// Every turn of the timed loop is one solve. What a solver looks up in the program before its first iteration is part
-/// of it; the trace, its derivatives and judging the answer are not.
-///
 /// Every repetition makes the program anew. So making it is measured as often as solving it, the place of its arrays is
 /// part of the noise that the repetitions tell, and no program of a million intervals, a gigabyte, waits for its turn.
 void run(benchmark::State& state, const SolveCase& solve, std::optional<double> bytes) {
-  const GuessedProgram made = program_of(solve);
-  const auto solver = make_solver_of(solve);
-  Solution solution;
-  double seconds = 0.0;
-  double evaluation_seconds = 0.0;
-  for ([[maybe_unused]] auto turn : state) {
-    solution = solver->solve(*made.program, made.start);
-    state.SetIterationTime(solution.seconds);
-    seconds += solution.seconds;
-    evaluation_seconds += solution.evaluation_seconds;
-  }
-  const double iterations = solution.major_iterations.value_or(0);
-  const double interval_turns = static_cast<double>(state.iterations()) * solve.intervals;
+  static_cast<void>(time_solves(state, *make_solver_of(solve), program_of(solve)));
+  if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;
   state.SetLabel(fmt::format("problem={} method={} intervals={} solver={} threads={}", solve.problem, solve.method,
                              solve.intervals, solve.solver, solve.threads));
-  state.counters["major_iterations"] = iterations;
-  if (solution.linear_systems) state.counters["linear_systems"] = *solution.linear_systems;
-  state.counters["objective"] = solution.objective;
-  state.counters["solved"] = is_solved(solution.status) ? 1.0 : 0.0;
-  state.counters["evaluation_share"] = evaluation_seconds / seconds;
-  state.counters["ns_per_interval_iteration"] = 1e9 * seconds / interval_turns / std::max(1.0, iterations);
-  if (bytes) state.counters["bytes_per_interval"] = *bytes / solve.intervals;
-  state.counters["setup_seconds"] = made.setup_seconds;
 }
 
 /// [library/]PROBLEM/METHOD/INTERVALS/SOLVER[/threads_COUNT]; one thread is not named.
