@@ -1,10 +1,10 @@
 # Times that others have published beside ours, problem by problem: hollow marks were measured elsewhere.
 #   gnuplot -e "results='results'" plots/speed_published.gp
-# Reads speed_published.csv (build/bench/speed/published --out results); draws nothing if it is not there.
+# Reads speed_published.csv (tests/long/published results); draws nothing if it is not there.
 plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 if (!exists_table("speed_published")) { exit }
-eval require("speed_published", "position,problem,intervals,where,seconds,seconds_lower,seconds_upper,status")
+eval require("speed_published", "position,problem,intervals,where,seconds,status")
 
 groups = distinct("speed_published", "position,problem,intervals", "", "")
 if (words(groups) == 0) { exit }

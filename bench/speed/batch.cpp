@@ -20,8 +20,8 @@
 #include "bench/run/even_draws.hpp"
 #include "bench/speed/benchmark_program.hpp"
 #include "bench/speed/guessed_program.hpp"
-#include "bench/speed/measured_page.hpp"
 #include "bench/speed/speed_tables.hpp"
+#include "bench/tables/ratio_interval.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parallel.hpp"
@@ -253,27 +253,30 @@ struct BatchTimes : Benchmark {
 
 Columns<BatchTimes> batch_columns() {
   using Times = BatchTimes;
-  Columns<Times> columns =
-      Columns<Times>{label_column<Times>("problem", "name of the problem"),
-                     label_column<Times>("start", "cold, warm or nearest"),
-                     label_column<Times>("way", "batch, fill (it is filled only), or the solver of a loop"),
-                     label_column<Times>("threads", "that work", FieldKind::integer),
-                     label_column<Times>("instances", "that are solved", FieldKind::integer),
-                     {"repetitions", "", "how often it was measured",
-                      [](const Times& times) { return times.numbers.at("real_time").size(); }}} +
-      median_columns<Times>("seconds", "s", "time per instance", &Times::rounds) +
-      Columns<Times>{
-          {"solves_per_second", "1/s", "by the median", [](const Times& times) { return times.rate(times.seconds()); }},
-          {"rate_lower", "1/s", "of the interval of 99 % of this rate",
-           [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
-          {"rate_upper", "1/s", "of the same interval",
-           [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
-          {"ratio", "", "seconds by those of the batch on all threads, from the same start", &Times::ratio},
-          counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
-          counter_column<Times>("median_iterations", "", "of a solve"),
-          counter_column<Times>("solved", "", "share of the instances"),
-          counter_column<Times>("one_by_one", "", "share of the instances that leave their lanes"),
-          counter_column<Times>("lanes_in_use", "", "share of the turns of all lanes")};
+  Columns<Times> columns{
+      label_column<Times>("problem", "name of the problem"),
+      label_column<Times>("start", "cold, warm or nearest"),
+      label_column<Times>("way", "batch, fill (it is filled only), or the solver of a loop"),
+      label_column<Times>("threads", "that work", FieldKind::integer),
+      label_column<Times>("instances", "that are solved", FieldKind::integer),
+      {"repetitions", "", "how often it was measured",
+       [](const Times& times) { return times.numbers.at("real_time").size(); }},
+      {"seconds", "s", "time per instance, the median over the rounds", &Times::seconds},
+      {"seconds_lower", "s", "of the interval of 99 % of this median",
+       [](const Times& times) { return MedianOfRounds(times.rounds()).lower; }},
+      {"seconds_upper", "s", "of the same interval",
+       [](const Times& times) { return MedianOfRounds(times.rounds()).upper; }},
+      {"solves_per_second", "1/s", "by the median", [](const Times& times) { return times.rate(times.seconds()); }},
+      {"rate_lower", "1/s", "of the interval of 99 % of this rate",
+       [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).upper); }},
+      {"rate_upper", "1/s", "of the same interval",
+       [](const Times& times) { return times.rate(MedianOfRounds(times.rounds()).lower); }},
+      {"ratio", "", "seconds by those of the batch on all threads, from the same start", &Times::ratio},
+      counter_column<Times>("processor_seconds", "s", "time of all processors per instance"),
+      counter_column<Times>("median_iterations", "", "of a solve"),
+      counter_column<Times>("solved", "", "share of the instances"),
+      counter_column<Times>("one_by_one", "", "share of the instances that leave their lanes"),
+      counter_column<Times>("lanes_in_use", "", "share of the turns of all lanes")};
   for (const char* const phase : phase_names) {
     columns.push_back(
         counter_column<Times>(fmt::format("share_{}", phase), "", "of the phase in the time of all threads"));

@@ -23,34 +23,4 @@ ShareInterval difference_interval(const ShareCount& first, const ShareCount& sec
           difference + std::hypot(a.upper - first.share(), second.share() - b.lower)};
 }
 
-namespace {
-
-/// The correlation of the two outcomes, corrected for continuity; 0 where one of them is always the same.
-double correlation_of(const PairedCount& count) {
-  const auto a = static_cast<double>(count.both);
-  const auto b = static_cast<double>(count.first_only);
-  const auto c = static_cast<double>(count.second_only);
-  const auto d = static_cast<double>(count.neither);
-  const double margins = (a + b) * (c + d) * (a + c) * (b + d);
-  if (margins == 0.0) return 0.0;
-  const double determinant = a * d - b * c;
-  const double corrected = determinant > 0.0 ? std::max(0.0, determinant - 0.5 * (a + b + c + d)) : determinant;
-  return corrected / std::sqrt(margins);
-}
-
-}  // namespace
-
-ShareInterval paired_difference_interval(const PairedCount& count) {
-  const ShareInterval a = wilson_interval(count.first());
-  const ShareInterval b = wilson_interval(count.second());
-  const double first = count.first().share();
-  const double second = count.second().share();
-  const double correlation = correlation_of(count);
-  const auto half = [&](double x, double y) {
-    return std::sqrt(std::max(0.0, x * x - 2.0 * correlation * x * y + y * y));
-  };
-  return {first - second - half(first - a.lower, b.upper - second),
-          first - second + half(a.upper - first, second - b.lower)};
-}
-
 }  // namespace dmocbench

@@ -25,20 +25,4 @@ struct ShareCount {
 /// ("Interval estimation for the difference between independent proportions", 1998, method 10).
 [[nodiscard]] ShareInterval difference_interval(const ShareCount& first, const ShareCount& second);
 
-/// How two did on the same trials.
-struct PairedCount {
-  std::size_t both = 0;
-  std::size_t first_only = 0;
-  std::size_t second_only = 0;
-  std::size_t neither = 0;
-  [[nodiscard]] std::size_t trials() const { return both + first_only + second_only + neither; }
-  [[nodiscard]] ShareCount first() const { return {both + first_only, trials()}; }
-  [[nodiscard]] ShareCount second() const { return {both + second_only, trials()}; }
-};
-
-/// Newcombe's interval for the difference of the two shares, first less second, of at least one trial: that of
-/// `difference_interval` with the correlation of both ("Improved confidence intervals for the difference between
-/// binomial proportions based on paired data", 1998, method 10).
-[[nodiscard]] ShareInterval paired_difference_interval(const PairedCount& count);
-
 }  // namespace dmocbench

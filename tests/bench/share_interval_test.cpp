@@ -60,24 +60,5 @@ TEST(DifferenceInterval, ChangesItsSignWithTheOrderAndHoldsZeroForEqualCounts) {
   }
 }
 
-TEST(PairedDifferenceInterval, IsTheOneThatNewcombePrints) {
-  // "Improved confidence intervals for the difference between binomial proportions based on paired data", 1998, table
-  // of examples, method 10.
-  const ShareInterval interval = paired_difference_interval({36, 12, 2, 0});
-  EXPECT_NEAR(interval.lower, 0.0569, 5.1e-5);
-  EXPECT_NEAR(interval.upper, 0.3404, 5.1e-5);
-}
-
-TEST(PairedDifferenceInterval, IsNarrowerTheMoreBothAgreeAndTurnsWithTheirOrder) {
-  const ShareInterval agreeing = paired_difference_interval({60, 5, 5, 30});
-  const ShareInterval independent = difference_interval({65, 100}, {65, 100});
-  EXPECT_LT(agreeing.upper - agreeing.lower, 0.7 * (independent.upper - independent.lower));
-  const ShareInterval forward = paired_difference_interval({50, 9, 2, 11});
-  const ShareInterval backward = paired_difference_interval({50, 2, 9, 11});
-  EXPECT_NEAR(forward.lower, -backward.upper, 1e-15);
-  EXPECT_NEAR(forward.upper, -backward.lower, 1e-15);
-  EXPECT_EQ(paired_difference_interval({8, 0, 0, 0}).upper, 1.0 - wilson_interval({8, 8}).lower);
-}
-
 }  // namespace
 }  // namespace dmocbench
