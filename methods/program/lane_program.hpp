@@ -46,7 +46,7 @@ class LaneProgram {
   LaneProgram() = default;
 };
 
-/// Makes the lanes of a program, one `LaneProgram` per thread.
+/// Makes the lanes of a program, one `LaneProgram` per thread. Called by all these threads at once.
 using MakeLanes = std::function<std::unique_ptr<LaneProgram>()>;
 
 }  // namespace dmocbench

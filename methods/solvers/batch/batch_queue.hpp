@@ -1,41 +1,133 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
+#include <span>
+#include <thread>
 
+#include "methods/program/nonlinear_program.hpp"
 #include "methods/program/solution.hpp"
+#include "methods/runtime/lane_loops.hpp"
+#include "methods/solvers/batch/batch_source.hpp"
 #include "methods/solvers/batch/solve_batch.hpp"
 
 namespace dmocbench::batch {
 
-/// An instance with its number.
-struct Assignment {
-  std::size_t index = 0;
-  BatchInstance instance;
+/// A lock that knows whether the calling thread holds it.
+class KnownLock {
+ public:
+  void lock() {
+    mutex_.lock();
+    holder_ = std::this_thread::get_id();
+  }
+  void unlock() {
+    holder_ = std::thread::id();
+    mutex_.unlock();
+  }
+  [[nodiscard]] bool is_mine() const { return holder_ == std::this_thread::get_id(); }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<std::thread::id> holder_;
 };
 
-/// Where the groups of lanes, each on a thread of its own, fetch instances and leave answers.
+/// The answer to an instance.
+struct Answer {
+  std::size_t index = 0;
+  Solution solution;
+};
+
+/// What all threads of a batch share: the source, the program that evaluates single solves, and how it went.
+class SharedBatch {
+ public:
+  SharedBatch(NonlinearProgram& program, BatchSource& source, const BatchOptions& options)
+      : program_(program), source_(source), options_(options) {}
+
+  /// While no thread works.
+  void begin_generation() noexcept;
+  /// Whether there is no further generation.
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
+  [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+
+  /// Fills a group of instances, as far as there are any; returns how many. Threads wait for each other where the
+  /// source is asked what instances there are, but not where it searches.
+  [[nodiscard]] std::size_t hand_out(std::span<Assignment> group);
+  void take(std::span<const Answer> answers);
+  [[nodiscard]] Solution solve_alone(const BatchInstance& instance);
+  void confirm(const BatchInstance& instance, Solution& solution);
+  void count_round();
+  /// Where the time of a thread went.
+  void add_seconds(const BatchSeconds& seconds);
+
+  /// Work of a thread; what it throws ends the batch.
+  template <class Work>
+  void guard(const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      fail(std::current_exception());
+    }
+  }
+  /// Once all threads have ended; throws what the first of them has thrown.
+  [[nodiscard]] BatchSummary summary();
+
+  [[nodiscard]] const NonlinearProgram& program() const { return program_; }
+  [[nodiscard]] const BatchOptions& options() const { return options_; }
+
+ private:
+  template <class Use>
+  auto with_instance(const BatchInstance& instance, const Use& use);
+  void fail(std::exception_ptr error) noexcept;
+
+  NonlinearProgram& program_;
+  BatchSource& source_;
+  const BatchOptions& options_;
+  KnownLock handing_out_;   // `source_` but for `search` and `take`; `handed_out_`
+  std::mutex taking_;       // `BatchSource::take`, `error_`, seconds
+  std::mutex program_use_;  // `program_`
+  std::size_t handed_out_ = 0;
+  bool is_exhausted_ = false;  // the generation is
+  bool has_ended_ = false;
+  std::atomic<bool> is_stopped_{false};
+  std::atomic<std::size_t> rounds_{0};
+  BatchSummary summary_;
+  std::exception_ptr error_;
+};
+
+/// Where eight lanes, those of one thread, fetch instances and leave answers. Both go to and fro in groups, so that
+/// threads seldom meet.
 class BatchQueue {
  public:
-  virtual ~BatchQueue() = default;
-  BatchQueue(const BatchQueue&) = delete;
-  BatchQueue& operator=(const BatchQueue&) = delete;
-  BatchQueue(BatchQueue&&) = delete;
-  BatchQueue& operator=(BatchQueue&&) = delete;
+  /// `parameters`: how many an instance has.
+  BatchQueue(SharedBatch& batch, std::size_t parameters) : batch_(batch), parameters_(parameters) {}
 
   /// The next instance that lanes can begin with; false if there is none left.
-  [[nodiscard]] virtual bool fetch(Assignment& assignment) = 0;
-  virtual void deliver(std::size_t index, const Solution& solution) = 0;
+  [[nodiscard]] bool fetch(Assignment& assignment);
+  /// Takes an answer, and leaves an earlier one whose memory may be used again.
+  void deliver(std::size_t index, Solution& solution);
   /// Solves an instance that the lanes cannot finish, and delivers the answer.
-  virtual void solve_one_by_one(const Assignment& assignment, const Solution& so_far) = 0;
+  void solve_one_by_one(const Assignment& assignment, const Solution& so_far);
   /// `confirm` of an answer.
-  virtual void confirm(const Assignment& assignment, Solution& solution) = 0;
-  [[nodiscard]] virtual bool is_stopped() = 0;
-  virtual void count_round() = 0;
-  /// Where the time of a thread went.
-  virtual void add_seconds(const BatchSeconds& seconds) = 0;
+  void confirm(const Assignment& assignment, Solution& solution) { batch_.confirm(assignment.instance, solution); }
+  [[nodiscard]] bool is_stopped() const { return batch_.is_stopped(); }
+  void count_round() { batch_.count_round(); }
+  /// When all lanes are idle: delivers what is left. Where the time went.
+  void end_generation(const BatchSeconds& seconds);
 
- protected:
-  BatchQueue() = default;
+ private:
+  [[nodiscard]] Solution check(const BatchInstance& instance) const;
+  void deliver_answers();
+
+  SharedBatch& batch_;
+  std::size_t parameters_;
+  std::array<Assignment, instance_lanes> group_;
+  std::size_t handed_out_ = 0;  // of the group
+  std::size_t fetched_ = 0;     // of these
+  std::array<Answer, instance_lanes> answers_;
+  std::size_t answered_ = 0;
 };
 
 }  // namespace dmocbench::batch

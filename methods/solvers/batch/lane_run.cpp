@@ -20,14 +20,13 @@ LaneValues values_of(const LaneProblem& problem) {
 
 }  // namespace
 
-LaneRun::LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
-                 const BatchOptions& options, BatchQueue& queue)
-    : options_(options),
-      queue_(queue),
-      problem_(program, std::move(lanes)),
+LaneRun::LaneRun(SharedBatch& batch, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt)
+    : options_(batch.options()),
+      queue_(batch, lanes->parameter_count()),
+      problem_(batch.program(), std::move(lanes)),
       kkt_(std::move(kkt)),
-      stop_rule_(program, options.tolerance),
-      rounding_of_theta_(program.rounding_floors().norm_of_constraints(problem_.constraint_count())),
+      stop_rule_(batch.program(), options_.tolerance),
+      rounding_of_theta_(batch.program().rounding_floors().norm_of_constraints(problem_.constraint_count())),
       primal_(problem_.primal_count()),
       multipliers_(problem_.constraint_count()),
       z_(problem_.bounds().count()),
@@ -53,7 +52,7 @@ void LaneRun::run() {
     judge();
     queue_.count_round();
   }
-  queue_.add_seconds(clock_.seconds());
+  queue_.end_generation(clock_.seconds());
 }
 
 bool LaneRun::is_warm(std::size_t lane) const { return lanes_[lane].assignment.instance.multipliers.size() > 0; }

@@ -32,10 +32,10 @@ namespace constants = interior_point::constants;
 /// a round means to it; a lane whose inertia was wrong waits for the next round with a larger shift.
 class LaneRun {
  public:
-  LaneRun(const NonlinearProgram& program, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt,
-          const BatchOptions& options, BatchQueue& queue);
+  /// The batch must outlive it.
+  LaneRun(SharedBatch& batch, std::unique_ptr<LaneProgram> lanes, std::unique_ptr<kkt::LaneKkt> kkt);
 
-  /// Until the queue has no more instances.
+  /// Until the generation has no more instances.
   void run();
 
  private:
@@ -105,7 +105,7 @@ class LaneRun {
   }
 
   const BatchOptions& options_;
-  BatchQueue& queue_;
+  BatchQueue queue_;
   PhaseClock clock_;
   LaneProblem problem_;
   std::unique_ptr<kkt::LaneKkt> kkt_;

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "methods/solvers/batch/batch_source.hpp"
+
 namespace dmocbench {
 
 namespace batch {
@@ -21,28 +23,67 @@ class SolvedInstances {
     solutions_.push_back(std::move(solution));
   }
   /// Null of none.
-  [[nodiscard]] const Solution* nearest_to(const Eigen::VectorXd& place) {
+  [[nodiscard]] const Solution* nearest_to(const Eigen::VectorXd& place) const {
     if (solutions_.empty()) return nullptr;
     const auto known = places_.leftCols(static_cast<Eigen::Index>(solutions_.size()));
     Eigen::Index nearest = 0;
-    distances_ = (known.colwise() - place).colwise().squaredNorm();
-    distances_.minCoeff(&nearest);
+    const Eigen::RowVectorXd distances = (known.colwise() - place).colwise().squaredNorm();
+    distances.minCoeff(&nearest);
     return &solutions_[static_cast<std::size_t>(nearest)];
   }
 
  private:
   Eigen::MatrixXd places_;
-  Eigen::RowVectorXd distances_;
   std::vector<Solution> solutions_;
 };
 
-void add(BatchSummary& sum, const BatchSummary& summary) {
-  sum.instances += summary.instances;
-  sum.solved += summary.solved;
-  sum.solved_one_by_one += summary.solved_one_by_one;
-  sum.rounds += summary.rounds;
-  for (std::size_t i = 0; i < sum.seconds.size(); ++i) sum.seconds[i] += summary.seconds[i];
-}
+/// Generations as large as all before them together; the last one begins when there are enough neighbours.
+class NeighbourSource final : public BatchSource {
+ public:
+  NeighbourSource(const PlaceInstance& place, const NextFromNeighbour& next, const TakeSolution& take)
+      : place_(place), next_(next), take_(take) {}
+
+  [[nodiscard]] bool begin_generation() override {
+    if (is_over_ || is_last_) return false;
+    for (auto& [index, solution] : solved_) {
+      if (!place_(index, here_)) break;
+      neighbours_.add(here_, std::move(solution));
+    }
+    solved_.clear();
+    is_last_ = end_ >= most_neighbours;
+    end_ = end_ == 0 ? first_generation : 2 * end_;
+    return true;
+  }
+
+  [[nodiscard]] bool hand_out(Assignment& assignment) override {
+    if (!is_last_ && assignment.index == end_) return false;
+    is_over_ = !place_(assignment.index, assignment.coordinates);
+    return !is_over_;
+  }
+
+  /// No answer is added while a generation is solved.
+  void search(Assignment& assignment) const override {
+    assignment.neighbour = neighbours_.nearest_to(assignment.coordinates);
+  }
+
+  void fill(Assignment& assignment) override { next_(assignment.index, assignment.neighbour, assignment.instance); }
+
+  void take(std::size_t index, const Solution& solution) override {
+    if (!is_last_ && is_solved(solution.status)) solved_[index] = solution;
+    take_(index, solution);
+  }
+
+ private:
+  const PlaceInstance& place_;
+  const NextFromNeighbour& next_;
+  const TakeSolution& take_;
+  SolvedInstances neighbours_;
+  std::map<std::size_t, Solution> solved_;  // of this generation, in the order of their numbers
+  Eigen::VectorXd here_;
+  std::size_t end_ = 0;  // of this generation, unless it is the last
+  bool is_last_ = false;
+  bool is_over_ = false;  // there are no more instances
+};
 
 }  // namespace
 
@@ -52,34 +93,8 @@ BatchSummary solve_batch_from_neighbours(NonlinearProgram& program, const MakeLa
                                          const Eigen::VectorXd& usual, const PlaceInstance& place,
                                          const NextFromNeighbour& next, const TakeSolution& take,
                                          const BatchOptions& options) {
-  BatchSummary sum;
-  batch::SolvedInstances neighbours;
-  std::size_t begin = 0;
-  for (std::size_t generation = batch::first_generation; generation > 0;) {
-    const bool is_last = begin >= most_neighbours;
-    std::map<std::size_t, Solution> solved;  // of this generation, in the order of their numbers
-    Eigen::VectorXd here;
-    const auto fetch = [&](std::size_t index, BatchInstance& instance) {
-      if (!is_last && index == generation) return false;
-      if (!place(begin + index, here)) return false;
-      next(begin + index, neighbours.nearest_to(here), instance);
-      return true;
-    };
-    const auto keep = [&](std::size_t index, const Solution& solution) {
-      if (!is_last && is_solved(solution.status)) solved[index] = solution;
-      take(begin + index, solution);
-    };
-    const BatchSummary summary = solve_batch(program, make_lanes, usual, fetch, keep, options);
-    batch::add(sum, summary);
-    const bool is_over = is_last || summary.instances < generation;
-    for (auto& [index, solution] : solved) {
-      if (is_over || !place(begin + index, here)) break;
-      neighbours.add(here, std::move(solution));
-    }
-    begin += summary.instances;
-    generation = is_over ? 0 : begin;
-  }
-  return sum;
+  batch::NeighbourSource source(place, next, take);
+  return batch::solve_batch_of(source, program, make_lanes, usual, options);
 }
 
 }  // namespace dmocbench

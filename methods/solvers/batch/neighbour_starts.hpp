@@ -24,8 +24,9 @@ inline constexpr std::size_t most_neighbours = 512;
 /// They are solved in generations: the first 64 without neighbours, then as many as there are already, each from the
 /// nearest of all generations before, until `most_neighbours` are known; the others are the last generation. Which
 /// instance starts from which depends on their order alone, so that answers do not depend on the number of threads.
-/// `place` and `next` are called as `NextInstance` is; `next` is free to move the neighbour's answer to the ends of the
-/// instance. Throws as `solve_batch` does.
+/// `place` and `next` are called as `NextInstance` is, but `next` in any order; it is free to move the neighbour's
+/// answer to the ends of the instance. The search for the nearest is the work of all threads at once. Throws as
+/// `solve_batch` does.
 BatchSummary solve_batch_from_neighbours(NonlinearProgram& program, const MakeLanes& make_lanes,
                                          const Eigen::VectorXd& usual, const PlaceInstance& place,
                                          const NextFromNeighbour& next, const TakeSolution& take,

@@ -77,7 +77,8 @@ using TakeSolution = std::function<void(std::size_t index, const Solution& solut
 /// Solves many instances of a program by the interior-point method, eight at a time in the lanes of vector registers
 /// and several such groups on threads; see README.md. An instance that has converged leaves its lane to the next one.
 ///
-/// `next` and `take` are called from several threads, one at a time, while `program` is in use: neither may touch it.
+/// `next` and `take` are called from several threads, each by one at a time, while `program` is in use: neither may
+/// touch it. A thread asks for several instances and delivers several answers at a time.
 /// Answers come in any order, each with the index of its instance: 0, 1, ... Memory does not grow with their number.
 /// An answer depends on its instance alone, to the last digit: neither on its neighbours nor on the number of threads.
 /// It is solved only if the residuals of its optimality conditions are below the tolerance, and a Newton step would not

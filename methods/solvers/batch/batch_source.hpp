@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "methods/program/lane_program.hpp"
+#include "methods/program/nonlinear_program.hpp"
+#include "methods/program/solution.hpp"
+#include "methods/solvers/batch/solve_batch.hpp"
+
+namespace dmocbench::batch {
+
+/// An instance with its number.
+struct Assignment {
+  std::size_t index = 0;
+  BatchInstance instance;
+  Eigen::VectorXd coordinates;          ///< of `solve_batch_from_neighbours`, as is the next
+  const Solution* neighbour = nullptr;  ///< null if there is none
+};
+
+/// Where the instances of a batch come from and their answers go, for all its threads. Instances come in generations:
+/// one begins when all answers to the one before have been taken.
+class BatchSource {
+ public:
+  virtual ~BatchSource() = default;
+  BatchSource(const BatchSource&) = delete;
+  BatchSource& operator=(const BatchSource&) = delete;
+  BatchSource(BatchSource&&) = delete;
+  BatchSource& operator=(BatchSource&&) = delete;
+
+  /// While no thread works; false if there are no more instances.
+  [[nodiscard]] virtual bool begin_generation() = 0;
+  /// Says what the instance with a number is, in the order of the numbers; false if the generation has no more. One
+  /// thread at a time does this or `fill`.
+  [[nodiscard]] virtual bool hand_out(Assignment& assignment) = 0;
+  /// What takes time and changes nothing that threads share, so that all of them do it at once.
+  virtual void search(Assignment& /*assignment*/) const {}
+  /// Ends what `hand_out` began, in any order.
+  virtual void fill(Assignment& /*assignment*/) {}
+  /// Takes an answer; one thread at a time.
+  virtual void take(std::size_t index, const Solution& solution) = 0;
+
+ protected:
+  BatchSource() = default;
+};
+
+/// `solve_batch` of the instances of a source.
+BatchSummary solve_batch_of(BatchSource& source, NonlinearProgram& program, const MakeLanes& make_lanes,
+                            const Eigen::VectorXd& usual, const BatchOptions& options);
+
+}  // namespace dmocbench::batch
