@@ -15,6 +15,7 @@
 #include "methods/mechanics/traced_problem.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
 #include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/problem_registry.hpp"
 #include "problems/registry.hpp"
 
@@ -181,7 +182,7 @@ int print_all(CommandLine& line) {
   }
   if (!names.empty()) return 0;
   fmt::print("Methods (--method)\n\n");
-  for (const std::string& name : all_element_names()) {
+  for (const std::string& name : all_methods()) {
     fmt::print("{:<28} {}\n", name, make_element(name)->description());
   }
   fmt::print("\nTableaus (--tableau, --stages)\n\n");

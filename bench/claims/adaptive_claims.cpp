@@ -3,6 +3,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/claims/timed_ratios.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -81,7 +82,7 @@ const Row& fewest_intervals(const Selection& rows) {
 Finding fewer_intervals(const ResultTables& tables, const std::string& problem) {
   std::string words;
   bool holds = true;
-  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     const Selection adapted = reached(tables, problem, method, "adapted");
     const Selection uniform = reached(tables, problem, method, "uniform");
     const Row& best = fewest_intervals(adapted);

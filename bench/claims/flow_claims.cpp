@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bench/claims/claim.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -97,7 +98,7 @@ Finding symplectic(const ResultTables& tables, const std::string& /*problem*/) {
     return row.needed("defect") / row.needed("rounding");
   };
   const auto is_tangent = [](const Row& row) { return row.text("method") == "tangent"; };
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     require(!rows.where("method", method).empty(), "structure_symplecticity.csv has no row of {}", method);
   }
   const double structured = std::max(0.0, rows.where(std::not_fn(is_tangent)).max(defect));

@@ -5,6 +5,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/run/solve_case.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -59,7 +60,7 @@ Predicate is_of_order_two(const std::string& solves, const char* quantity) {
   return [=](const ResultTables& tables, const std::string& problem) -> Finding {
     const Selection fitted = tables.rows(solves + "_slopes", problem).where("quantity", quantity);
     Selection orders;
-    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const std::string& method : paper_families()) {
       const Selection order = midpoint(fitted, method);
       require(!order.empty(), "{}_slopes.csv has no slope of {}, {}, {}", solves, problem, method, quantity);
       orders.append(order);

@@ -5,7 +5,7 @@
 #include "bench/claims/claim.hpp"
 #include "bench/tables/profile_tables.hpp"
 #include "methods/runtime/counted.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -16,7 +16,7 @@ namespace {
 Finding local_minima(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("local_minima_minima", problem);
   const Selection motions = rows.where("is_motion", "yes");
-  const Selection shared = motions.where([methods = element_names()](const Row& row) {
+  const Selection shared = motions.where([methods = paper_families()](const Row& row) {
     return std::ranges::count_if(methods, [&](const auto& method) { return row.needed(method) > 0.0; }) > 1;
   });
   const auto objective = [](const Row& row) { return fmt::format("{:.5g}", row.needed("objective")); };

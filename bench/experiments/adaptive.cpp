@@ -11,7 +11,7 @@
 #include "bench/run/problem_options.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 
 namespace dmocbench::adaptive_program {
@@ -47,7 +47,7 @@ void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool 
   const bool has_several_minima = is_one_of(with_several_minima, name);
   // What is timed begins where a user begins.
   const Motion start = has_several_minima ? smooth_motion(certified.motion()) : guessed_motion(certified.problem());
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int stages : {2, 3, 4}) {
       const Scheme scheme{name, method, "gauss", stages};
       run.show(fmt::format("{} {} s = {}, adapted", name, method, stages));
@@ -62,7 +62,7 @@ void compare_grids(const TableRun& run, const CertifiedProblem& certified, bool 
 }
 
 void measure_effectivities(const TableRun& run, const CertifiedProblem& certified, Tables& tables) {
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int stages : {1, 2}) {
       run.show(fmt::format("{} {} s = {}, effectivity", certified.problem().name(), method, stages));
       const auto rows = measure_effectivity(certified, method, stages, TableRun::solver_options());

@@ -6,7 +6,7 @@
 #include "bench/run/problem_options.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench::coercivity_program {
 
@@ -36,7 +36,7 @@ int measure_all(CommandLine& line) {
   const std::unique_ptr<Solver> solver = make_solver("ipopt", options);
   std::vector<Curvature> rows;
   for (const std::shared_ptr<const Problem>& problem : asked.selected()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const long long intervals : {16, 32, 64, 128, 256, 512}) {
         const Case the_case{.problem = problem,
                             .method = method,

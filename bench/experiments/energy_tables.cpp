@@ -20,6 +20,7 @@
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
 #include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
@@ -251,7 +252,7 @@ ModifiedEnergyTables modified_energy_tables() {
   std::vector<Drift> drifts;
   std::vector<FittedQuantity> fits;
   for (const FreeSystem& system : free_systems()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       const Scheme scheme = midpoint_of(*system.problem, method);
       const FollowedEnergy followed(*system.problem, method);
       Curves curves;
@@ -275,7 +276,7 @@ EnergyWorkTables energy_work_tables(const std::vector<std::shared_ptr<const Prob
   StartProvider starts({}, options);
   EnergyWorkRows rows;
   for (const auto& problem : problems) {
-    for (const std::string& method : element_names()) follow_optimal_motions(problem, method, starts, rows);
+    for (const std::string& method : paper_families()) follow_optimal_motions(problem, method, starts, rows);
   }
   return {.unsolved = std::ranges::count_if(rows.plain, [](const PlainGap& row) { return !row.balance; }),
           .plain = table_of(plain_columns, rows.plain),

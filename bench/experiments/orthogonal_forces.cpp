@@ -8,7 +8,7 @@
 #include "bench/run/column.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/start_provider.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -60,7 +60,7 @@ Table orthogonal_forces_table(const SolverOptions& options) {
   const std::vector<std::shared_ptr<const Problem>> problems{std::make_shared<RadialThrust>(),
                                                              std::make_shared<MeridianPendulum>()};
   for (const auto& problem : problems) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const int stages : {1, 2}) {
         for (const long long intervals : {32, 64, 128, 256}) {
           throw_if_interrupted();

@@ -10,6 +10,7 @@
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -119,7 +120,7 @@ void follow(const RotatedSystem& system, const std::string& method, int steps, s
 Table rotations_table(int steps) {
   std::vector<Rotated> rows;
   for (const RotatedSystem& system : rotated_systems()) {
-    for (const std::string& method : element_names()) follow(system, method, steps, rows);
+    for (const std::string& method : paper_families()) follow(system, method, steps, rows);
   }
   return table_of(rotated_columns, rows);
 }

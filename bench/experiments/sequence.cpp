@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/experiments/solved_steps.hpp"
 #include "bench/run/column.hpp"
@@ -13,7 +14,7 @@
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::sequence_program {
@@ -21,7 +22,7 @@ namespace dmocbench::sequence_program {
 /// The choices of a user.
 struct SequenceOptions {
   ProblemOptions problems{.problems = paper_problem_names()};
-  std::vector<std::string> methods = element_names();
+  std::vector<std::string> methods = paper_families();
   int intervals = 64;
   int steps = 200;
   int cold_every = 5;
@@ -117,7 +118,7 @@ void print_summary(const Table& summary) {
 
 void add_options(CommandLine& line, SequenceOptions& options) {
   options.problems.add_to(line);
-  line.list("--method", options.methods, "methods: dmoc, hamiltonian, tangent");
+  line.list("--method", options.methods, fmt::format("methods: {}", fmt::join(paper_families(), ", ")));
   line.number("--intervals", options.intervals, 2, 4096, "number of intervals N");
   line.number("--steps", options.steps, 1, 100000, "problems in a sequence");
   line.number("--cold-every", options.cold_every, 0, 100000,
@@ -135,7 +136,7 @@ int run_sequences(CommandLine& line) {
   SequenceOptions options;
   add_options(line, options);
   TableRun run("sequence", line);
-  options.methods = chosen_of("--method", element_names(), options.methods);
+  options.methods = chosen_of("--method", paper_families(), options.methods);
   const auto problems = options.problems.selected();
   for (const auto& problem : problems) static_cast<void>(homotopy_of(options, *problem));
   const SolverOptions solver_options = TableRun::solver_options();

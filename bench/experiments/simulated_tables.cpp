@@ -15,6 +15,7 @@
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/diagnostics/one_step_map.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench {
@@ -51,7 +52,7 @@ Eigen::MatrixXd arbitrary_controls(Eigen::Index stages, Eigen::Index m, int step
 /// Every method with every tableau.
 template <class Visit>
 void for_all_maps(const Visit& visit) {
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const Tableau& tableau : one_step_tableaus()) visit(*make_element(method), tableau);
   }
 }

@@ -10,7 +10,7 @@
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench::smoothness_program {
 
@@ -86,7 +86,7 @@ class Smoothness {
     if (situation.active.empty()) situation.active = active_bounds(*situation.problem, finer);
     const KnownOptimum optimum(*situation.problem, situation.has_closed_form ? std::nullopt : std::optional(finer));
     const Start start{smooth_motion(finer)};
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const int stages : {1, 2}) follow(situation, optimum, start, method, stages);
     }
   }

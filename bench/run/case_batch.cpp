@@ -7,7 +7,7 @@
 
 #include "bench/run/process_pool.hpp"
 #include "methods/error.hpp"
-#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/start.hpp"
 
@@ -55,7 +55,7 @@ std::shared_ptr<Transcription> transcribed(const Case& the_case, const Problem& 
 
 bool CaseBatch::takes(const Case& the_case, const SolverOptions& options) {
   return the_case.solver == "interior_point" && the_case.derivatives == "tape" && the_case.form == CostForm::bolza &&
-         !is_single_shooting(the_case.method) && options.most_seconds <= 0.0 && !options.verbose;
+         !family_of(the_case.method).is_condensed && options.most_seconds <= 0.0 && !options.verbose;
 }
 
 bool CaseBatch::share_program(const Case& a, const Case& b) {

@@ -1,7 +1,6 @@
 #include "bench/run/options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <functional>
 #include <iterator>
@@ -18,7 +17,7 @@
 #include "methods/mechanics/problem_check.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/derivatives/derivative_back_end.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 #include "methods/transcription/elements/tableau.hpp"
 
@@ -76,12 +75,8 @@ std::vector<Grid> make_grids(const ExperimentOptions& options) {
   return grids;
 }
 
-/// The families of shooting as a command line names them.
-constexpr std::array shooting_families{std::pair{std::string_view("multiple_shooting"), Shooting::multiple},
-                                       std::pair{std::string_view("single_shooting"), Shooting::single}};
-
-/// The names of shooting by every chosen integrator with every chosen number of substeps.
-std::vector<std::string> shooting_names(Shooting shooting, const ExperimentOptions& options) {
+/// The methods of a family that takes an integrator: every chosen one with every chosen number of substeps.
+std::vector<std::string> integrated_methods(std::string_view family, const ExperimentOptions& options) {
   const std::vector<std::string> integrators =
       options.integrators.empty() ? std::vector<std::string>{"rk4"}
                                   : in_order("integrator", options.integrators, shooting_integrator_names());
@@ -95,29 +90,28 @@ std::vector<std::string> shooting_names(Shooting shooting, const ExperimentOptio
       } catch (const Error& error) {
         throw Error(fmt::format("--substeps: {}", error.what()));
       }
-      names.push_back(shooting_name(shooting, integrator, count));
+      names.push_back(shooting_name(family, integrator, count));
     }
   }
   return names;
 }
 
-/// The families as chosen, with shooting as its integrators and substeps say.
+/// The methods of the chosen families, with integrators and substeps as chosen.
 std::vector<std::string> chosen_methods(const ExperimentOptions& options) {
-  std::vector<std::string> known = element_names();
-  for (const auto& [name, shooting] : shooting_families) known.emplace_back(name);
+  const std::vector<std::string> chosen =
+      in_order("method", options.methods.empty() ? paper_families() : options.methods, all_families());
   std::vector<std::string> methods;
-  bool shoots = false;
-  for (std::string& name : in_order("method", options.methods.empty() ? element_names() : options.methods, known)) {
-    const auto* const family =
-        std::ranges::find(shooting_families, name, [](const auto& entry) { return entry.first; });
-    if (family == shooting_families.end()) {
-      methods.push_back(std::move(name));
+  bool integrates = false;
+  for (const Family& family : registered_families()) {
+    if (std::ranges::count(chosen, family.name) == 0) continue;
+    if (family.takes_integrator) {
+      std::ranges::move(integrated_methods(family.name, options), std::back_inserter(methods));
+      integrates = true;
     } else {
-      std::ranges::move(shooting_names(family->second, options), std::back_inserter(methods));
-      shoots = true;
+      methods.emplace_back(family.name);
     }
   }
-  if (!shoots && !(options.integrators.empty() && options.substeps.empty())) {
+  if (!integrates && !(options.integrators.empty() && options.substeps.empty())) {
     throw Error("--integrator and --substeps are those of shooting; add --method multiple_shooting");
   }
   return methods;
@@ -165,8 +159,8 @@ std::vector<FamilyAndStages> chosen_schemes(const ExperimentOptions& options) {
 void add_options(CommandLine& line, ExperimentOptions& options) {
   line.list("--problem", options.problems, "problems, as `list` names them; all: every one");
   line.list("--method", options.methods,
-            "methods: dmoc, hamiltonian, tangent, multiple_shooting, single_shooting" +
-                std::string(options.methods.empty() ? "; default: the first three" : ""));
+            fmt::format("methods: {}", fmt::join(all_families(), ", ")) +
+                (options.methods.empty() ? fmt::format("; default: {}", fmt::join(paper_families(), ", ")) : ""));
   line.list("--integrator", options.integrators,
             "of shooting: rk4, midpoint, dmoc (its own map as a step); default: rk4");
   line.list("--substeps", options.substeps, "steps of the integrator per interval, of shooting; default: 1");

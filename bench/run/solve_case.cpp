@@ -18,7 +18,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/describe_violation.hpp"
-#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -233,7 +233,9 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
     const StopScope scope = time.scope();
     const Clock::time_point begin = Clock::now();
     result.program = the_case.transcribe();
-    if (is_single_shooting(the_case.method)) result.condensed = std::make_shared<SingleShooting>(*result.program);
+    if (family_of(the_case.method).is_condensed) {
+      result.condensed = std::make_shared<SingleShooting>(*result.program);
+    }
     result.setup_seconds = seconds_since(begin);
   } catch (const Stopped&) {
     result.solution.status = time.reason();

@@ -20,6 +20,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/tables/motion_file.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/bent_motion.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -213,7 +214,7 @@ class StartProvider::Search {
   [[nodiscard]] std::vector<Candidate> solved_from_guess() {
     std::vector<Candidate> candidates;
     const Motion guess = guessed_motion(*case_.problem);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const long long intervals : guess_intervals) {
         if (must_stop()) return candidates;
         auto trajectory = solve_on(method, intervals, guess);

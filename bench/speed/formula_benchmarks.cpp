@@ -8,6 +8,7 @@
 #include "methods/error.hpp"
 #include "methods/expression/native/native_code.hpp"
 #include "methods/expression/replay.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 
 namespace dmocbench::speed {
@@ -117,7 +118,7 @@ void register_program_benchmarks() {
   constexpr int most_stages = 3;
   constexpr int fewest_links = 2;
   constexpr int most_links = 8;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (int stages = 1; stages <= most_stages; ++stages) {
       for (const std::string& problem : paper_problem_names()) {
         register_formulas({.problem = problem, .method = method, .stages = stages});

@@ -17,6 +17,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/parsed.hpp"
 #include "methods/solvers/prepared_solve.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/motions/moved_to_ends.hpp"
 #include "methods/transcription/start.hpp"
@@ -122,7 +123,7 @@ void run(benchmark::State& state, const RepeatedSolve& solve) {
 /// PROBLEM/METHOD/INTERVALS/cold or warm
 void register_solves() {
   for (const std::string& problem : paper_problem_names()) {
-    for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const std::string& method : paper_families()) {
       for (const int intervals : {16, 64}) {
         for (const bool is_warm : {false, true}) {
           const RepeatedSolve solve{problem, method, intervals, is_warm};

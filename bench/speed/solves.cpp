@@ -20,6 +20,7 @@
 #include "bench/speed/speed_tables.hpp"
 #include "bench/speed/timed_solves.hpp"
 #include "methods/runtime/parallel.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
 
@@ -134,13 +135,13 @@ void register_solves() {
   std::vector<std::string> on_all_grids = papers;
   on_all_grids.emplace_back(TwoLinkManipulatorBounded::own_name);
   for (const std::string& problem : on_all_grids) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const int intervals : {64, 1024, 16384, 65536, 262144, 1048576}) add_grid("", {problem, method, intervals});
     }
   }
   for (const std::string& problem : problem_names()) {
     if (std::ranges::find(papers, problem) != papers.end()) continue;
-    for (const std::string& method : element_names()) add_grid("library/", {problem, method, 1024});
+    for (const std::string& method : paper_families()) add_grid("library/", {problem, method, 1024});
   }
 }
 

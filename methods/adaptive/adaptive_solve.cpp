@@ -15,7 +15,7 @@
 #include "methods/runtime/clock.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/elements/element.hpp"
-#include "methods/transcription/elements/shooting_element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -190,7 +190,7 @@ void AdaptiveOptions::validate() const {
 AdaptiveAnswer solve_adaptively(const AdaptiveTask& task, const AdaptiveOptions& options,
                                 const std::function<void(const GridAttempt&)>& on_grid) {
   options.validate();
-  if (is_single_shooting(task.method)) {
+  if (family_of(task.method).is_condensed) {
     throw Error("single shooting has no nodes to refine between; choose multiple_shooting");
   }
   return AdaptiveRun(task, options).run(on_grid);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -35,7 +36,7 @@ double error_of_oscillation(const Trajectory& motion) {
 TEST(AdaptiveSolve, ReachesTheAccuracyAskedForByEveryFamilyAndSolver) {
   const auto problem = make_problem("forced_oscillator");
   for (const std::string solver : {"interior_point", "ipopt"}) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       AdaptiveOptions options;
       options.accuracy = 1e-7;
       options.solver = solver;

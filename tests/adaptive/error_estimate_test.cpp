@@ -7,6 +7,7 @@
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/indirect/solve_indirect.hpp"
 #include "methods/judgement/polish.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -82,7 +83,7 @@ TEST(ErrorEstimate, IsTheErrorOfEveryFamilyAndTableauAgainstTheClosedFormOfTheOs
 TEST(ErrorEstimate, VanishesWhereTheAnswerIsExact) {
   // Gauss with two stages has the cubic optimum of the double integrator.
   const auto problem = make_problem("double_integrator");
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Estimated found = estimated(*problem, {method, 2}, Grid::uniform(6), guessed_motion(*problem));
     EXPECT_LT(found.estimate.relative, 1e-12) << method;
     EXPECT_LT(found.estimate.defects.maxCoeff(), 1e-12) << method;

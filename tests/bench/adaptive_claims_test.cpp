@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 namespace {
@@ -24,7 +25,7 @@ struct AdaptiveOutcome {
 ResultTables tables_of(const AdaptiveOutcome& outcome) {
   Table effectivity({"problem"});
   Table grids({"problem"});
-  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     Row row;
     row.set("problem", "hypersensitive");
     row.set("method", method);

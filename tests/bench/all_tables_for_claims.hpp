@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "methods/transcription/elements/families.hpp"
 #include "tests/bench/challenge_tables_for_claims.hpp"
 #include "tests/bench/tables_for_claims.hpp"
 
@@ -36,7 +37,7 @@ inline Rows momentum_rows() {
 
 inline Rows symplecticity_rows() {
   Rows rows;
-  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     rows.push_back(
         row_of_texts({"problem", "method", "tableau", "stages", "h", "defect", "rounding"},
                      {"kepler", method, "gauss", "1", "0.05", method == "tangent" ? "1e-3" : "2e-15", "1e-15"}));
@@ -184,7 +185,7 @@ inline Rows share_rows() {
 
 inline Rows cold_start_rows() {
   Rows rows;
-  for (const char* const method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     rows.push_back(
         row_of_texts({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "start_kind",
                       "starts", "confirmed", "best"},

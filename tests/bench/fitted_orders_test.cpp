@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "tests/bench/curves_for_tests.hpp"
 
 namespace dmocbench {
@@ -127,7 +128,7 @@ TEST(FittedOrders, AFloorMeasuredOnOneCurveHoldsForAllOfItsMethod) {
 TEST(FittedOrders, OfDifferencesEndAboveThoseOfHamiltonianCollocation) {
   Table table({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "step", "status",
                "branch", "configuration_difference"});
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     for (const long long n : dense_grids) {
       Row row;
       row.set("problem", "pendulum");

@@ -3,6 +3,7 @@
 #include "bench/experiments/neighbours.hpp"
 #include "bench/experiments/one_interval_later.hpp"
 #include "bench/experiments/solved_steps.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 
@@ -83,7 +84,7 @@ TEST_F(SequenceOfProblems, OfTheOrbitMovesItsEndAlongTheCircle) {
 }
 
 TEST_F(SequenceOfProblems, IsSolvedWarmInFewerIterationsThanCold) {
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const SolvedCase first = solved_first(method);
     SequenceRun run(first, receding_horizon(problem_, *first.trajectory, 0.01, 1), {}, {});

@@ -9,10 +9,11 @@
 
 #include "bench/claims/claim.hpp"
 #include "bench/run/solve_case.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench::tests {
 
-inline const std::vector<std::string> methods{"dmoc", "hamiltonian", "tangent"};
+inline const std::vector<std::string> methods = paper_families();
 
 inline Row solved_row(const std::string& method, long long intervals) {
   Row row;

@@ -4,6 +4,7 @@
 
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/restated_problems.hpp"
 #include "tests/support/sentence_of_error.hpp"
 #include "tests/support/solving.hpp"
@@ -21,7 +22,7 @@ Trajectory solved_on_uniform_grid(const Problem& problem, const Scheme& scheme, 
 
 TEST(ControlHamiltonian, OfTheDoubleIntegratorIsItsClosedForm) {
   // u = 6 - 12t, ψ_p = -u, ψ_q = -12: H = ½u² + ψ_q v + ψ_p u = -½u² - 12v = -18 at all times.
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Eigen::VectorXd hamiltonian = control_hamiltonian(
         tests::DoubleIntegrator(), solved_on_uniform_grid(tests::DoubleIntegrator(), {method, 2}, 8));
     EXPECT_LT((hamiltonian.array() + 18.0).abs().maxCoeff(), 1e-8) << method;
@@ -30,7 +31,7 @@ TEST(ControlHamiltonian, OfTheDoubleIntegratorIsItsClosedForm) {
 
 TEST(ControlHamiltonian, IsConstantUpToTheOrderWhereNothingDependsOnTime) {
   const tests::Pendulum pendulum;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const auto spread = [&](Eigen::Index intervals) {
       const Eigen::VectorXd hamiltonian =
           control_hamiltonian(pendulum, solved_on_uniform_grid(pendulum, {method, 1}, intervals));
@@ -51,7 +52,7 @@ TEST(FreeHorizonResidual, VanishesAtTheBestHorizonAndNotAtAnother) {
       s.final_cost = [price](const State& last) { return price * last.t; };
     });
   };
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Restated best = priced(18.0, true);
     const Trajectory trajectory = solved_on_uniform_grid(best, {method, 2}, 8);
     EXPECT_NEAR(trajectory.node_times[8], 1.0, 1e-7) << method;
@@ -80,7 +81,7 @@ class GrowingMomentum final : public tests::SmallProblem {
 };
 
 TEST(FreeHorizonResidual, KnowsMomentaThatGrowWithTime) {
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Trajectory trajectory = solved_on_uniform_grid(GrowingMomentum(), {method, 2}, 8);
     EXPECT_NEAR(std::pow(trajectory.node_times[8], 4), 12.0, 1e-6) << method;
     EXPECT_NEAR(free_horizon_residual(GrowingMomentum(), trajectory), 0.0, 1e-6) << method;

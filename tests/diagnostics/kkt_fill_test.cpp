@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 
@@ -25,7 +26,7 @@ TEST(KktFill, CountsWhatTheProgramHasInFreeVariables) {
 TEST(KktFill, GrowsInProportionToTheNumberOfIntervals) {
   // A chain of intervals has a factor without long-range fill, whatever the method.
   const auto problem = make_problem("two_link_manipulator");
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const KktFill coarse = kkt_fill(*tests::transcribe(*problem, {method, 1}, Grid::uniform(64)));
     const KktFill fine = kkt_fill(*tests::transcribe(*problem, {method, 1}, Grid::uniform(256)));
     EXPECT_NEAR(static_cast<double>(fine.nonzeros) / static_cast<double>(coarse.nonzeros), 4.0, 0.1) << method;

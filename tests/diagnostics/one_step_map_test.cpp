@@ -4,6 +4,7 @@
 
 #include "methods/diagnostics/discrete_lagrangian.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
@@ -67,7 +68,7 @@ TEST_P(OneStepMapTest, ImpulseOfAConstantForceIsForceTimesStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, OneStepMapTest,
-                         testing::Combine(testing::Values("dmoc", "hamiltonian", "tangent"), testing::Values(1, 2, 3)));
+                         testing::Combine(testing::ValuesIn(paper_families()), testing::Values(1, 2, 3)));
 
 TEST(OneStepMap, OfDmocIsThatOfHamiltonianCollocation) {
   const tests::MovingFrame problem;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -51,7 +52,7 @@ TEST(ReplayError, IsTheDistanceFromThePrescribedEnd) {
 TEST(ReplayError, FallsAsTheOrderOfTheMethodPredicts) {
   for (const std::string& name : paper_problem_names()) {
     const auto problem = make_problem(name);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       std::vector<GridError> errors;
       for (const int intervals : {64, 128, 256}) {
         const Trajectory trajectory =
@@ -65,7 +66,7 @@ TEST(ReplayError, FallsAsTheOrderOfTheMethodPredicts) {
 
 TEST(ReplayError, KnowsTheTimeThatALagrangianDependsOn) {
   const tests::MovingFrame problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     std::vector<GridError> errors;
     for (const int intervals : {16, 32, 64}) {
       const Trajectory trajectory =

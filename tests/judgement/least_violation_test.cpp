@@ -12,6 +12,7 @@
 
 #include "methods/judgement/kkt_residual.hpp"
 #include "methods/transcription/describe_violation.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/cart_pole.hpp"
 #include "problems/hovercraft.hpp"
 #include "problems/orbital_transfer.hpp"
@@ -186,7 +187,7 @@ class UnreachableProblems : public testing::TestWithParam<Unreachable> {};
 TEST_P(UnreachableProblems, EndAsInfeasibleWithTheRowNamedWhateverTheSolver) {
   const std::unique_ptr<Problem> problem = GetParam().problem();
   for (const char* solver : {"ipopt", "interior_point", "auto"}) {
-    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const std::string& method : paper_families()) {
       SCOPED_TRACE(std::string(solver) + " " + method);
       Transcription program(*problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(24));
       const Solution solution = make_solver(solver)->solve(program, sample(program, guessed_motion(*problem)));

@@ -5,6 +5,7 @@
 #include "methods/judgement/confirm.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/runtime/stop_scope.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
@@ -108,7 +109,7 @@ TEST(NewtonCorrection, SaysThatItWasInterruptedWhereThatEndedTheStepsThatSettle)
 /// Solved to residuals of 1e-10, the crane is wrong in the second digit of a control.
 TEST(NewtonCorrection, SettlesTheCrane) {
   const auto problem = make_problem("container_crane");
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const auto program = tests::transcribe(*problem, {method, 1}, Grid::uniform(256));
     Solution solution = make_solver("interior_point")->solve(*program, sample(*program, guessed_motion(*problem)));

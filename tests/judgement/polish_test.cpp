@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/small_programs.hpp"
 #include "tests/support/solving.hpp"
@@ -13,7 +14,7 @@ namespace {
 TEST(Polish, CarriesALooseSolutionToRounding) {
   // A solver's first step solves a linear problem like the forced oscillator to rounding.
   for (const std::string& name : paper_problem_names()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       SCOPED_TRACE(testing::Message() << name << ' ' << method);
       const auto problem = make_problem(name);
       tests::Solved loose = tests::solve(*problem, {method, 2}, Grid::uniform(48), tests::common_start(*problem), 1e-6);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
@@ -36,7 +37,7 @@ TEST(ContainerCrane, ComesNearItsReferenceWithinItsBounds) {
   ContainerCrane problem;
   problem.set_parameter("control_weight", 0.01);
   const double reference = tests::value_of(problem.card().reference).objective;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Trajectory found = tests::solve(problem, {method, 1}, Grid::uniform(48), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference, 1e-2 * reference) << method;
     EXPECT_LT(found.stage_v.col(0).maxCoeff(), 2.5 + 1e-9);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
@@ -41,7 +42,7 @@ TEST(DoubleOscillator, LosesInItsDamperWhatTheControlLeavesOpen) {
 TEST(DoubleOscillator, ReachesItsReferenceWithVelocitiesOfItsOwnChoice) {
   const DoubleOscillator problem;
   const ReferenceOptimum reference = tests::value_of(problem.card().reference);
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(32), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
     EXPECT_EQ(found.q.row(0).norm(), 0.0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/equations_of_motion.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/problem_values.hpp"
 #include "tests/support/random_points.hpp"
 #include "tests/support/solving.hpp"
@@ -72,7 +73,7 @@ TEST(SphericalPendulum, DoesNotKnowItsAzimuth) {
 TEST(SphericalPendulum, ReachesItsReference) {
   const SphericalPendulum problem;
   const ReferenceOptimum reference = tests::value_of(problem.card().reference);
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Trajectory found = tests::solve(problem, {method, 3}, Grid::uniform(16), guessed_motion(problem)).trajectory;
     EXPECT_NEAR(found.cost, reference.objective, 1e-6 * reference.objective) << method;
   }

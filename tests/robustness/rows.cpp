@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "methods/transcription/elements/families.hpp"
+
 namespace dmocbench::tests {
 
 bool told_apart(const Solution& solution, const Accuracy& replay) {
@@ -39,7 +41,7 @@ bool is_given_as_a_motion(const Row& row) {
 
 std::vector<Row> run_rows(const Problem& problem, const Setting& setting) {
   std::vector<Row> rows;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const char* solver : {"ipopt", "interior_point"}) rows.push_back(run_row(problem, method, setting, solver));
   }
   return rows;

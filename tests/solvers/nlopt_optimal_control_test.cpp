@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/judgement/kkt_residual.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
 
@@ -16,7 +17,7 @@ class SlsqpAndIpopt : public testing::TestWithParam<std::string> {};
 TEST_P(SlsqpAndIpopt, FindTheSameOptimumFromTheCommonStart) {
   const auto problem = make_problem(GetParam());
   const Motion& start = tests::common_start(*problem);
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int intervals : {8, 16, 32}) {
       SCOPED_TRACE(method + ", N = " + std::to_string(intervals));
       const tests::Solved reference = tests::solve(*problem, {method, 1}, Grid::uniform(intervals), start);

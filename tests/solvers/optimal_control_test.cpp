@@ -5,6 +5,7 @@
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/judgement/confirm.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
@@ -17,7 +18,7 @@ using tests::Scheme;
 TEST(DoubleIntegrator, HasTheDiscreteOptimumOfTheMidpointRuleInClosedForm) {
   // min ½hΣu² with hΣu = 0 and hΣu_k(1 - t_{k+½}) = 1: u ∝ ½ - t and J = ½ / (hΣ(½ - t)²) = 6 / (1 - h²).
   const tests::DoubleIntegrator problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     std::vector<GridError> errors;
     for (const int intervals : {2, 4, 8, 16, 32}) {
       const Trajectory trajectory =
@@ -33,7 +34,7 @@ TEST(DoubleIntegrator, HasTheDiscreteOptimumOfTheMidpointRuleInClosedForm) {
 TEST(DoubleIntegrator, IsSolvedExactlyByMoreStages) {
   // u is linear in t, q cubic: Gauss with two stages has both at its points.
   const tests::DoubleIntegrator problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int s : {2, 3}) {
       const Trajectory trajectory =
           tests::solve(problem, {method, s}, tests::graded_grid(5), guessed_motion(problem)).trajectory;
@@ -53,7 +54,7 @@ TEST(DoubleIntegrator, IsSolvedExactlyByMoreStages) {
 TEST(HarmonicOscillator, NeedsNoControlBetweenTheEndsOfAFreeMotion) {
   // The discrete free motion misses the end by O(h^{2s}); so does the control, and the cost by its square.
   const tests::HarmonicOscillator problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     std::vector<GridError> errors;
     for (const int intervals : {8, 16, 32}) {
       const Trajectory trajectory =
@@ -67,7 +68,7 @@ TEST(HarmonicOscillator, NeedsNoControlBetweenTheEndsOfAFreeMotion) {
 /// Rounding in the narrow interval is 4e-8, and a hundred times less would be a failure elsewhere.
 TEST(NarrowInterval, IsSolvedAndExcusesNoErrorInOtherIntervals) {
   const tests::DoubleIntegrator problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const auto program = tests::transcribe(problem, {method, 1}, tests::grid_with_a_narrow_interval());
     ASSERT_LT(program->rounding_floors().smallest, 1e-12);
     for (const char* solver : {"ipopt", "interior_point", "sqp"}) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/solvers/prepared_solve.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/counted_allocations.hpp"
 #include "tests/support/solving.hpp"
@@ -42,7 +43,7 @@ TEST_P(PreparedSolves, AllocateNothingAfterTheFirstSolve) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PreparedSolves, testing::ValuesIn(element_names()));
+INSTANTIATE_TEST_SUITE_P(All, PreparedSolves, testing::ValuesIn(paper_families()));
 
 }  // namespace
 }  // namespace dmocbench

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/parameter_scope.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -47,7 +48,7 @@ void expect_same(const Solution& ours, const Solution& theirs, const std::string
 TEST(PreparedSolve, GivesBitByBitWhatASolveOfItsOwnGivesHoweverOften) {
   for (const std::string name : {"orbital_transfer", "two_link_manipulator", "cart_pole", "brachistochrone"}) {
     const auto problem = make_problem(name);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       const auto program = transcribe(*problem, method, 20);
       const Eigen::VectorXd start = sample(*program, guessed_motion(*problem));
       const Solution cold = solved_anew(*program, start);

@@ -2,11 +2,13 @@
 
 #include <map>
 
+#include "methods/transcription/elements/families.hpp"
+
 namespace dmocbench::tests {
 
 std::vector<Scheme> schemes_of(const std::vector<std::string>& families, int most_stages) {
   std::vector<Scheme> schemes;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const std::string& family : families) {
       for (const int s : tableau_stages(family)) {
         if (s <= most_stages) schemes.push_back({method, s, family});

@@ -4,6 +4,7 @@
 
 #include "methods/diagnostics/convergence_order.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
@@ -74,11 +75,9 @@ TEST_P(Convergence, OnASmoothlyGradedGridIsOfOrderTwoAsWell) {
   expect_order(measured.control, 2.0, 0.15, "control");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Convergence,
-                         testing::Combine(testing::ValuesIn(paper_problem_names()), testing::ValuesIn(element_names())),
-                         [](const auto& instance) {
-                           return std::get<0>(instance.param) + "_" + std::get<1>(instance.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, Convergence, testing::Combine(testing::ValuesIn(paper_problem_names()), testing::ValuesIn(paper_families())),
+    [](const auto& instance) { return std::get<0>(instance.param) + "_" + std::get<1>(instance.param); });
 
 class HighOrder : public testing::TestWithParam<std::string> {};
 
@@ -107,7 +106,7 @@ TEST_P(HighOrder, HoldsForALagrangianThatDependsOnTime) {
   expect_order(three.state, 6.0, 0.5, "state, s = 3");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, HighOrder, testing::ValuesIn(element_names()),
+INSTANTIATE_TEST_SUITE_P(All, HighOrder, testing::ValuesIn(paper_families()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
@@ -136,7 +137,7 @@ std::string name_of(const std::tuple<std::string, std::string, NamedTableau>& pa
 
 INSTANTIATE_TEST_SUITE_P(All, CostatesOf,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
-                                          testing::ValuesIn(element_names()),
+                                          testing::ValuesIn(paper_families()),
                                           testing::Values(NamedTableau{"gauss", 1}, NamedTableau{"gauss", 2})),
                          [](const auto& instance) { return name_of(instance.param); });
 
@@ -151,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(HighOrder, CostatesOf,
 TEST(Costates, OfTheDoubleIntegratorApproachTheClosedForm) {
   // H = ½u² + ψ_q p + ψ_p u: u = -ψ_p = 6 - 12t, ψ_q = -ψ̇_p = -12.
   const tests::DoubleIntegrator problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const Trajectory trajectory =
         tests::solve(problem, {method, 2}, Grid::uniform(8), guessed_motion(problem)).trajectory;
     ASSERT_TRUE(trajectory.has_costates());

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/transcription/derivatives/finite_differences.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/random_points.hpp"
@@ -119,7 +120,7 @@ TEST_P(BackEnds, ForwardDifferencesAreWorseThanCentralOnes) {
 INSTANTIATE_TEST_SUITE_P(All, BackEnds,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame",
                                                           "everything"),
-                                          testing::ValuesIn(element_names()), testing::Values(1, 2)),
+                                          testing::ValuesIn(paper_families()), testing::Values(1, 2)),
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::get<1>(instance.param) + "_" +
                                   std::to_string(std::get<2>(instance.param));
@@ -168,7 +169,7 @@ class Tabulated final : public tests::SmallProblem {
 TEST(BackEndsOfTables, AdolcAgreesOnTablesErrorFunctionsAndInverseHyperbolicSines) {
   if (!offers("adolc")) GTEST_SKIP() << "ADOL-C is not in this build";
   const Tabulated problem;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const auto by = [&](const std::string& name) {
       return derivatives_by(name, problem, {method, 2}, Grid::uniform(16), 0.1);

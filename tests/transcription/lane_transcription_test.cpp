@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/random_points.hpp"
@@ -63,7 +64,7 @@ void expect_single_values(Transcription& program, unsigned seed) {
 TEST(LaneTranscription, HasInEveryLaneTheValuesAndDerivativesOfTheProgram) {
   for (const char* name : {"orbital_transfer", "two_link_manipulator", "cart_pole"}) {
     const auto problem = make_problem(name);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const int stages : {1, 2}) {
         SCOPED_TRACE(std::string(name) + ' ' + method + ' ' + std::to_string(stages));
         Transcription program = transcribed(*problem, method, stages);
@@ -83,7 +84,7 @@ TEST(LaneTranscription, RefusesAFreeHorizon) {
 TEST(ClampedEnds, WritesTheEndsAsTheProgramOfTheProblemItselfHasThem) {
   for (const char* name : {"orbital_transfer", "two_link_manipulator"}) {
     const auto problem = make_problem(name);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       SCOPED_TRACE(std::string(name) + ' ' + method);
       Transcription program = transcribed(*problem, method, 1);
       ClampedEnds ends(program);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/solving.hpp"
@@ -70,7 +71,7 @@ TEST(MovedToEnds, MovesNothingThatIsFreeOrThereAlready) {
 TEST(MovedToEnds, LetsMethodsWithoutVelocitiesStartWarmAsWellAsThoseThatHaveThem) {
   const auto problem = make_problem("orbital_transfer");
   const Motion start = tests::common_start(*problem);
-  for (const std::string method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const auto program = tests::transcribe(*problem, {method}, Grid::uniform(64));
     const Solution solved = make_solver("interior_point")->solve(*program, sample(*program, start));

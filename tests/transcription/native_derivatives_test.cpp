@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/tape.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/interval_functions.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/random_points.hpp"
@@ -56,7 +57,7 @@ TEST(NativeDerivatives, OfEveryProblemAreThoseOfTheInterpreterBitByBit) {
   for (const std::string& name : problem_names()) {
     SCOPED_TRACE(name);
     const auto problem = make_problem(name);
-    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) expect_same_derivatives(*problem, method);
+    for (const std::string& method : paper_families()) expect_same_derivatives(*problem, method);
   }
 }
 

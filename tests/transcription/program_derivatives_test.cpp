@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/expression/replay.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/all_problems.hpp"
 #include "tests/support/hyper_dual.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -206,7 +207,7 @@ TEST_P(ProgramDerivatives, HaveAsManyRunsOnAnyGridAndThoseOfTheHessianLieOnTheDi
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramDerivatives,
                          testing::Combine(testing::Values("orbital_transfer", "two_link_manipulator", "moving_frame"),
-                                          testing::ValuesIn(element_names()),
+                                          testing::ValuesIn(paper_families()),
                                           testing::Values(FamilyAndStages{"gauss", 1}, FamilyAndStages{"gauss", 2},
                                                           FamilyAndStages{"gauss", 3}, FamilyAndStages{"lobatto", 2},
                                                           FamilyAndStages{"lobatto", 3},

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/container_crane.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/all_problems.hpp"
@@ -51,7 +52,7 @@ TEST(SampleMultipliers, OfAProgramsOwnSolutionAreItsOwn) {
 
 TEST(SampleMultipliers, AreThoseOfTheCostSoFarInMayerForm) {
   const TwoLinkManipulator problem;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Solved solved = tests::solve(problem, method, make_tableau("gauss", 2), Grid::uniform(16),
                                        tests::common_start(problem), 1e-10, CostForm::mayer);
@@ -81,7 +82,7 @@ TEST(SampleMultipliers, OfDmocAreThoseOfHamiltonianCollocationAndTheOtherWayRoun
 
 TEST(SampleMultipliers, OfACoarserGridApproachThoseOfAFinerWithOrderTwo) {
   const TwoLinkManipulator problem;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Motion& start = tests::common_start(problem);
     const Solved fine = tests::solve(problem, Scheme{method}, Grid::uniform(256), start);
@@ -114,7 +115,7 @@ TEST(SampleMultipliers, LetASolveWithBoundsOnTheControlsStartWarm) {
     statement.u = tests::all_between(2, -0.7 * largest, 0.7 * largest);
   });
   const Solved coarse = tests::solve(problem, Scheme{"dmoc"}, Grid::uniform(32), start);
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const auto program = tests::transcribe(problem, Scheme{method}, Grid::uniform(64));
     const int warm = iterations_from(coarse.trajectory, *program, true);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/diagnostics/convergence_order.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
 
@@ -61,7 +62,7 @@ TEST_P(StageOrder, OfTheControlsIsOneMoreThanTheNumberOfStages) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StageOrder,
-                         testing::Combine(testing::ValuesIn(element_names()), testing::Values(1, 2, 3)),
+                         testing::Combine(testing::ValuesIn(paper_families()), testing::Values(1, 2, 3)),
                          [](const auto& instance) {
                            return std::get<0>(instance.param) + "_" + std::to_string(std::get<1>(instance.param));
                          });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/problems_for_tests.hpp"
 #include "tests/support/solving.hpp"
@@ -46,7 +47,7 @@ TEST(Sample, OfAUniformMotionIsExactForEveryScheme) {
 TEST(Sample, OfASolutionOnAFinerGridHasResidualsThatVanishWithTheStep) {
   const auto problem = make_problem("two_link_manipulator");
   const Motion& motion = tests::common_start(*problem);
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     const auto residual = [&](int intervals) {
       const auto program = tests::transcribe(*problem, {method, 1}, Grid::uniform(intervals));
       return tests::row_residual(*program, sample(*program, motion));

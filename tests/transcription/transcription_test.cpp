@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/support/grid_with_a_narrow_interval.hpp"
 #include "tests/support/problems_for_tests.hpp"
@@ -93,7 +94,7 @@ TEST(Transcription, RefusesTooFewIntervalsAndNamesTheSmallestNumber) {
   for (const Case& c : {Case{"orbital_transfer", 1, 4}, Case{"orbital_transfer", 2, 2}, Case{"orbital_transfer", 3, 2},
                         Case{"two_link_manipulator", 1, 2}}) {
     const auto problem = make_problem(c.problem);
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       const Scheme scheme{method, c.stages};
       tests::expect_error_naming({c.problem, method, "at least " + std::to_string(c.smallest)},
                                  [&] { tests::transcribe(*problem, scheme, Grid::uniform(c.smallest - 1)); });
@@ -195,7 +196,7 @@ TEST(Transcription, RoundingFloorGrowsWithTheNumberOfIntervals) {
 TEST(Transcription, RoundingFloorsBelongToTheStepsOfTheirOwnRows) {
   const auto problem = make_problem("orbital_transfer");
   const double even = tests::transcribe(*problem, {"dmoc", 1}, Grid::uniform(16))->rounding_floors().largest;
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int stages : {1, 2}) {
       const auto program = tests::transcribe(*problem, {method, stages}, tests::grid_with_a_narrow_interval());
       const RoundingFloors& floors = program->rounding_floors();
@@ -225,14 +226,6 @@ TEST(Transcription, RoundingFloorsOfVariablesDoNotVanishWithSmallConfigurations)
   constexpr double entry = 1024.0;
   for (const double floor : floors.variables) EXPECT_GE(floor, std::numeric_limits<double>::epsilon() * entry);
   for (const double floor : floors.constraints) EXPECT_LT(floor, 0.01 * floors.largest);
-}
-
-TEST(Element, UnknownNamesListTheKnownOnes) {
-  for (const std::string& name : element_names()) {
-    EXPECT_EQ(make_element(name)->name(), name);
-    EXPECT_FALSE(make_element(name)->description().empty());
-    tests::expect_error_naming({"simpson", name}, [] { static_cast<void>(make_element("simpson")); });
-  }
 }
 
 }  // namespace

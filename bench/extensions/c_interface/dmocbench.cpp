@@ -19,6 +19,7 @@
 #include "methods/mechanics/problem.hpp"
 #include "methods/runtime/environment.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/motions/interpolation.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
@@ -137,7 +138,7 @@ std::unique_ptr<dmocbench_solution> told(std::unique_ptr<dmocbench_solution> res
 
 std::string method_of(const dmocbench_options& options) {
   std::string method = &required(options.method, "the method");
-  if (method.starts_with("single_shooting")) {
+  if (family_of(method).is_condensed) {
     throw Error(method + " is not offered here; multiple_shooting has the same solutions");
   }
   return method;

@@ -6,6 +6,7 @@
 
 #include "bench/run/solve_case.hpp"
 #include "methods/error.hpp"
+#include "methods/transcription/elements/families.hpp"
 
 namespace dmocbench {
 
@@ -16,7 +17,7 @@ namespace dmocbench {
     throw Error(
         fmt::format("needs exactly one case (one problem, method, number of stages and grid), got {}", cases.size()));
   }
-  if (cases.front().method.starts_with("single_shooting")) {
+  if (family_of(cases.front().method).is_condensed) {
     throw Error(
         "what single_shooting simulates cannot be written as formulas of its unknowns; multiple_shooting is the same "
         "program with the nodes as unknowns");

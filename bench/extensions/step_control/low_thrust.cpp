@@ -15,7 +15,7 @@
 #include "bench/run/table_run.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
-#include "methods/transcription/elements/element.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/elements/shooting_element.hpp"
 
 namespace dmocbench::low_thrust_program {
@@ -83,8 +83,10 @@ const Columns<Reference> reference_columns{
     {"cost", "cost", "J", &Reference::cost}};
 
 std::vector<std::string> families() {
-  std::vector<std::string> names = element_names();
-  for (const char* integrator : {"midpoint", "rk4"}) names.push_back(shooting_name(Shooting::multiple, integrator, 1));
+  std::vector<std::string> names = paper_families();
+  for (const char* integrator : {"midpoint", "rk4"}) {
+    names.push_back(shooting_name(shooting_family(Shooting::multiple), integrator, 1));
+  }
   return names;
 }
 

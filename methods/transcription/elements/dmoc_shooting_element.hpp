@@ -32,7 +32,9 @@ class DmocShootingElement final : public Element {
   static constexpr int newton_steps = 6;
 
   /// "multiple_shooting_dmoc_1" or "single_shooting_dmoc_1": one step per interval.
-  [[nodiscard]] std::string name() const override { return shooting_name(shooting_, dmoc_integrator, 1); }
+  [[nodiscard]] std::string name() const override {
+    return shooting_name(shooting_family(shooting_), dmoc_integrator, 1);
+  }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] NodeState node_state() const override { return NodeState::momentum; }
   [[nodiscard]] bool has_stage_unknowns() const override { return false; }

@@ -81,14 +81,8 @@ class Element {
 [[nodiscard]] IntervalUnknowns take_unknowns(InputCounter& counter, const TracedProblem& problem,
                                              const Element& element, Eigen::Index stages);
 
-/// Names of the families that the paper compares: DMOC, Hamiltonian and tangent-space collocation.
-[[nodiscard]] std::vector<std::string> element_names();
-
-/// These, and the names of shooting by one step per interval (`shooting_name`).
-[[nodiscard]] std::vector<std::string> all_element_names();
-
-/// The family of that name. Throws `Error` that lists the names if there is none, or says what a name of shooting
-/// lacks.
+/// The element of a method of one of the registered families (`Family`). Throws `Error` that lists the methods if there
+/// is none of that name, or says what a name with an integrator lacks.
 [[nodiscard]] std::unique_ptr<Element> make_element(std::string_view name);
 
 // Formulas that the families share.

@@ -21,9 +21,6 @@ namespace dmocbench {
 
 namespace {
 
-constexpr std::string_view multiple_prefix = "multiple_shooting_";
-constexpr std::string_view single_prefix = "single_shooting_";
-
 /// State and cost along an interval, or their rates.
 struct Flow {
   ExpressionVector q;
@@ -107,7 +104,9 @@ ShootingElement::ShootingElement(Shooting shooting, ExplicitIntegrator integrato
   require_at_most(most_substeps, substeps);
 }
 
-std::string ShootingElement::name() const { return shooting_name(shooting_, integrator_.name, substeps_); }
+std::string ShootingElement::name() const {
+  return shooting_name(shooting_family(shooting_), integrator_.name, substeps_);
+}
 
 std::string ShootingElement::description() const {
   return fmt::format("direct {} shooting on (q, v), {} step{} of {} per interval",
@@ -156,26 +155,21 @@ void require_substeps(std::string_view integrator, int substeps) {
   if (substeps != 1) throw Error(fmt::format("shooting by dmoc takes one step per interval, got {}", substeps));
 }
 
-std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps) {
-  return fmt::format("{}{}_{}", shooting == Shooting::single ? single_prefix : multiple_prefix, integrator, substeps);
+std::string shooting_name(std::string_view family, std::string_view integrator, int substeps) {
+  return fmt::format("{}_{}_{}", family, integrator, substeps);
 }
 
-std::unique_ptr<Element> make_shooting_element(std::string_view name) {
-  const bool is_single = is_single_shooting(name);
-  if (!is_single && !name.starts_with(multiple_prefix)) return nullptr;
-  const std::string_view rest = name.substr((is_single ? single_prefix : multiple_prefix).size());
-  const std::size_t bar = rest.rfind('_');
-  const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(rest.substr(bar + 1));
+std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_view integration) {
+  const std::size_t bar = integration.rfind('_');
+  const auto substeps = bar == std::string_view::npos ? std::nullopt : parsed<int>(integration.substr(bar + 1));
   if (!substeps) {
+    const std::string name = fmt::format("{}_{}", shooting_family(shooting), integration);
     throw Error(fmt::format(R"("{}" names no number of substeps; "{}_1" does)", name, name));
   }
-  const Shooting shooting = is_single ? Shooting::single : Shooting::multiple;
-  const std::string_view integrator = rest.substr(0, bar);
+  const std::string_view integrator = integration.substr(0, bar);
   require_substeps(integrator, *substeps);
   if (integrator == dmoc_integrator) return std::make_unique<DmocShootingElement>(shooting);
   return std::make_unique<ShootingElement>(shooting, explicit_integrator(integrator), *substeps);
 }
-
-bool is_single_shooting(std::string_view name) { return name.starts_with(single_prefix); }
 
 }  // namespace dmocbench

@@ -17,6 +17,11 @@ enum class Shooting : std::uint8_t {
   single,    ///< they are simulated: `SingleShooting` condenses the program
 };
 
+/// The name of the family, as on the command line.
+[[nodiscard]] constexpr std::string_view shooting_family(Shooting shooting) {
+  return shooting == Shooting::single ? "single_shooting" : "multiple_shooting";
+}
+
 /// Direct shooting (section 3.3 of the paper; Bock, Plitt 1984): the interval is integrated from its left node.
 ///
 /// Node: (q_k, v_k). With Φ the explicit integrator's `substeps` steps of q̇ = v, v̇ = L_vv⁻¹(L_q + f - L_vq v - L_vt),
@@ -60,13 +65,10 @@ inline constexpr std::string_view dmoc_integrator = "dmoc";
 /// `ShootingElement::most_substeps` of an explicit one, 1 of DMOC.
 void require_substeps(std::string_view integrator, int substeps);
 
-/// "multiple_shooting_INTEGRATOR_SUBSTEPS", or "single_shooting_…".
-[[nodiscard]] std::string shooting_name(Shooting shooting, std::string_view integrator, int substeps);
+/// FAMILY_INTEGRATOR_SUBSTEPS, such as "multiple_shooting_rk4_1".
+[[nodiscard]] std::string shooting_name(std::string_view family, std::string_view integrator, int substeps);
 
-/// The element of such a name; null if the name begins otherwise. Throws `Error` that says what it lacks.
-[[nodiscard]] std::unique_ptr<Element> make_shooting_element(std::string_view name);
-
-/// True of the names of single shooting.
-[[nodiscard]] bool is_single_shooting(std::string_view name);
+/// The element of an integration INTEGRATOR_SUBSTEPS, such as "rk4_1". Throws `Error` that says what it lacks.
+[[nodiscard]] std::unique_ptr<Element> make_shooting_element(Shooting shooting, std::string_view integration);
 
 }  // namespace dmocbench

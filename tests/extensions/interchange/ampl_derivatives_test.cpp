@@ -12,6 +12,7 @@
 
 #include "methods/expression/replay.hpp"
 #include "methods/extensions/interchange/ampl_model.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/expression/terms.hpp"
 #include "tests/extensions/interchange/asl_program.hpp"
@@ -300,8 +301,8 @@ TEST_F(AmplDerivatives, AreOursInAllProgramsIfAllAreAskedFor) {
   const char* const only = std::getenv("DMOCBENCH_ALL_PROGRAMS");
   for (const std::string& problem : problem_names()) {
     if (problem_is_left_out(only, problem)) continue;
-    for (const std::string& method : all_element_names()) {
-      if (method.starts_with("single_shooting")) continue;  // the program of multiple shooting
+    for (const std::string& method : all_methods()) {
+      if (family_of(method).is_condensed) continue;  // the program of multiple shooting
       for (const int stages : {1, 2, 3}) {
         expect_agreement({problem, {method, stages}}, folder());
         expect_agreement({problem, {method, stages}, CostForm::mayer}, folder());

@@ -10,6 +10,7 @@
 
 #include "methods/error.hpp"
 #include "methods/mechanics/legendre_transform.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "problems/brachistochrone.hpp"
 #include "problems/two_link_manipulator.hpp"
 #include "tests/support/all_problems.hpp"
@@ -129,7 +130,7 @@ TEST(FeedbackGains, AreTheSlopesOfTheOptimalControlAtTheFirstNodeAndInTheMiddle)
 
 TEST(FeedbackGains, AreTheSlopesWhereTheMassDependsOnTimeAndTheForceOnTheVelocity) {
   const tests::MovingFrame problem;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Solved solved =
         tests::solve(problem, Scheme{method, 2}, Grid::uniform(12), tests::common_start(problem), 1e-11);
@@ -148,7 +149,7 @@ TEST(FeedbackGains, AreTheSlopesWhereTheEndIsFreeWithACostAndBounded) {
     };
   };
   const tests::Restated problem(base, statement);
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Solved solved = tests::solve(problem, Scheme{method}, Grid::uniform(16), tests::common_start(base), 1e-11);
     expect_slopes(solved, FirstControls(base, Scheme{method}, solved.trajectory, 0, statement), 0, 1e-3);
@@ -198,7 +199,7 @@ TEST(FeedbackGains, OfDmocAreThoseOfHamiltonianCollocation) {
 TEST(FeedbackGains, OfTheDoubleIntegratorApproachTheClosedForm) {
   // From (q, p) to rest at 1 in the time τ that is left: u = 6 (1 - q)/τ² - 4 p/τ.
   const tests::DoubleIntegrator problem;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Solved solved = tests::solve(problem, Scheme{method, 2}, Grid::uniform(32), guessed_motion(problem));
     const FeedbackGains gains = gains_of(solved);

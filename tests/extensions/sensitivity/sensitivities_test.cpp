@@ -12,6 +12,7 @@
 #include "methods/error.hpp"
 #include "methods/judgement/polish.hpp"
 #include "methods/solvers/solver.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "problems/two_link_manipulator.hpp"
@@ -84,7 +85,7 @@ TEST(Sensitivities, InAParameterAreTheSlopesOfAnswers) {
         std::pair{"double_integrator", "horizon"}}) {
     const double value = make_problem(name)->parameter(parameter);
     const auto base = make_problem(name);
-    for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+    for (const std::string& method : paper_families()) {
       SCOPED_TRACE(std::string(name) + " " + method);
       const Family family = [&](double moved) {
         const auto problem = make_problem(name);
@@ -98,7 +99,7 @@ TEST(Sensitivities, InAParameterAreTheSlopesOfAnswers) {
 
 TEST(Sensitivities, InEndStatesAreTheSlopesOfAnswers) {
   const TwoLinkManipulator base;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     for (const bool is_first : {true, false}) {
       SCOPED_TRACE(std::string(method) + (is_first ? " first" : " last"));
       const Family family = [&](double moved) {
@@ -120,7 +121,7 @@ TEST(Sensitivities, WhereControlsAreOnTheirBoundsMoveWithThem) {
   const Motion& start = tests::common_start(base);
   const double largest =
       tests::solve(base, Scheme{"dmoc"}, Grid::uniform(24), start).trajectory.stage_u.cwiseAbs().maxCoeff();
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     const Family family = [&](double share) {
       const tests::Restated problem(base, [&](tests::Restated::Statement& statement) {

@@ -12,6 +12,7 @@
 #include "methods/error.hpp"
 #include "methods/solvers/batch/neighbour_starts.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/lane_transcription.hpp"
 #include "methods/transcription/motions/bent_motion.hpp"
 #include "methods/transcription/start.hpp"
@@ -59,7 +60,7 @@ bool are_same(const Solution& a, const Solution& b) {
 }
 
 TEST(SolveBatch, GivesTheAnswersOfSingleSolvesForEveryFamilyAndSeveralStages) {
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const int stages : {1, 2}) {
       SCOPED_TRACE(method + ' ' + std::to_string(stages));
       Case("orbital_transfer", method, stages, 16).expect_answers_of_single_solves(12, 0.02);

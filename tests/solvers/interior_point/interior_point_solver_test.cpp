@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "methods/error.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/transcription.hpp"
 #include "problems/beam.hpp"
@@ -195,7 +196,7 @@ TEST(InteriorPoint, ReachesTheOptimumThoughMultipliersRunAwayOnTheWay) {
 /// took 228 iterations.
 TEST(InteriorPoint, TakesNoStepToWhereTheRowsSayNothing) {
   const ParticleSteering problem;
-  for (const char* method : {"dmoc", "hamiltonian", "tangent"}) {
+  for (const std::string& method : paper_families()) {
     SCOPED_TRACE(method);
     Transcription program(problem, *make_element(method), make_tableau("gauss", 1), Grid::uniform(64));
     const Eigen::VectorXd start = sample(program, guessed_motion(problem));

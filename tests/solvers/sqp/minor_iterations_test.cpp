@@ -9,6 +9,7 @@
 #include "methods/solvers/solver.hpp"
 #include "methods/solvers/sqp/quadratic/quadratic_solver.hpp"
 #include "methods/solvers/sqp/sqp_solver.hpp"
+#include "methods/transcription/elements/families.hpp"
 #include "methods/transcription/start.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
@@ -153,7 +154,7 @@ void replay_first_program(NonlinearProgram& program, const Eigen::VectorXd& star
 
 TEST(MinorIterations, EveryOneCanBeReplayedFromItsSets) {
   for (const std::string& name : paper_problem_names()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       const auto problem = make_problem(name);
       Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(8));
       SCOPED_TRACE(testing::Message() << name << ' ' << method);
@@ -164,7 +165,7 @@ TEST(MinorIterations, EveryOneCanBeReplayedFromItsSets) {
 
 TEST(MinorIterations, WithActiveControlBoundsCanBeReplayedToo) {
   const auto problem = make_problem("two_link_manipulator");
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(8));
     auto bounded = tests::with_control_bound(program, 60.0);
     SCOPED_TRACE(method);
@@ -201,7 +202,7 @@ struct Count {
 std::vector<Count> counts(const SequentialOptions& choices, const std::vector<Eigen::Index>& grids) {
   std::vector<Count> result;
   for (const std::string& name : paper_problem_names()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const Eigen::Index intervals : grids) {
         const auto problem = make_problem(name);
         Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(intervals));

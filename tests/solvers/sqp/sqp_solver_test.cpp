@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/transcription/elements/families.hpp"
 #include "problems/registry.hpp"
 #include "tests/solvers/sqp/control_bounds.hpp"
 #include "tests/support/sentence_of_error.hpp"
@@ -21,7 +22,7 @@ Solution solve_by_sqp(NonlinearProgram& program, const Eigen::VectorXd& start, c
 
 TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
   for (const std::string& name : paper_problem_names()) {
-    for (const std::string& method : element_names()) {
+    for (const std::string& method : paper_families()) {
       for (const Eigen::Index intervals : {16, 32, 64}) {
         SCOPED_TRACE(testing::Message() << name << " " << method << " N = " << intervals);
         const auto problem = make_problem(name);
@@ -41,7 +42,7 @@ TEST(Sqp, FindsIpoptsOptimaToEightDigits) {
 
 TEST(Sqp, SolvesWithActiveControlBoundsToAPointWhereIpoptStays) {
   const auto problem = make_problem("two_link_manipulator");
-  for (const std::string& method : element_names()) {
+  for (const std::string& method : paper_families()) {
     for (const double bound : {20.0, 16.0}) {
       SCOPED_TRACE(method + " " + std::to_string(bound));
       Transcription program(*problem, *make_element(method), gauss_tableau(1), Grid::uniform(32));
