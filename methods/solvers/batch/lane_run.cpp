@@ -151,7 +151,7 @@ void LaneRun::assemble_systems(const OfLanes& shift) {
     if (phase == LanePhase::restoring) continue;
     residuals_.of(lane).setZero();
     gradient_.of(lane).head(n) = problem_.gradient().of(lane);
-    problem_.bounds().subtract_multipliers(lane, z_, gradient_);
+    problem_.bounds().subtract_multipliers(z_.of(lane), gradient_.of(lane));
   }
   for (Eigen::Index i = 0; i < primal_.size(); ++i) sigma_[i] += shift;
   for (Eigen::Index j = n; const Eigen::Index row : problem_.inequalities()) {
@@ -211,37 +211,47 @@ void LaneRun::differentiate() {
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
     const bool is_fresh_and_warm = lanes_[lane].phase == LanePhase::fresh && is_warm(lane);
     if (is_fresh_and_warm) {
-      problem_.bounds().balance(lane, lanes_[lane].mu, primal_, problem_.gradient_of_lagrangian(), z_);
+      problem_.bounds().balance(lanes_[lane].mu, primal_.of(lane), problem_.gradient_of_lagrangian().of(lane),
+                                z_.of(lane));
     }
   }
 }
 
 /// of all lanes.
 void LaneRun::judge() {
-  const bool has_bounds = problem_.has_bounds();
-  const LaneVector& gradient = problem_.gradient_of_lagrangian();
   OfLanes sum_of_multipliers;
+  OfLanes stationarity;
+  OfLanes sum_of_z = OfLanes::Zero();
+  OfLanes smallest_product = OfLanes::Zero();
+  OfLanes largest_product = OfLanes::Zero();
   lane_loops().magnitudes(multipliers_.data(), multipliers_.size(), sum_of_multipliers.data(),
                           largest_multiplier_.data());
-  OfLanes sum_of_z = OfLanes::Zero();
-  const LaneVector* with_bounds = &gradient;
-  mean_bound_multiplier_.setZero();
-  smallest_product_.setZero();
-  largest_product_.setZero();
-  if (has_bounds) {
+  if (problem_.has_bounds()) {
+    const LaneVector& gradient = problem_.gradient_of_lagrangian();
     std::copy_n(gradient.data(), gradient.size() * width, balanced_.data());
     problem_.bounds().subtract_multipliers(z_, balanced_);
-    problem_.bounds().products(primal_, z_, smallest_product_, largest_product_);
+    problem_.bounds().find_products(primal_, z_, smallest_product, largest_product);
     lane_loops().sum(z_.data(), z_.size(), sum_of_z.data());
-    mean_bound_multiplier_ = sum_of_z / static_cast<double>(z_.size());
-    with_bounds = &balanced_;
   }
-  lane_loops().magnitudes(with_bounds->data(), with_bounds->size(), size_of_gradient_.data(), stationarity_.data());
-  mean_multiplier_ =
+  lane_loops().magnitudes(with_bounds().data(), with_bounds().size(), size_of_gradient_.data(), stationarity.data());
+  const OfLanes mean_of_z = sum_of_z / std::max(1.0, static_cast<double>(z_.size()));
+  const OfLanes mean =
       (sum_of_multipliers + sum_of_z) / std::max(1.0, static_cast<double>(z_.size() + multipliers_.size()));
   for (std::size_t lane = 0; lane < instance_lanes; ++lane) {
+    const Eigen::Index at = index_of(lane);
+    errors_[lane] = {.stationarity = stationarity[at],
+                     .violation = values_.violation[at],
+                     .mean_multiplier = mean[at],
+                     .mean_bound_multiplier = mean_of_z[at],
+                     .smallest_product = smallest_product[at],
+                     .largest_product = largest_product[at]};
     if (lanes_[lane].phase != LanePhase::idle) judge(lane);
   }
+}
+
+/// The gradient of the Lagrangian with the multipliers of bounds.
+const LaneVector& LaneRun::with_bounds() const {
+  return problem_.has_bounds() ? balanced_ : problem_.gradient_of_lagrangian();
 }
 
 void LaneRun::judge(std::size_t number) {
@@ -283,37 +293,18 @@ void LaneRun::judge(std::size_t number) {
   lane.shift.begin();
 }
 
-/// (5) and (6), as `BarrierProgram::meets` tells it.
 bool LaneRun::is_solved(std::size_t number) const {
-  const Eigen::Index lane = index_of(number);
-  const bool by_entries = !stop_rule_.is_one_for_all();
-  const bool holds = values_.violation[lane] <= stop_rule_.violation() ||
-                     (by_entries && stop_rule_.share_of_violation(values_.constraints.of(number)) <= 1.0);
-  if (!holds) return false;
-  const double mean = mean_multiplier_[lane];
-  const double largest = largest_multiplier_[lane];
-  const LaneVector& gradient = problem_.has_bounds() ? balanced_ : problem_.gradient_of_lagrangian();
-  const double allowed = stop_rule_.stationarity(mean, largest);
+  const auto gradient = with_bounds().of(number);
   const Eigen::Index n = problem_.variable_count();
-  const auto of_slacks = [&] { return gradient.of(number).tail(gradient.size() - n).cwiseAbs().sum(); };
-  const bool is_stationary = stationarity_[lane] <= allowed ||
-                             (by_entries && (gradient.size() == n || of_slacks() <= allowed) &&
-                              stop_rule_.share_of_stationarity(gradient.of(number).head(n), mean, largest) <= 1.0);
-  return is_stationary && largest_product_[lane] <= stop_rule_.complementarity(mean_bound_multiplier_[lane]);
+  return errors_[number].meet(stop_rule_, values_.constraints.of(number), multipliers_.of(number), gradient.head(n),
+                              gradient.tail(gradient.size() - n));
 }
 
 ///
 void LaneRun::update_barrier_parameter(std::size_t number) {
   if (!problem_.has_bounds()) return;
-  const Eigen::Index at = index_of(number);
   Lane& lane = lanes_[number];
-  const double without_mu = std::max(stationarity_[at] / StopRule::scale(mean_multiplier_[at]), values_.violation[at]);
-  const double lowered =
-      interior_point::lowered_barrier_parameter(lane.mu, options_.tolerance, without_mu, [&](double mu) {
-        const double complementarity =
-            std::max(std::abs(largest_product_[at] - mu), std::abs(smallest_product_[at] - mu));
-        return complementarity / StopRule::scale(mean_bound_multiplier_[at]);
-      });
+  const double lowered = interior_point::lowered_barrier_parameter(lane.mu, options_.tolerance, errors_[number]);
   if (lowered == lane.mu) return;
   lane.mu = lowered;
   lane.line_search.forget();
@@ -355,7 +346,7 @@ void LaneRun::finish(std::size_t number, Status status) {
   solution_.primal = primal_.of(number).head(problem_.variable_count());
   solution_.multipliers = multipliers_.of(number);
   solution_.objective = values_.objective[at];
-  solution_.kkt_residual = stationarity_[at];
+  solution_.kkt_residual = errors_[number].stationarity;
   solution_.constraint_violation = values_.violation[at];
   solution_.correction.reset();
   solution_.major_iterations = lane.iterations;

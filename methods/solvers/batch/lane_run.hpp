@@ -16,6 +16,7 @@
 #include "methods/solvers/interior_point/constants.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
 #include "methods/solvers/interior_point/newton_step.hpp"
+#include "methods/solvers/interior_point/optimality_errors.hpp"
 
 namespace dmocbench::batch {
 
@@ -86,6 +87,7 @@ class LaneRun {
   [[nodiscard]] bool is_restored(std::size_t number);
   void evaluate_start(std::size_t number);
   void judge(std::size_t number);
+  [[nodiscard]] const LaneVector& with_bounds() const;
   [[nodiscard]] bool is_solved(std::size_t number) const;
   void update_barrier_parameter(std::size_t number);
   void refuse(std::size_t number, const char* reason);
@@ -133,13 +135,9 @@ class LaneRun {
   LaneVector compliance_;                             // (Σ_s + δ_w)⁻¹, one per constraint
   LaneVector residuals_;                              // of the right-hand side
   // What a judgement looks at.
-  OfLanes stationarity_;
+  std::array<interior_point::OptimalityErrors, instance_lanes> errors_;
   OfLanes size_of_gradient_;  // not finite where an entry is not
-  OfLanes mean_multiplier_;
   OfLanes largest_multiplier_;
-  OfLanes mean_bound_multiplier_;
-  OfLanes smallest_product_;  // of d z
-  OfLanes largest_product_;
   LaneVector balanced_;  // the gradient of the Lagrangian with the multipliers of bounds
   Solution solution_;    // memory of the answer that is delivered
 };

@@ -10,14 +10,6 @@ namespace dmocbench::interior_point {
 
 namespace {
 
-/// Moves a number away from its bounds by this share of their size, at most of their distance.
-double pushed_inside(double value, double lower, double upper, double share) {
-  const double distance = upper - lower;  // infinite where a bound is missing
-  if (std::isfinite(lower)) value = std::max(value, lower + share * std::min(std::max(1.0, std::abs(lower)), distance));
-  if (std::isfinite(upper)) value = std::min(value, upper - share * std::min(std::max(1.0, std::abs(upper)), distance));
-  return value;
-}
-
 void push_inside(Eigen::VectorXd& vector, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double share) {
   for_each_bounded(lower, upper, [&](Eigen::Index i) {
     vector[i] = lower[i] == upper[i] ? lower[i] : pushed_inside(vector[i], lower[i], upper[i], share);
@@ -91,7 +83,7 @@ void BarrierProgram::set_interior(const Eigen::VectorXd& start, double push, Ite
     push_inside(at.s, lower_.s, upper_.s, push);
   }
   set_zero(at.multipliers, constraints);
-  bounds_.set_multipliers(1.0, at);
+  bounds_.set_multipliers(1.0, at.z);
 }
 
 bool BarrierProgram::evaluate(const Primal& at, double mu, Evaluation& result) {
@@ -138,7 +130,8 @@ OptimalityErrors BarrierProgram::optimality_errors(const Iterate& at, const Prim
   if (has_bounds()) {
     copy_to(balanced_.x, gradient.x);
     balanced_.s = gradient.s;
-    bounds_.subtract_multipliers(at, balanced_);
+    bounds_.subtract_multipliers(at.z, balanced_);
+    bounds_.find_products(at, at.z, errors.smallest_product, errors.largest_product);
     errors.stationarity = std::max(largest_of(balanced_.x), largest_of(balanced_.s));
     for (const Eigen::VectorXd& z : at.z) sum_z += z.sum();
     errors.mean_bound_multiplier = sum_z / static_cast<double>(bounds_.count());
@@ -152,18 +145,8 @@ OptimalityErrors BarrierProgram::optimality_errors(const Iterate& at, const Prim
 
 bool BarrierProgram::meets(const StopRule& rule, const OptimalityErrors& errors, const Iterate& at,
                            const Primal& gradient, const Evaluation& values) const {
-  const bool by_entries = !rule.is_one_for_all();
-  const bool holds =
-      errors.violation <= rule.violation() || (by_entries && rule.share_of_violation(values.constraints) <= 1.0);
-  if (!holds) return false;
-  const double mean = errors.mean_multiplier;
-  const double largest = largest_of(at.multipliers);
-  const double stationarity = rule.stationarity(mean, largest);
   const Primal& with_bounds = has_bounds() ? balanced_ : gradient;
-  const bool is_stationary =
-      errors.stationarity <= stationarity || (by_entries && largest_of(with_bounds.s) <= stationarity &&
-                                              rule.share_of_stationarity(with_bounds.x, mean, largest) <= 1.0);
-  return is_stationary && bounds_.complementarity(at, 0.0) <= rule.complementarity(errors.mean_bound_multiplier);
+  return errors.meet(rule, values.constraints, at.multipliers, with_bounds.x, with_bounds.s);
 }
 
 }  // namespace dmocbench::interior_point

@@ -9,21 +9,13 @@
 #include "methods/program/nonlinear_program.hpp"
 #include "methods/solvers/interior_point/barrier_bounds.hpp"
 #include "methods/solvers/interior_point/filter_line_search.hpp"
+#include "methods/solvers/interior_point/optimality_errors.hpp"
 
 namespace dmocbench::interior_point {
 
 /// The program's values at a point.
 struct Evaluation : PointValues {
   Eigen::VectorXd constraints;  ///< residuals c: a(x) - value of an equality, a(x) - s of an inequality
-};
-
-/// The residuals of the optimality conditions at an iterate, the parts of (5) that do not depend on μ, and the mean
-/// magnitudes of multipliers by which they are scaled.
-struct OptimalityErrors {
-  double stationarity = 0.0;
-  double violation = 0.0;
-  double mean_multiplier = 0.0;        ///< of λ and z
-  double mean_bound_multiplier = 0.0;  ///< of z
 };
 
 /// The barrier problem of a program, (3) of Wächter and Biegler with slacks and bounds on both sides,

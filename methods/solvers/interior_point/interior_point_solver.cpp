@@ -72,7 +72,7 @@ class InteriorPointRun final : public PreparedRun {
     if (is_warm) at_.multipliers = multipliers;
     if (!is_warm) newton_.estimate_multipliers(at_);
     if (!program_.gradient_of_lagrangian(at_.multipliers, gradient_)) return Status::evaluation_failed;
-    if (is_warm) program_.bounds().balance(mu_, gradient_, at_);
+    if (is_warm) program_.bounds().balance(mu_, at_, gradient_, at_.z);
     line_search_.begin(values_.theta, counted_.rounding_floors().norm_of_constraints(values_.constraints.size()),
                        at_.x.size());
     return std::nullopt;
@@ -105,8 +105,8 @@ class InteriorPointRun final : public PreparedRun {
       // λ += α dλ, (14b), and z += α_z dz with α_z of (15b), (14c) and (16).
       if (is_accepted) {
         set_to_sum(at_.multipliers, at_.multipliers, alpha, step_.multipliers);
-        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_, step_, tau_of(mu_));
-        program_.bounds().update_multipliers(step_, alpha_z, mu_, at_);
+        const double alpha_z = program_.bounds().multiplier_fraction_to_boundary(at_.z, step_.z, tau_of(mu_));
+        program_.bounds().update_multipliers(at_, step_.z, alpha_z, mu_, at_.z);
       }
     }
     // Restore feasibility where no step is acceptable.
@@ -143,10 +143,7 @@ class InteriorPointRun final : public PreparedRun {
 
   void update_barrier_parameter(const OptimalityErrors& errors) {
     if (!program_.has_bounds()) return;
-    const double without_mu = std::max(errors.stationarity / StopRule::scale(errors.mean_multiplier), errors.violation);
-    const double lowered = lowered_barrier_parameter(mu_, options_.tolerance, without_mu, [&](double mu) {
-      return program_.bounds().complementarity(at_, mu) / StopRule::scale(errors.mean_bound_multiplier);
-    });
+    const double lowered = lowered_barrier_parameter(mu_, options_.tolerance, errors);
     if (lowered == mu_) return;
     mu_ = lowered;
     values_.phi = program_.barrier_function(at_, mu_, values_.objective);
@@ -265,8 +262,8 @@ class InteriorPointRun final : public PreparedRun {
     fmt::print(
         "{:4} {:>7}  cost {:.10e}  violation {:.1e}  stationarity {:.1e}  "
         "complementarity {:.1e}  mu {:.1e}  shift {:.1e}  step {:.1e}\n",
-        iterations_, kind, values_.objective, errors.violation, errors.stationarity,
-        program_.bounds().complementarity(at_, 0.0), mu_, newton_.shift(), length_);
+        iterations_, kind, values_.objective, errors.violation, errors.stationarity, errors.complementarity(0.0), mu_,
+        newton_.shift(), length_);
   }
 
   CountedProgram& counted_;

@@ -55,7 +55,7 @@ bool NewtonStep::compute(const Iterate& at, double mu, const Primal& gradient, c
     gradient_.s = gradient.s;
     set_zero(sigma_.x, sigma_.x.size());
     sigma_.s.setZero();
-    program_.bounds().add_barrier(at, mu, sigma_, gradient_);
+    program_.bounds().add_barrier(at, at.z, mu, sigma_, gradient_);
   }
   for (shift_.begin();;) {
     const kkt::KktRightHandSide reduced =
@@ -98,7 +98,7 @@ void NewtonStep::estimate_multipliers(Iterate& at) {
   if (program_.has_bounds()) {
     copy_to(gradient_.x, program_.gradient());
     gradient_.s.setZero();
-    program_.bounds().subtract_multipliers(at, gradient_);
+    program_.bounds().subtract_multipliers(at.z, gradient_);
   }
   const Eigen::VectorXd& gradient = program_.has_bounds() ? gradient_.x : program_.gradient();
   // The multipliers of a zero gradient are zero, as where the cost is a square of controls and the guess has none.
@@ -170,7 +170,8 @@ void NewtonStep::set_eliminated_steps(const Iterate& at, double mu, Iterate& ste
     const Eigen::Index row = inequalities[static_cast<std::size_t>(j)];
     step.s[j] = compliance_[row] * (step.multipliers[row] - gradient_.s[j]);
   }
-  program_.bounds().set_multiplier_step(at, mu, step);
+  for (std::size_t set = 0; set < at.z.size(); ++set) step.z[set].resize(at.z[set].size());
+  program_.bounds().set_multiplier_step(at, at.z, mu, step, step.z);
 }
 
 }  // namespace dmocbench::interior_point

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/solvers/interior_point/optimality_errors.hpp"
 #include "tests/support/random_points.hpp"
 
 namespace dmocbench::interior_point {
@@ -18,7 +19,8 @@ struct Case {
     draw(40, &Primal::x);
     draw(7, &Primal::s);
     const BarrierBounds bounds(lower, upper);
-    bounds.set_multipliers(1.0, at);
+    bounds.set_multipliers(1.0, at.z);
+    bounds.set_multipliers(0.0, step.z);
     for (Eigen::VectorXd& z : at.z) z = random.vector(z.size(), 0.5, 2.0);
   }
 
@@ -65,6 +67,13 @@ struct Case {
   Iterate step;
 };
 
+/// Largest |d z - of|.
+double complementarity(const BarrierBounds& bounds, const Iterate& at, double of) {
+  OptimalityErrors errors;
+  bounds.find_products(at, at.z, errors.smallest_product, errors.largest_product);
+  return errors.complementarity(of);
+}
+
 TEST(BarrierBounds, KnowTheBarrierAndItsDerivative) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Case given(seed);
@@ -83,7 +92,7 @@ TEST(BarrierBounds, KnowTheBarrierAndItsDerivative) {
     EXPECT_NEAR(derivative, difference, 1e-6 * (1.0 + std::abs(difference)));
     Primal sigma{Eigen::VectorXd::Zero(40), Eigen::VectorXd::Zero(7)};
     Primal gradient = sigma;
-    bounds.add_barrier(given.at, mu, sigma, gradient);
+    bounds.add_barrier(given.at, given.at.z, mu, sigma, gradient);
     EXPECT_NEAR(gradient.x.dot(given.step.x) + gradient.s.dot(given.step.s), mu * derivative,
                 1e-12 * (1.0 + std::abs(derivative)));
   }
@@ -94,10 +103,10 @@ TEST(BarrierBounds, CompleteStepsByThoseOfTheMultipliers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Case given(seed);
     const BarrierBounds bounds(given.lower, given.upper);
-    bounds.set_multiplier_step(given.at, mu, given.step);
+    bounds.set_multiplier_step(given.at, given.at.z, mu, given.step, given.step.z);
     constexpr double length = 1e-7;
-    const double before = bounds.complementarity(given.at, mu);
-    EXPECT_NEAR(bounds.complementarity(given.moved(length), mu), (1.0 - length) * before, 1e-11);
+    const double before = complementarity(bounds, given.at, mu);
+    EXPECT_NEAR(complementarity(bounds, given.moved(length), mu), (1.0 - length) * before, 1e-11);
   }
 }
 
@@ -108,12 +117,12 @@ TEST(BarrierBounds, KeepAFractionOfTheDistances) {
     const BarrierBounds bounds(given.lower, given.upper);
     given.step.x *= 10.0;
     given.step.s *= 10.0;
-    bounds.set_multiplier_step(given.at, mu, given.step);
+    bounds.set_multiplier_step(given.at, given.at.z, mu, given.step, given.step.z);
     double least = 1.0;
     given.for_each_distance(given.moved(bounds.fraction_to_boundary(given.at, given.step, tau)),
                             [&](double here, double there) { least = std::min(least, there / here); });
     EXPECT_NEAR(least, 1.0 - tau, 1e-12);
-    const Iterate there = given.moved(bounds.multiplier_fraction_to_boundary(given.at, given.step, tau));
+    const Iterate there = given.moved(bounds.multiplier_fraction_to_boundary(given.at.z, given.step.z, tau));
     least = 1.0;
     for (std::size_t k = 0; k < there.z.size(); ++k) {
       if (there.z[k].size() > 0) least = std::min(least, there.z[k].cwiseQuotient(given.at.z[k]).minCoeff());
@@ -125,13 +134,13 @@ TEST(BarrierBounds, KeepAFractionOfTheDistances) {
 TEST(BarrierBounds, KeepMultipliersNearThoseOfTheBarrier) {
   Case given(0);
   const BarrierBounds bounds(given.lower, given.upper);
-  bounds.set_multiplier_step(given.at, mu, given.step);
+  bounds.set_multiplier_step(given.at, given.at.z, mu, given.step, given.step.z);
   for (Eigen::VectorXd& z : given.step.z) z.setConstant(-1e30);
-  bounds.update_multipliers(given.step, 1.0, mu, given.at);
-  EXPECT_NEAR(bounds.complementarity(given.at, 0.0), mu / 1e10, 1e-20);
+  bounds.update_multipliers(given.at, given.step.z, 1.0, mu, given.at.z);
+  EXPECT_NEAR(complementarity(bounds, given.at, 0.0), mu / 1e10, 1e-20);
   for (Eigen::VectorXd& z : given.step.z) z.setConstant(1e30);
-  bounds.update_multipliers(given.step, 1.0, mu, given.at);
-  EXPECT_NEAR(bounds.complementarity(given.at, 0.0), mu * 1e10, 1.0);
+  bounds.update_multipliers(given.at, given.step.z, 1.0, mu, given.at.z);
+  EXPECT_NEAR(complementarity(bounds, given.at, 0.0), mu * 1e10, 1.0);
 }
 
 }  // namespace
