@@ -159,6 +159,23 @@ int print_cards(const std::vector<std::shared_ptr<const Problem>>& problems) {
   return print_json({{"dmocbench", describe_run({})["dmocbench"]}, {"problems", cards}});
 }
 
+/// What plots/style.gp reads of the families, as gnuplot.
+int print_families() {
+  const std::span<const Family> families = registered_families();
+  const auto print_array = [&](const char* name, const auto& entry_of) {
+    fmt::print("array {}[{}] = [", name, families.size());
+    for (const Family& family : families) fmt::print("{}{}", &family == families.data() ? "" : ", ", entry_of(family));
+    fmt::print("]\n");
+  };
+  fmt::print("# The families of methods as figures show them. Do not edit: written by\n");
+  fmt::print("#   build/bench/list --families >plots/families.inc\n");
+  fmt::print("families = \"{}\"\n", fmt::join(all_families(), " "));
+  fmt::print("paper_families = \"{}\"\n", fmt::join(paper_families(), " "));
+  print_array("family_labels", [](const Family& family) { return fmt::format("\"{}\"", family.label); });
+  print_array("family_styles", [](const Family& family) { return family.style; });
+  return 0;
+}
+
 int print_all(CommandLine& line) {
   std::vector<std::string> names;
   std::vector<std::string> settings;
@@ -170,7 +187,10 @@ int print_all(CommandLine& line) {
   line.option(
       "--schema", schema,
       "a JSON Schema instead: problems (of --json), metadata (NAME.json beside results), claims or claims_rows");
+  bool as_gnuplot = false;
+  line.flag("--families", as_gnuplot, "the families of methods with labels and line styles instead, for figures");
   parse_with_libraries(line);
+  if (as_gnuplot) return print_families();
   if (!schema.empty()) return print_schema(schema);
   const auto problems = selected_problems(names.empty() ? std::vector<std::string>{"all"} : names,
                                           settings);  // refuses before anything is printed

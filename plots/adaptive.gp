@@ -66,7 +66,7 @@ do for [kind in kinds] {
     set title quantity
     set key at screen 0.5, screen 0.02 center bottom vertical maxrows 1 width 2
     plot 0.3 with lines linetype 8, 3 with lines linetype 8,\
-         for [method in "dmoc hamiltonian tangent"]\
+         for [method in paper_families]\
            rows("adaptive_effectivity", "method=".method.",verdict=measured,quantity=".quantity, "effectivity")\
            using "relative_error":"effectivity" with points linetype method_style(method)\
            title (quantity eq "state" ? method_label(method) : "")

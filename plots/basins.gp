@@ -26,7 +26,7 @@ do for [group in system(rows_awk("-v take=all -v distinct=problem,tableau,stages
   }
   # In the order of the other figures, then what else there is.
   methods = ""
-  do for [known in "dmoc hamiltonian tangent"] { if (place_in(there, known) > 0) { methods = methods." ".known } }
+  do for [known in families] { if (place_in(there, known) > 0) { methods = methods." ".known } }
   do for [other in there] { if (place_in(methods, other) == 0) { methods = methods." ".other } }
   # Half the width of a cell.
   places = words(system(rows_awk("-v take=all -v distinct=bulge_1 -v where='".group."'", basins)))

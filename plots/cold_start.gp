@@ -10,7 +10,6 @@ eval require(shares, "problem,method,tableau,stages,solver,intervals,start_kind,
     "solved_upper,confirmed_share,confirmed_lower,confirmed_upper,best_share,best_lower,best_upper")
 eval require(profiles, "problem,method,tableau,stages,solver,intervals,start_kind,measure,budget,share")
 
-colour(method) = word(blue." ".vermilion." ".green." ".purple, method_style(method))
 dash(method) = method_style(method) == 1 ? 1 : method_style(method) + 1
 counted = "solved confirmed best"
 counted_points = "6 7 9"
@@ -57,9 +56,9 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
     plot for [method in methods] for [solver in solvers] for [c = 1:3]\
            rows(shares, where.",solver=".solver.",method=".method, "")\
            using (x_of(solver, method, c)):(column(word(counted, c)."_share")):(column(word(counted, c)."_lower")):\
-           (column(word(counted, c)."_upper")) with yerrorbars linecolor rgb colour(method) linewidth 1.6 dashtype 1\
+           (column(word(counted, c)."_upper")) with yerrorbars linecolor rgb method_colour(method) linewidth 1.6 dashtype 1\
            pointtype int(word(counted_points, c)) pointsize 0.9 notitle,\
-         for [method in methods] keyentry with lines linecolor rgb colour(method) linewidth 3 dashtype 1\
+         for [method in methods] keyentry with lines linecolor rgb method_colour(method) linewidth 3 dashtype 1\
            title method_label(method),\
          for [c = 1:3] keyentry with points linecolor rgb "#202020" pointtype int(word(counted_points, c)) pointsize 0.9\
            title word(counted_labels, c)
@@ -75,7 +74,7 @@ do for [problem_word in distinct(shares, "problem", "", "")] {
       set xlabel (is_left ? "evaluations" : "time of the solver [s]")
       set ylabel (is_left ? "share solved and confirmed, ".solver_label(solver_of_profiles) : "")
       plot for [method in methods] steps_of(where.",solver=".solver_of_profiles, measure, method)\
-           using (column("budget")):(column("share")) with steps linecolor rgb colour(method)\
+           using (column("budget")):(column("share")) with steps linecolor rgb method_colour(method)\
            linewidth (method_style(method) == 1 ? 3 : 1.8) dashtype dash(method) notitle
     }
     unset multiplot
@@ -113,10 +112,10 @@ do for [kind in kinds] {
     if (c == 2) { set key at screen 0.44, screen 0.004 center bottom vertical maxrows 1 width 3 } else { unset key }
     plot for [method in methods] for [problem in problems] rows(shares, where.",problem=".problem.",method=".method, "")\
            using (column(word(counted, c)."_share")):(y_of(problem, method)):(column(word(counted, c)."_lower")):\
-           (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb colour(method) linewidth 1.4 dashtype 1\
-           pointtype int(word("7 6 9 5", method_style(method))) pointsize 0.7 notitle,\
-         for [method in methods] keyentry with linespoints linecolor rgb colour(method) linewidth 1.4 dashtype 1\
-           pointtype int(word("7 6 9 5", method_style(method))) pointsize 0.7 title method_label(method)
+           (column(word(counted, c)."_upper")) with xerrorbars linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
+           pointtype method_points(method) pointsize 0.7 notitle,\
+         for [method in methods] keyentry with linespoints linecolor rgb method_colour(method) linewidth 1.4 dashtype 1\
+           pointtype method_points(method) pointsize 0.7 title method_label(method)
   }
   set lmargin at screen 0.775; set rmargin at screen 0.985
   unset key
@@ -127,7 +126,7 @@ do for [kind in kinds] {
   set xlabel "evaluations"
   set ylabel "mean share solved and confirmed"
   plot for [method in methods] steps_of(mean_where, "evaluations", method) using (column("budget")):(column("share"))\
-       with steps linecolor rgb colour(method) linewidth (method_style(method) == 1 ? 3 : 1.8) dashtype dash(method) notitle
+       with steps linecolor rgb method_colour(method) linewidth (method_style(method) == 1 ? 3 : 1.8) dashtype dash(method) notitle
   unset multiplot
   eval end_figure(kind, "library_cold_start")
 }

@@ -64,7 +64,7 @@ do for [where in problems_of("structure_energy_work", "largest_gap")] {
     set ylabel "max_k |change of energy − work|"
     set key at screen 0.05, 0.25 left top Left reverse
     set title "the energy and the virtual work"
-    plot for [method in "dmoc hamiltonian tangent"] rows("structure_energy_work", scheme(problem, method), "largest_gap")\
+    plot for [method in paper_families] rows("structure_energy_work", scheme(problem, method), "largest_gap")\
            using "h":"largest_gap" with linespoints linestyle method_style(method)\
            title with_slope(method_label(method),\
              slope("structure_energy_work_slopes", scheme(problem, method), "gap"))

@@ -11,7 +11,6 @@ eval require(shares,\
     "problem,method,tableau,stages,intervals,starts,solved,unsolved,unconfirmed,best,share,share_lower,share_upper")
 
 most_minima = 8
-colour(method) = word(blue." ".vermilion." ".green." ".purple, method_style(method))
 share_field(where, column) = entry(distinct(shares, column, where, ""), column)
 # "Hamiltonian collocation" in two lines, and how many of its starts were solved.
 two_lines(label) = strstrt(label, " ") > 0\
@@ -79,14 +78,14 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     set style fill solid 1.0 noborder
     plot for [i = 1:count] rows(minima, group, "")\
            using (x_of(column("minimum"), i)):(column(word(methods, i))):(0.9 * bar)\
-           with boxes linecolor rgb colour(word(methods, i)) title method_label(word(methods, i)),\
+           with boxes linecolor rgb method_colour(word(methods, i)) title method_label(word(methods, i)),\
          for [i = 1:count] rows(minima, group, "")\
            using (x_of(column("minimum"), i)):(column(word(methods, i))):\
            (sprintf("%d", column(word(methods, i)))) with labels offset 0, 0.6 font ",11" notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
            using (x_of_rest(rest, i)):(column(rest)):(0.9 * bar)\
-           with boxes fillcolor rgb colour(word(methods, i)) dashtype 1\
-           fillstyle pattern 5 border rgb colour(word(methods, i)) notitle,\
+           with boxes fillcolor rgb method_colour(word(methods, i)) dashtype 1\
+           fillstyle pattern 5 border rgb method_colour(word(methods, i)) notitle,\
          for [i = 1:count] for [rest in "unconfirmed unsolved"] rows(shares, group.",method=".word(methods, i), "")\
            using (x_of_rest(rest, i)):(column(rest)):(sprintf("%d", column(rest))) with labels offset 0, 0.6 font ",11"\
            notitle
@@ -103,8 +102,8 @@ do for [group in distinct(minima, "problem,tableau,stages,intervals", "", "")] {
     unset key
     plot for [i = 1:count] rows(shares, group.",method=".word(methods, i), "")\
            using (i):(column("share")):(column("share_lower")):(column("share_upper")) with yerrorbars\
-           linecolor rgb colour(word(methods, i)) linewidth 2 dashtype 1 pointtype int(word("7 6 9 5",\
-           method_style(word(methods, i)))) pointsize 1.2
+           linecolor rgb method_colour(word(methods, i)) linewidth 2 dashtype 1\
+           pointtype method_points(word(methods, i)) pointsize 1.2
     unset multiplot
     set ytics autofreq
     eval end_figure(kind, figure)

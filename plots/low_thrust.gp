@@ -5,11 +5,9 @@ plots = system("dirname '".ARG0."'")
 load plots."/style.gp"
 eval require("low_thrust", "problem,method,revolutions,steps_per_revolution,cost_error,momentum_defect,replay_error,reference")
 
-families = distinct("low_thrust", "method", "", "cost_error")
-family_label(method) = strstrt(method, "multiple_shooting_rk4") == 1 ? "Multiple shooting, rk4"\
-    : strstrt(method, "multiple_shooting_midpoint") == 1 ? "Multiple shooting, explicit midpoint" : method_label(method)
-family_style(method) = strstrt(method, "multiple_shooting_rk4") == 1 ? 5 : method_style(method)
-set linetype 5 linecolor rgb "#E69F00" linewidth 1.5 dashtype 1 pointtype 13 pointsize 0.8
+drawn_methods = distinct("low_thrust", "method", "", "cost_error")
+# Two integrators of one family.
+style_here(method) = strstrt(method, "multiple_shooting_rk4") == 1 ? 5 : method_style(method)
 # "indirect solution, 12.1 digits".
 reference_label(panel) = (entry(panel, "reference") eq "indirect" ? "indirect solution" : "two methods").", "\
     .sprintf("%.1f digits", number(entry(panel, "reference_digits")))
@@ -39,9 +37,9 @@ do for [problem_word in problems_of("low_thrust", "cost_error")] {
       set ylabel "|J − J*| / J*"
       set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 width 0
       set title entry(panel, "revolutions")." revolutions; ".reference_label(panel)
-      plot for [family in families] rows("low_thrust", where.",".family, "cost_error")\
+      plot for [one in drawn_methods] rows("low_thrust", where.",".one, "cost_error")\
              using "steps_per_revolution":"cost_error"\
-             with linespoints linetype family_style(entry(family, "method")) title family_label(entry(family, "method"))
+             with linespoints linetype style_here(entry(one, "method")) title method_label(entry(one, "method"))
     }
     unset multiplot
     eval end_figure(kind, problem."_low_thrust")

@@ -22,8 +22,8 @@ successes(i) = int(entry(word(all_competitors, i), "successes"))
 instances = int(entry(word(distinct("profile_summary", "instances", "", ""), 1), "instances"))
 variant_of(i) = "tableau=".after(where_of(i), "tableau")
 place_in(list, text) = sum [k = 1:words(list)] (word(list, k) eq text ? k : 0)
-colour(i) = word(blue." ".vermilion." ".green." ".purple, method_style(entry(where_of(i), "method")))
-marker(i) = int(word("7 6 9 5", method_style(entry(where_of(i), "method"))))
+colour(i) = method_colour(entry(where_of(i), "method"))
+marker(i) = method_points(entry(where_of(i), "method"))
 pattern(i) = words(variants) > 1 ? place_in(variants, variant_of(i)) : method_style(entry(where_of(i), "method"))
 width(i) = method_style(entry(where_of(i), "method")) == 1 ? 2.6 : 1.8
 dashes = "'1' '(6, 4)' '(10, 4, 2, 4)' '(2, 3)' '(12, 4)' '(10, 3, 2, 3, 2, 3)'"

@@ -6,7 +6,6 @@ eval require("sequence", "problem,method,intervals,sequence,step,status,iteratio
 eval require("sequence_summary",\
     "problem,method,sequence,median_iterations,p99_iterations,median_microseconds,p99_microseconds,median_cold_iterations")
 
-colour(method) = word(blue." ".vermilion." ".green." ".purple, method_style(method))
 summary(where, column) = entry(distinct("sequence_summary", column, where, ""), column)
 rounded(text) = sprintf("%.0f", number(text))
 label(where) = method_label(entry(where, "method")).sprintf(\
@@ -35,8 +34,8 @@ do for [problem_word in problems_of("sequence", "microseconds")] {
       set key at screen (panel == 1 ? 0.05 : 0.55), 0.2 left top Left reverse font ",11"
       set title in_words(entry(word(sequences, panel), "sequence"))
       plot for [method in methods] rows("sequence", where.",".method, "microseconds") using "step":"microseconds"\
-             with points linecolor rgb colour(entry(method, "method")) pointsize 0.5\
-             pointtype int(word("7 6 9 5", method_style(entry(method, "method"))))\
+             with points linecolor rgb method_colour(entry(method, "method")) pointsize 0.5\
+             pointtype method_points(entry(method, "method"))\
              title label(where.",".method)
     }
     unset multiplot

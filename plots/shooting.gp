@@ -15,7 +15,6 @@ do for [name in tables_of_errors] { eval require(name, "problem,method,tableau,s
 
 is_single(method) = method[1:6] eq "single"
 integrator(method) = strstrt(method, "rk4") > 0 ? "rk4" : "midpoint rule"
-family(method) = method eq "dmoc" ? "DMOC" : is_single(method) ? "Single shooting" : "Multiple shooting"
 colour(method) = method eq "dmoc" ? blue : is_single(method) ? green : vermilion
 points_of(method) = method eq "dmoc" ? 7 : is_single(method) ? 9 : 6
 dashes_of(where) = int(entry(where, "stages")) == 1 ? 1 : 2
@@ -68,7 +67,7 @@ do for [problem_word in distinct("shooting", "problem", "", "")] {
     set key top left font ",12"
     plot for [method in programs] rows("shooting", problem_word.",method=".method, "condition")\
            using (column("intervals")):(column("condition")) with linespoints linecolor rgb colour(method)\
-           linewidth 1.8 dashtype 1 pointtype points_of(method) pointsize 0.9 title family(method)
+           linewidth 1.8 dashtype 1 pointtype points_of(method) pointsize 0.9 title family_labels[family_of(method)]
     set lmargin at screen (has_errors ? 0.745 : 0.6); set rmargin at screen 0.985
     unset logscale; unset mytics
     set xrange [0.4:3.6]

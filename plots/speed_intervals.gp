@@ -80,15 +80,15 @@ if (words(drawn) > 0) {
 chain = "way=program,problem=link_chain,".set_word
 methods = distinct("speed", "method", chain, "nanoseconds")
 stages = distinct("speed", "stages", chain, "nanoseconds")
-method_colour(i) = word(blue." ".vermilion." ".green." ".purple, method_style(entry(word(methods, i), "method")))
-method_marker(i) = int(word("7 6 9 5", method_style(entry(word(methods, i), "method"))))
+colour(i) = method_colour(entry(word(methods, i), "method"))
+marker(i) = method_points(entry(word(methods, i), "method"))
 stage_dashes = "'1' '(6, 4)' '(2, 3)'"
 
 if (words(methods) > 0) {
   # A line style from text cannot stand in a plot with iteration.
   do for [i = 1:words(methods)] { do for [s = 1:words(stages)] {
     eval sprintf("set linetype %d linecolor rgb '%s' linewidth 1.6 dashtype %s pointtype %d pointsize 0.7",\
-        20 + 4 * i + s, method_colour(i), word(stage_dashes, (s - 1) % 3 + 1), method_marker(i))
+        20 + 4 * i + s, colour(i), word(stage_dashes, (s - 1) % 3 + 1), marker(i))
   } }
   do for [kind in kinds] {
     eval begin_figure(kind, "speed_size", 1300, 640)

@@ -9,7 +9,7 @@ eval require("speed_solves", "problem,method,intervals,solver,threads,solved,ns_
 eval require("speed_solves_ratios", "problem,method,intervals,quantity,ratio")
 
 on_grids = "orbital_transfer two_link_manipulator two_link_manipulator_bounded"
-methods = "dmoc hamiltonian tangent"
+methods = paper_families
 solvers = "interior_point ipopt"
 solver_label(s) = word("'interior\\_point' Ipopt", s)
 colour(m) = word(blue." ".vermilion." ".green, m)

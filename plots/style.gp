@@ -102,9 +102,17 @@ with_unit(text, unit) = strlen(unit) == 0 ? text : unit eq "dimensionless" ? tex
     : text." [".(unit eq "h" ? "hours" : unit)."]"
 axis_label(text, problem, column) = with_unit(text, described(problem, column))
 
-method_label(method) = method eq "dmoc" ? "DMOC" : method eq "hamiltonian" ? "Hamiltonian collocation"\
-    : method eq "tangent" ? "Tangent-space collocation" : method
-method_style(method) = method eq "dmoc" ? 1 : method eq "hamiltonian" ? 2 : method eq "tangent" ? 3 : 4
+# Families of methods: a method has the name of its family, or begins with it: multiple_shooting_rk4_2 is "Multiple shooting,
+# rk4, 2 steps". What no family has the name of is called as it is.
+load plots."/families.inc"
+family_of(method) = sum [i_family = 1:words(families)] (strstrt(method."_", word(families, i_family)."_") == 1 ? i_family : 0)
+method_label(method) = family_of(method) == 0 ? method\
+    : family_labels[family_of(method)].integration_label(method[strlen(word(families, family_of(method))) + 2:*])
+integration_label(integration) = strstrt(integration, "_") == 0 ? ""\
+    : ", ".integration[1:strstrt(integration, "_") - 1].steps_label(after_bar(integration))
+after_bar(text) = text[strstrt(text, "_") + 1:*]
+steps_label(steps) = steps eq "1" ? "" : ", ".steps." steps"
+method_style(method) = family_of(method) == 0 ? 4 : family_styles[family_of(method)]
 # Tableau, stages and solver are named only where one figure shows several of them.
 several(name, where, column) = words(distinct(name, column, "problem=".entry(where, "problem"), "")) > 1
 curve_label(name, where) = method_label(entry(where, "method"))\
@@ -115,13 +123,17 @@ curve_label(name, where) = method_label(entry(where, "method"))\
 # --- Style -----------------------------------------------------------------------------------------------------------
 # Colours of Okabe and Ito. DMOC and Hamiltonian collocation often coincide: filled discs on a broad line below,
 # large open circles on a dashed line above, so that both stay visible.
-blue = "#0072B2"; vermilion = "#D55E00"; green = "#009E73"; purple = "#CC79A7"; grey = "#707070"
+blue = "#0072B2"; vermilion = "#D55E00"; green = "#009E73"; purple = "#CC79A7"; orange = "#E69F00"; grey = "#707070"
 set linetype 1 linecolor rgb blue linewidth 3.0 dashtype 1 pointtype 7 pointsize 0.6
 set linetype 2 linecolor rgb vermilion linewidth 1.5 dashtype (6, 5) pointtype 6 pointsize 1.15
 set linetype 3 linecolor rgb green linewidth 1.5 dashtype (10, 4, 2, 4) pointtype 9 pointsize 0.85
 set linetype 4 linecolor rgb purple linewidth 1.5 dashtype (2, 3) pointtype 5 pointsize 0.7
+set linetype 5 linecolor rgb orange linewidth 1.5 dashtype 1 pointtype 13 pointsize 0.8
 set linetype 8 linecolor rgb grey linewidth 1.2 dashtype (8, 5)
 set linetype 9 linecolor rgb grey linewidth 1.2 dashtype (2, 4)
+# Colours and points of the line types 1 to 5, for figures that draw methods otherwise.
+method_colour(method) = word(blue." ".vermilion." ".green." ".purple." ".orange, method_style(method))
+method_points(method) = int(word("7 6 9 5 13", method_style(method)))
 
 set border 3 linecolor rgb "#404040" linewidth 1
 set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"
