@@ -24,11 +24,12 @@ class OneStepMap {
 
   /// The image of a point.
   struct Step {
-    Vector q;                    ///< q_1, n entries
-    Vector p;                    ///< p_1
-    Vector mean_velocity;        ///< (q_1 - q_0)/h, an estimate for the next step
-    Vector impulse;              ///< h Σ b_i f(Q_i, Q̇_i, U_i), n entries
-    std::vector<Scalar> inputs;  ///< the solved interval, for `jacobian`
+    Vector q;              ///< q_1, n entries
+    Vector p;              ///< p_1
+    Vector mean_velocity;  ///< (q_1 - q_0)/h, an estimate for the next step
+    Vector impulse;        ///< h Σ b_i f(Q_i, Q̇_i, U_i), n entries
+    /// The solved interval, for `jacobian`: its `IntervalUnknowns` as by `take_unknowns`, h, t and p_0.
+    std::vector<Scalar> inputs;
   };
 
   /// The map of one interval of `element` by `tableau`; traces it.

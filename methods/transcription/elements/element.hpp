@@ -44,13 +44,41 @@ struct IntervalTrace {
   ExpressionVector right_momentum;      ///< p_{k+1} seen from this interval, n entries
 };
 
-/// One interval of a direct transcription, for any Butcher tableau.
+/// One interval of a direct transcription, for any Butcher tableau: what distinguishes a method from the others.
 ///
-/// An element is a rule, not data: given the formulas of a problem and traced unknowns, it returns formulas. Numbering,
-/// sparsity, derivatives, boundary conditions and costates are generic (`Transcription`). Every element satisfies:
-///   - on a solution of its stage equations the interval map (x_k, U) ↦ x_{k+1} is consistent of the tableau's order;
-///   - counts per interval are those of (rem:savings): sn + sm unknowns and sn equations for DMOC, 2sn + sm and 2sn for
-///     collocation; 2n + sm and 2n for shooting.
+/// The motion between the nodes x_k and x_{k+1} is replaced by finitely many numbers: s stage rates, of which the last
+/// is eliminated, and s controls U_1 .. U_s. An element is a rule, not data: given the formulas of a problem and traced
+/// unknowns, it returns the formulas of an interval (`IntervalTrace`),
+///   e(x_k, rates, x_{k+1}, U) = 0          its stage equations,
+///   l, r                                   its share of the equations of node k and of node k + 1,
+///   c = ∫ C dt + O(h^(r+1))                its share of the cost, r the order of the method,
+///   p_k⁻, p_{k+1}⁺                         the momenta at both ends, as the interval sees them.
+/// The program is then: minimise Σ c over all intervals such that e = 0 on each interval and r + l = 0 at each inner
+/// node, r from the interval before it and l from the one after it. Numbering, sparsity, derivatives, boundary
+/// conditions and costates are generic (`Transcription`).
+///
+/// With n the number of configurations, m of controls and d the size of a node, n for `NodeState::configuration` and 2n
+/// otherwise, every element satisfies four identities, which `broken_identities` (methods/diagnostics) checks.
+///
+/// 1. Counts. An interval has as many equations as unknowns besides its controls (rem:savings): e and l together have d
+///    entries for its node and d for each interior stage rate,
+///      DMOC                  n of l,  (s - 1) n of e          for sn + sm unknowns,
+///      collocation           none,    2sn of e                for 2sn + sm unknowns,
+///      no stage unknowns     none,    2n of e                 for 2n + sm unknowns.
+///    r has as many entries as l. Stage i is at the time t_k + c_i h and has the control U_i.
+///
+/// 2. Consistency. p_k⁻ = p and e = 0 determine all unknowns of an interval but q_k and the controls. Started on an
+///    exact motion, with the exact controls at the stage times, this map (q_k, p_k) ↦ (q_{k+1}, p_{k+1}⁺) and the cost
+///    miss the motion and its cost by O(h^(r+1)). For DMOC and collocation r is the order of the tableau; for shooting
+///    it is the smaller one of this and the order of the integrator.
+///
+/// 3. Momenta. l = -p_k⁻ and r = p_{k+1}⁺ where nodes carry q alone: the forced discrete Legendre transforms
+///    (eq:varmech_dlegf), whose two values at a node add up to the equation of the node. Otherwise the momenta are
+///    those of the nodes, p_k, or L_v(q_k, v_k, t_k).
+///
+/// 4. Costates. With multipliers μ, λ for which ℓ = c + μ·(p_k⁻ - p) + λ·e + w·(q_{k+1}, p_{k+1}⁺) is stationary in all
+///    unknowns of the map, (∂ℓ/∂q_k, -μ) is the gradient by (q_k, p_k) of the cost to go c + w·(q_{k+1}, p_{k+1}⁺), for
+///    every w. Hence ψ_k is the derivative of the Lagrangian of an interval by its left node (`costates`).
 class Element {
  public:
   virtual ~Element() = default;
