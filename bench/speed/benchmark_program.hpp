@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/compare/benchmark_file.hpp"
+#include "bench/speed/benchmark_file.hpp"
 #include "methods/tables/table.hpp"
 
 namespace dmocbench::speed {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/compare/benchmark_file.hpp"
 #include "bench/run/column.hpp"
+#include "bench/speed/benchmark_file.hpp"
 
 namespace dmocbench::speed {
 

@@ -23,9 +23,7 @@ const Values& known_values() {
   static const Values values = {
       {"--controls", {"stage", "shared"}},
       {"--compare", {"results", "folder", "none", "file"}},
-      {"--counter", {"cpu_time", "real_time"}},
       {"--crash", {"none", "all", "boundary"}},
-      {"--csv", {"table.csv", "folder", "file/inner", "file"}},
       {"--factorisation", {"intervals", "sparse"}},
       {"--fit", {"4:16", "8:8", "16:4", "4:"}},
       {"--form", {"bolza", "mayer"}},
@@ -148,13 +146,12 @@ Values read_names(const std::string& text) {
 }
 
 Program read_program(const fs::path& binary, const Values& names) {
-  Program program{.binary = binary, .options = {}, .arguments = 0};
+  Program program{.binary = binary, .options = {}};
   static const std::regex option(R"(^  (?:-\w,)?(--[a-z-]+)(?:[,{]\S*)?(?: (TEXT|INT|UINT|FLOAT)\S*)?.*)");
   static const std::regex range(R"(in \[(\S+) - ([^\]]+)\])");
   static const std::regex preset(R"((?:TEXT|INT|FLOAT)=\[?([^\] ]+))");
   for (const std::string& line : split(capture(binary, {"--help"}), '\n')) {
     std::smatch found;
-    if (line.find(" REQUIRED ") != std::string::npos) ++program.arguments;
     if (!std::regex_match(line, found, option)) continue;
     Option read{.name = found[1], .type = found[2], .least = {}, .largest = {}, .values = {}};
     if (std::regex_search(line, found, range)) {
@@ -256,8 +253,6 @@ void write_fixtures(const fs::path& folder, const fs::path& start) {
   write("bad_grid.txt", "0\nhalf\nnan\n1\n");
   write("narrow.txt", "0\n0.1\n0.3\n0.30000000000000004\n0.6\n0.8\n1\n");
   write("file", "text\n");
-  write("run.json", R"({"benchmarks": [{"name": "f", "cpu_time": 1}]})");
-  write("torn.json", R"({"benchmarks": [{"name": )");
   fs::create_directory(folder / "folder");
   fs::create_symlink("nowhere", folder / "dangling");
 }
@@ -280,10 +275,6 @@ std::vector<std::string> draw_line(const Program& program, std::mt19937_64& rand
     const auto tame = tame_values().find(option.name);
     if (tame == tame_values().end() || std::ranges::count(said, option.name) > 0) continue;
     add(line, option.name, one_of(tame->second, random), true);
-  }
-  for (std::size_t i = 0; i < program.arguments; ++i) {
-    line.push_back(happens(0.8, random) ? one_of({"run.json", "torn.json", "file", "folder", "none.json"}, random)
-                                        : one_of(hostile_words(), random));
   }
   if (happens(0.03, random)) line.emplace_back("--colour");
   if (happens(0.03, random)) line.push_back(one_of(hostile_words(), random));

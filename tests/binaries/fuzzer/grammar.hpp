@@ -22,7 +22,6 @@ struct Option {
 struct Program {
   std::filesystem::path binary;
   std::vector<Option> options;
-  std::size_t arguments = 0;  ///< arguments without a name
 };
 
 /// Every binary of a folder with its grammar, from `--help` and from `list`, by name. Throws if one shows none.

@@ -34,7 +34,7 @@ bool is_whole_table(const std::string& text) {
 /// The paths that a line names as places to write to, as they stand; "results" without any.
 std::vector<std::string> places_of(const std::vector<std::string>& line) {
   std::vector<std::string> places = {"results"};
-  for (const std::string name : {"--out", "--trace", "--csv", "--store", "--to"}) {
+  for (const std::string name : {"--out", "--trace", "--store", "--to"}) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i].starts_with(name + "=")) places.push_back(line[i].substr(name.size() + 1));
       if (line[i] == name && i + 1 < line.size()) places.push_back(line[i + 1]);

@@ -1,17 +1,14 @@
-#include "bench/compare/benchmark_file.hpp"
+#include "bench/speed/benchmark_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/result_file.hpp"
 #include "methods/error.hpp"
 #include "methods/numerics/median.hpp"
 
@@ -57,31 +54,6 @@ void add_repetition(Benchmark& benchmark, const json& run, const std::filesystem
   }
 }
 
-BenchmarkSamples samples_of(const std::filesystem::path& file, std::string_view counter) {
-  BenchmarkSamples samples;
-  std::set<std::string> counters;
-  for (const auto& [name, benchmark] : parse_benchmarks(read_file(file), file)) {
-    for (const auto& [key, values] : benchmark.numbers) counters.insert(key);
-    const auto found = benchmark.numbers.find(counter);
-    if (found == benchmark.numbers.end()) continue;
-    for (const double value : found->second) {
-      if (std::isfinite(value) && value > 0.0) continue;
-      throw Error(fmt::format("{} of {} in {} is {}, of which there are no ratios; choose another --counter", counter,
-                              name, file.string(), value));
-    }
-    samples[name] = found->second;
-  }
-  if (counters.empty()) {
-    throw Error(
-        fmt::format("{} holds no repetition of any benchmark; aggregates alone do not tell noise", file.string()));
-  }
-  if (samples.empty()) {
-    throw Error(fmt::format("no benchmark in {} has the counter {}; there are {}", file.string(), counter,
-                            fmt::join(counters, ", ")));
-  }
-  return samples;
-}
-
 }  // namespace
 
 std::string Benchmark::label(std::string_view key) const {
@@ -112,16 +84,6 @@ Benchmarks parse_benchmarks(const std::string& text, const std::filesystem::path
     throw Error(fmt::format("{} is JSON, but not of Google Benchmark; write one with --benchmark_out", file.string()));
   }
   return benchmarks;
-}
-
-BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter) {
-  if (files.empty()) throw Error("no file of a run is named; write one with --benchmark_out");
-  if (files.size() == 1) return samples_of(files.front(), counter);
-  BenchmarkSamples samples;
-  for (const std::filesystem::path& file : files) {
-    for (const auto& [name, values] : samples_of(file, counter)) samples[name].push_back(median(values));
-  }
-  return samples;
 }
 
 }  // namespace dmocbench

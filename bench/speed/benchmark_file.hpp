@@ -30,15 +30,4 @@ using Benchmarks = std::map<std::string, Benchmark>;
 /// are left out. Throws `Error` that names `file` if the text is something else.
 [[nodiscard]] Benchmarks parse_benchmarks(const std::string& text, const std::filesystem::path& file);
 
-/// One number of every benchmark, for instance its `cpu_time`.
-using BenchmarkSamples = std::map<std::string, std::vector<double>>;
-
-/// A single file gives all its repetitions. Of several runs of one program each counts as one repetition, its median:
-/// effects that last for a whole run, such as the place of arrays in memory, are noise too.
-///
-/// Throws `Error` that names the file if it cannot be read, is not of Google Benchmark, holds no repetition, has no
-/// benchmark with this counter (the sentence lists the counters there are), or a value is not above zero; and if there
-/// is no file.
-[[nodiscard]] BenchmarkSamples read_samples(const std::vector<std::filesystem::path>& files, std::string_view counter);
-
 }  // namespace dmocbench
