@@ -1,6 +1,7 @@
 // The least cost of a problem by routes that share as little as possible, compared with the reference that the problem
 // states.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -12,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/tables/agreement_of_routes.hpp"
 #include "bench/tables/selection.hpp"
 #include "methods/error.hpp"
@@ -149,11 +149,19 @@ std::optional<double> replayed_objective(SolvedCase& solved, const Trajectory& m
   }
 }
 
-class Certify final : public Experiment {
+struct Measured {
+  std::optional<ReplayError> replay;
+  std::optional<double> replay_objective;
+  std::optional<int> polish_steps;
+  std::optional<IndirectSolution> indirect;
+  std::string indirect_message;
+};
+
+class Certify final : public ExperimentOf<Measured> {
  public:
   // Digits are wanted that end where the solver's tolerance begins, so answers are polished.
   Certify()
-      : Experiment(
+      : ExperimentOf(
             {.name = "certify",
              .description =
                  "The least cost by routes that share as little as possible: two tableaus on two grids each, the "
@@ -161,78 +169,76 @@ class Certify final : public Experiment {
                  "NAME_references.csv has a row per problem: the routes, how many digits they share, and whether they "
                  "confirm the reference that the problem states.",
              .options = {.problems = {"all"}, .methods = {"dmoc"}, .intervals = "64,128"},
+             .further_files = {"_references.csv"},
              .problems_are_independent = true,
              .polishes = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
+  [[nodiscard]] Columns<Measured> columns() const override {
     return {
-        replay_error_column(measured_.replay),
+        replay_error_column(&Measured::replay),
         {"replay_objective", "cost", "cost of the motion, its intervals replayed one by one",
-         of(measured_.replay_objective)},
-        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
-        {"indirect_objective", "cost", "cost by the indirect method", of(measured_.indirect, &IndirectSolution::cost)},
+         &Measured::replay_objective},
+        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"indirect_objective", "cost", "cost by the indirect method",
+         from(&Measured::indirect, &IndirectSolution::cost)},
         {"indirect_digits", "", "digits of it that are certified",
-         of(measured_.indirect, &IndirectSolution::certified_digits)},
-        {"indirect_message", "", "why there is none", of(measured_.indirect_message)},
+         from(&Measured::indirect, &IndirectSolution::certified_digits)},
+        {"indirect_message", "", "why there is none", &Measured::indirect_message},
     };
   }
   void add_options(CommandLine& line) override {
     line.list("--routes", route_names_, "tableaus with their stages; they replace --tableau and --stages");
     line.flag("!--no-indirect", with_indirect_, "leave the indirect method out");
   }
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    std::vector<Case> cases;
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    std::vector<std::pair<std::string, int>> routes;
+    std::ranges::transform(route_names_, std::back_inserter(routes), parse_route);
     for (const std::string& route : route_names_) {
-      const auto [tableau, stages] = parse_route(route);
-      for (const Case& of_curve : curve) {
-        Case& the_case = cases.emplace_back(of_curve);
-        the_case.tableau = tableau;
-        the_case.stages = stages;
+      if (std::ranges::count(route_names_, route) == 1) continue;
+      throw Error(fmt::format("--routes: {} stands there twice; routes have to differ", route));
+    }
+    std::vector<Case> cases;
+    for (const std::vector<Case>& curve : curves_of(chosen)) {
+      if (problems_.empty() || problems_.back().problem != curve.front().problem)
+        problems_.push_back({curve.front().problem});
+      problems_.back().cases_left += routes.size() * curve.size();
+      for (const auto& [tableau, stages] : routes) {
+        for (const Case& of_curve : curve) {
+          Case& the_case = cases.emplace_back(of_curve);
+          the_case.tableau = tableau;
+          the_case.stages = stages;
+          the_case.shares = the_case.problem->name();
+        }
       }
     }
     return cases;
   }
 
-  void check(const std::vector<Case>& cases) override {
-    for (const std::string& route : route_names_) {
-      if (std::ranges::count(route_names_, route) == 1) continue;
-      throw Error(fmt::format("--routes: {} stands there twice; routes have to differ", route));
-    }
-    for (const Case& the_case : cases) {
-      if (problems_.empty() || problems_.back().problem != the_case.problem) problems_.push_back({the_case.problem});
-      ++problems_.back().cases_left;
-    }
-  }
-
-  [[nodiscard]] std::string shared_by(const Case& the_case) const override { return the_case.problem->name(); }
-
   /// The indirect method starts at an answer and follows the last of a problem's cases, in that row.
-  void complete(SolvedCase& solved) override {
-    measured_ = {};
+  void measure(SolvedCase& solved, Measured& measured) override {
+    measured.polish_steps = solved.polish_steps;
     ProblemToCertify& certified = *std::ranges::find(problems_, solved.the_case.problem, &ProblemToCertify::problem);
     if (solved.trajectory && is_solved(solved.solution.status)) {
-      measured_.replay = replay(solved);
-      measured_.replay_objective = replayed_objective(solved, *solved.trajectory);
+      measured.replay = replay(solved);
+      measured.replay_objective = replayed_objective(solved, *solved.trajectory);
       auto& finest = certified.finest;
       if (!finest || finest->intervals() < solved.trajectory->intervals()) finest = solved.trajectory;
     }
     if (--certified.cases_left > 0 || !with_indirect_ || !certified.finest) return;
     try {
-      measured_.indirect = solve_indirect(*certified.problem, *certified.finest);
+      measured.indirect = solve_indirect(*certified.problem, *certified.finest);
     } catch (const Error& error) {  // the method does not cover all problems
-      measured_.indirect_message = error.what();
+      measured.indirect_message = error.what();
     }
   }
 
-  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_references.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+  void finish(Table& table, FurtherOutput& output) override {
     std::vector<Certificate> certificates;
     for (const ProblemToCertify& certified : problems_) {
       const Certificate& c = certificates.emplace_back(certificate_of(*certified.problem, table));
       fmt::print("certify: {}: {} digits agree; reference confirmed: {}\n", c.problem, Cell(agreeing_digits(c)).text(),
                  c.agreement.confirmed);
     }
-    write_table(prefix.string() + "_references.csv", table_of(certificate_columns(route_names_), certificates),
-                metadata);
+    output.write("_references.csv", table_of(certificate_columns(route_names_), certificates));
   }
 
  private:
@@ -245,12 +251,6 @@ class Certify final : public Experiment {
   std::vector<std::string> route_names_{"gauss3", "lobatto4"};
   bool with_indirect_ = true;
   std::vector<ProblemToCertify> problems_;  // in the order of the cases
-  struct {
-    std::optional<ReplayError> replay;
-    std::optional<double> replay_objective;
-    std::optional<IndirectSolution> indirect;
-    std::string indirect_message;
-  } measured_;  // of the case that is completed
 };
 
 int run(int argc, char** argv) { return run_experiment(Certify(), argc, argv); }

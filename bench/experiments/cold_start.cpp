@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/tables/cold_starts.hpp"
 
@@ -33,19 +32,18 @@ class ColdStart final : public Experiment {
                          .tolerance = 1e-8,  // all solvers reach it
                          .most_iterations = 200,
                          .jobs = 2},
-             .tells_branches = false,
+             .further_files = {"_shares.csv", "_profiles.csv"},
+             .branches = BranchesTold::none,
              .problems_are_independent = true,
-             .takes_batches = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    return {
-        {"start", "", "number of the start, cold; 0 is the guess itself", from(&SolvedCase::the_case, &Case::variant)},
-        {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
-         from(&SolvedCase::solution, &Solution::total_evaluations)},
-        {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
-           const auto& reference = solved.the_case.problem->card().reference;
-           return reference ? std::optional(reference->objective) : std::nullopt;
-         }}};
-  }
+             .takes_batches = true},
+            {{"start", "", "number of the start, cold; 0 is the guess itself",
+              from(&SolvedCase::the_case, &Case::variant, &Variant::label)},
+             {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
+              from(&SolvedCase::solution, &Solution::total_evaluations)},
+             {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {
+                const auto& reference = solved.the_case.problem->card().reference;
+                return reference ? std::optional(reference->objective) : std::nullopt;
+              }}}) {}
   void add_options(CommandLine& line) override {
     constexpr long long most = 100000;
     line.number("--starts", starts_, 1, most, "starts per case by interior_point on the paper's problems");
@@ -57,27 +55,20 @@ class ColdStart final : public Experiment {
     line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
                 "largest excess of the cost over the reference, relative, of an answer on the best branch");
   }
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    std::vector<Case> all;
-    for (const Case& each : curve) {
-      const long long starts = starts_of(each);
-      for (long long start = 0; start < starts; ++start) all.emplace_back(each).variant = std::to_string(start);
-    }
-    return all;
-  }
   /// All methods, solvers and grids start from the same curves.
-  [[nodiscard]] Motion start_for(const Case& the_case, Motion chosen) const override {
-    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(the_case.variant)));
-  }
-  void check(const std::vector<Case>& cases) override {
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    std::vector<Case> cases = from_starts(
+        chosen, [this](const Case& the_case) { return starts_of(the_case); },
+        [this](const Motion& motion, std::size_t start) { return perturbed(motion, amplitude_, seed_, start); });
     if (cases.empty()) throw Error("no case has a start; see --starts and the options like it");
+    return cases;
   }
 
-  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_shares.csv", "_profiles.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+  void finish(Table& table, FurtherOutput& output) override {
+    nlohmann::ordered_json& metadata = output.metadata;
     const Table shares = cold_start_shares(table, objective_tolerance_);
-    write_table(prefix.string() + "_shares.csv", shares, metadata);
-    write_table(prefix.string() + "_profiles.csv", cold_start_profiles(table), metadata);
+    output.write("_shares.csv", shares);
+    output.write("_profiles.csv", cold_start_profiles(table));
     metadata["start"] = "cold";
     metadata["seed"] = seed_;
     metadata["amplitude"] = amplitude_;

@@ -13,44 +13,49 @@
 
 namespace dmocbench::consistency_program {
 
-class Consistency final : public Experiment {
+struct Measured {
+  std::optional<MomentumConsistency> momentum;
+};
+
+class Consistency final : public ExperimentOf<Measured> {
  public:
   Consistency()
-      : Experiment(
+      : ExperimentOf(
             {.name = "consistency",
              .description = "How well the change of momentum equals the work of the forces, interval by interval.",
              .options = {.intervals = "16:1024"},
              .compares_tolerances = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
+  [[nodiscard]] Columns<Measured> columns() const override {
+    constexpr auto momentum = &Measured::momentum;
     using Result = MomentumConsistency;
     return {
-        {"momentum_defect_max", "momentum", "largest defect of an interval", of(result_, &Result::largest)},
-        {"momentum_defect_mean", "momentum", "mean magnitude of the defects", of(result_, &Result::mean)},
-        {"momentum_defect_total", "momentum", "magnitude of their sum", of(result_, &Result::total)},
-        {"largest_force", "force", "largest force along the symmetry", of(result_, &Result::largest_force)},
+        {"momentum_defect_max", "momentum", "largest defect of an interval", from(momentum, &Result::largest)},
+        {"momentum_defect_mean", "momentum", "mean magnitude of the defects", from(momentum, &Result::mean)},
+        {"momentum_defect_total", "momentum", "magnitude of their sum", from(momentum, &Result::total)},
+        {"largest_force", "force", "largest force along the symmetry", from(momentum, &Result::largest_force)},
     };
   }
   /// Problems without a symmetry have no momentum to watch and are left out.
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    const Problem& problem = *curve.front().problem;
-    if (TracedProblem(problem).has_symmetry()) return curve;
-    left_out_.insert(problem.name());
-    return {};
-  }
-  void check(const std::vector<Case>& cases) override {
-    const std::string names = fmt::format("{}", fmt::join(left_out_, ", "));
-    const char* const state = left_out_.size() > 1 ? "state" : "states";
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    std::vector<Case> cases;
+    std::set<std::string> left_out;
+    for (const std::vector<Case>& curve : curves_of(chosen)) {
+      const Problem& problem = *curve.front().problem;
+      if (TracedProblem(problem).has_symmetry()) {
+        cases.insert(cases.end(), curve.begin(), curve.end());
+      } else {
+        left_out.insert(problem.name());
+      }
+    }
+    const std::string names = fmt::format("{}", fmt::join(left_out, ", "));
+    const char* const state = left_out.size() > 1 ? "state" : "states";
     if (cases.empty()) throw Error(fmt::format("{} {} no symmetry, so there is no momentum to watch", names, state));
-    if (!left_out_.empty()) fmt::print("{} {} no symmetry, so there is no momentum to watch: left out\n", names, state);
+    if (!left_out.empty()) fmt::print("{} {} no symmetry, so there is no momentum to watch: left out\n", names, state);
+    return cases;
   }
-  void complete(SolvedCase& solved) override {
-    result_.reset();
-    if (solved.trajectory) result_ = momentum_consistency(*solved.the_case.problem, *solved.trajectory);
+  void measure(SolvedCase& solved, Measured& measured) override {
+    if (solved.trajectory) measured.momentum = momentum_consistency(*solved.the_case.problem, *solved.trajectory);
   }
-
- private:
-  mutable std::set<std::string> left_out_;
-  std::optional<MomentumConsistency> result_;
 };
 
 int run(int argc, char** argv) { return run_experiment(Consistency(), argc, argv); }

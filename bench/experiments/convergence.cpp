@@ -1,14 +1,15 @@
 // Errors over the step: fig:kepler_error and fig:twolink_error of the paper, and the cost of accuracy.
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "bench/tables/ratios.hpp"
 #include "methods/diagnostics/trajectory_error.hpp"
@@ -28,10 +29,18 @@ long long parse_reference(const std::string& text) {
 
 long long intervals_of(const Case& the_case) { return static_cast<long long>(the_case.intervals()); }
 
-class Convergence final : public Experiment {
+struct Measured {
+  std::optional<TrajectoryError> error;
+  std::optional<double> control_from_costate_error;
+  std::optional<ReplayError> replay;
+  std::optional<int> polish_steps;
+  std::vector<double> round_seconds;
+};
+
+class Convergence final : public ExperimentOf<Measured> {
  public:
   Convergence()
-      : Experiment(
+      : ExperimentOf(
             {.name = "convergence",
              .description =
                  "Errors of state, control, momentum, costate and cost against a fine grid of the same method or the "
@@ -39,27 +48,28 @@ class Convergence final : public Experiment {
                  "worst interval against the true error), with fitted slopes (NAME_slopes.csv) and the cost of equal "
                  "accuracy (NAME_equal_accuracy.csv).",
              .options = {.intervals = "16:1024"},
+             .further_files = {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"},
              .polishes = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
+  [[nodiscard]] Columns<Measured> columns() const override {
+    constexpr auto error = &Measured::error;
     constexpr auto stages = &TrajectoryError::stages;
-    const Columns<SolvedCase> measured{
-        {"state_error", "", "largest error of q over the nodes", of(measured_.error, &TrajectoryError::state)},
-        {"control_error", "", "largest error of u over the stages", of(measured_.error, &TrajectoryError::control)},
-        {"momentum_error", "", "largest error of p over the nodes", of(measured_.error, &TrajectoryError::momentum)},
-        {"costate_error", "", "largest error of psi over the nodes", of(measured_.error, &TrajectoryError::costate)},
-        {"objective_error", "cost", "error of the cost", of(measured_.error, &TrajectoryError::objective)},
-        replay_error_column(measured_.replay),
+    const Columns<Measured> measured{
+        {"state_error", "", "largest error of q over the nodes", from(error, &TrajectoryError::state)},
+        {"control_error", "", "largest error of u over the stages", from(error, &TrajectoryError::control)},
+        {"momentum_error", "", "largest error of p over the nodes", from(error, &TrajectoryError::momentum)},
+        {"costate_error", "", "largest error of psi over the nodes", from(error, &TrajectoryError::costate)},
+        {"objective_error", "cost", "error of the cost", from(error, &TrajectoryError::objective)},
+        replay_error_column(&Measured::replay),
         {"control_from_costate_error", "",
          "largest error of the control recomputed from state and costate at the nodes",
-         of(measured_.control_from_costate_error)},
-        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
-        {"stage_configuration_error", "", "largest error of Q_i",
-         of(measured_.error, stages, &StageError::configuration)},
-        {"stage_momentum_error", "", "largest error of P_i", of(measured_.error, stages, &StageError::momentum)},
-        {"stage_costate_q_error", "", "largest error of Psi^q_i", of(measured_.error, stages, &StageError::costate_q)},
-        {"stage_costate_p_error", "", "largest error of Psi^p_i", of(measured_.error, stages, &StageError::costate_p)},
+         &Measured::control_from_costate_error},
+        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"stage_configuration_error", "", "largest error of Q_i", from(error, stages, &StageError::configuration)},
+        {"stage_momentum_error", "", "largest error of P_i", from(error, stages, &StageError::momentum)},
+        {"stage_costate_q_error", "", "largest error of Psi^q_i", from(error, stages, &StageError::costate_q)},
+        {"stage_costate_p_error", "", "largest error of Psi^p_i", from(error, stages, &StageError::costate_p)},
     };
-    return measured + columns_of_rounds();
+    return measured + columns_through<Measured>(&Measured::round_seconds, round_columns());
   }
   void add_options(CommandLine& line) override {
     line.option("--reference", reference_text_,
@@ -74,35 +84,33 @@ class Convergence final : public Experiment {
         "the reference, or to the finest grid against the indirect solution");
   }
 
-  void check(const std::vector<Case>& cases) override {
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     reference_ = parse_reference(reference_text_);
     if (!fit_.empty()) {
       const std::vector<long long> range = parse_intervals("--fit", fit_);
       fit_range_ = {range.front(), range.back()};
     }
-    if (reference_ == exact_reference) indirect_.emplace(card_.options.out);
-    if (reference_ > 0 && std::ranges::count(cases, reference_, intervals_of) == 0) {
+    if (reference_ == exact_reference) indirect_ = std::make_shared<IndirectReference>(card_.options.out);
+    if (reference_ > 0 && std::ranges::count(chosen, reference_, intervals_of) == 0) {
       throw Error(fmt::format("--reference {0}: add {0} to --intervals", reference_));
     }
+    std::vector<Case> cases;
+    for (std::vector<Case>& curve : curves_of(chosen)) {
+      for (Case& the_case : curve) the_case.shares = indirect_ ? the_case.problem->name() : label_of_curve(the_case);
+      const auto found = std::ranges::find(curve, reference_, intervals_of);
+      (found == curve.end() ? curve.back() : *found).is_reference = true;
+      std::ranges::move(curve, std::back_inserter(cases));
+    }
+    return cases;
   }
 
-  [[nodiscard]] std::size_t solved_first(const std::vector<Case>& curve) const override {
-    const auto found = std::ranges::find(curve, reference_, intervals_of);
-    return found == curve.end() ? curve.size() - 1 : static_cast<std::size_t>(found - curve.begin());
-  }
-
-  /// The reference.
-  [[nodiscard]] std::string shared_by(const Case& the_case) const override {
-    return indirect_ ? the_case.problem->name() : label_of_curve(the_case);
-  }
-
-  void complete(SolvedCase& solved) override {
-    const bool is_first = !curve_ || !curve_->same_curve(solved.the_case);
-    if (is_first) reference_trajectory_.reset();
-    curve_ = solved.the_case;
-    measured_ = {};
+  void measure(SolvedCase& solved, Measured& measured) override {
+    const bool is_reference = solved.the_case.is_reference;
+    if (is_reference) reference_trajectory_.reset();
+    measured.polish_steps = solved.polish_steps;
+    measured.round_seconds = seconds_of_rounds(solved);
     if (!solved.trajectory) return;
-    measured_.replay = replay(solved);
+    measured.replay = replay(solved);
     // The error of an answer that is too coarse is drawn, hollow, but nothing is fitted to it or measured by it.
     if (!is_discrete_optimum(solved)) return;
     const Problem& problem = *solved.the_case.problem;
@@ -110,37 +118,30 @@ class Convergence final : public Experiment {
     try {
       if (indirect_) {
         reference_trajectory_ = indirect_->near(problem, trajectory).sampled_like(trajectory);
-      } else if (is_first) {
+      } else if (is_reference) {
         if (is_usable(solved)) reference_trajectory_ = trajectory;
         return;
       }
       if (!reference_trajectory_) return;
-      measured_.error = trajectory_error(trajectory, *reference_trajectory_);
-      if (!measured_.error->costate) return;
-      measured_.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
+      measured.error = trajectory_error(trajectory, *reference_trajectory_);
+      if (!measured.error->costate) return;
+      measured.control_from_costate_error = node_control_error(problem, trajectory, *reference_trajectory_);
     } catch (const Error& failure) {
       solved.note(failure.what());
     }
   }
 
-  [[nodiscard]] nlohmann::ordered_json findings() const override { return indirect_ ? indirect_->findings() : nullptr; }
-  void add_findings(const JsonPlace& findings) override {
-    if (indirect_) indirect_->add_findings(findings);
-  }
-
-  [[nodiscard]] std::vector<std::string> further_files() const override {
-    return {"_slopes.csv", "_equal_accuracy.csv", "_reference.csv", "_jumps.csv"};
-  }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+  void finish(Table& table, FurtherOutput& output) override {
+    nlohmann::ordered_json& metadata = output.metadata;
     FittedOrders orders = fit_orders(table, fit_range_, reference_);
-    write_table(prefix.string() + "_slopes.csv", orders.table, metadata);
-    write_table(prefix.string() + "_equal_accuracy.csv", equal_accuracy(table), metadata);
+    output.write("_slopes.csv", orders.table);
+    output.write("_equal_accuracy.csv", equal_accuracy(table));
     metadata["reference"] = reference_ == exact_reference ? "the indirect solution"
                             : reference_ > 0              ? fmt::format("N = {} of the same method", reference_)
                                                           : "the finest grid of the same method";
     if (indirect_) {
-      write_table(prefix.string() + "_reference.csv", indirect_->table(), metadata);
-      write_table(prefix.string() + "_jumps.csv", fit_jumps(table), metadata);
+      output.write("_reference.csv", indirect_->table());
+      output.write("_jumps.csv", fit_jumps(table));
       metadata["references"] = indirect_->metadata();
       const std::vector<std::string> notes = indirect_->notes();
       orders.notes.insert(orders.notes.begin(), notes.begin(), notes.end());
@@ -154,16 +155,9 @@ class Convergence final : public Experiment {
  private:
   std::string reference_text_;
   long long reference_ = 0;  // N, 0 for the finest grid of each curve, or exact_reference
-  std::optional<IndirectReference> indirect_;
   std::string fit_;
   std::optional<FitRange> fit_range_;
-  std::optional<Case> curve_;
-  std::optional<Trajectory> reference_trajectory_;
-  struct {
-    std::optional<TrajectoryError> error;
-    std::optional<double> control_from_costate_error;
-    std::optional<ReplayError> replay;
-  } measured_;  // of the case that is completed
+  std::optional<Trajectory> reference_trajectory_;  // of the curve that is being measured
 };
 
 int run(int argc, char** argv) { return run_experiment(Convergence(), argc, argv); }

@@ -3,12 +3,10 @@
 // costates of each are put into the adjoint scheme (th:orderapp).
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/tables/fitted_orders.hpp"
 #include "methods/diagnostics/adjoint_scheme.hpp"
 #include "methods/error.hpp"
@@ -44,54 +42,79 @@ ForeignViolation violation_in(Case other, const std::string& method, const Traje
           .rounding = program->rounding_floors().largest / divisor};
 }
 
-class Equivalence final : public Experiment {
+/// The largest relative difference of some tables of two trajectories; none where one lacks them.
+template <class... Tables>
+std::optional<double> difference(const Trajectory& a, const Trajectory& b, Tables... tables) {
+  const bool both_have = (((a.*tables).size() > 0 && (b.*tables).size() > 0) && ...);
+  if (!both_have) return {};
+  return std::max({relative_difference(a.*tables, b.*tables)...});
+}
+
+struct Measured {
+  std::optional<double> configuration;  // the differences from DMOC's answer on the same grid
+  std::optional<double> momentum;
+  std::optional<double> control;
+  std::optional<double> costate;
+  std::optional<double> stage_costate;
+  std::optional<double> objective;
+  std::optional<double> horizon;
+  std::optional<ForeignViolation> in_dmoc;  // this method's answer in DMOC's constraints
+  std::optional<ForeignViolation> of_dmoc;  // DMOC's answer in this method's constraints
+  std::optional<double> adjoint_residual;
+  std::optional<double> plain_residual;
+  std::optional<int> polish_steps;
+};
+
+Case by_dmoc(Case the_case) {
+  the_case.method = "dmoc";
+  return the_case;
+}
+
+class Equivalence final : public ExperimentOf<Measured> {
  public:
   Equivalence()
-      : Experiment({.name = "equivalence",
-                    .description =
-                        "Solves every method separately and compares with DMOC on the same grid: largest differences "
-                        "relative to each quantity's largest value, what each answer leaves in the other's rows, and "
-                        "what costates leave in the adjoint Runge-Kutta scheme; slopes of the differences of "
-                        "tangent-space collocation (NAME_slopes.csv).",
-                    .options = {.intervals = "16:1024"},
-                    .polishes = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    using T = Trajectory;
+      : ExperimentOf({.name = "equivalence",
+                      .description =
+                          "Solves every method separately and compares with DMOC on the same grid: largest differences "
+                          "relative to each quantity's largest value, what each answer leaves in the other's rows, and "
+                          "what costates leave in the adjoint Runge-Kutta scheme; slopes of the differences of "
+                          "tangent-space collocation (NAME_slopes.csv).",
+                      .options = {.intervals = "16:1024"},
+                      .further_files = {"_slopes.csv"},
+                      .polishes = true}) {}
+  [[nodiscard]] Columns<Measured> columns() const override {
+    constexpr auto in_dmoc = &Measured::in_dmoc;
+    constexpr auto of_dmoc = &Measured::of_dmoc;
     return {
-        {"configuration_difference", "", "largest difference of q from DMOC's", difference(&T::q)},
-        {"momentum_difference", "", "of p", difference(&T::p)},
-        {"control_difference", "", "of the stage controls", difference(&T::stage_u)},
-        {"costate_difference", "", "of psi", difference(&T::psi_q, &T::psi_p)},
-        {"objective_difference", "", "of the cost", of(measured_.objective_difference)},
+        {"configuration_difference", "", "largest difference of q from DMOC's", &Measured::configuration},
+        {"momentum_difference", "", "of p", &Measured::momentum},
+        {"control_difference", "", "of the stage controls", &Measured::control},
+        {"costate_difference", "", "of psi", &Measured::costate},
+        {"objective_difference", "", "of the cost", &Measured::objective},
         {"violation_in_rows_of_dmoc", "", "what the answer leaves in DMOC's constraints",
-         of(measured_.in_dmoc, &ForeignViolation::violation)},
-        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there",
-         of(measured_.in_dmoc, &ForeignViolation::rounding)},
+         from(in_dmoc, &ForeignViolation::violation)},
+        {"rounding_in_rows_of_dmoc", "", "what rounding may leave there", from(in_dmoc, &ForeignViolation::rounding)},
         {"violation_of_dmoc_here", "", "what DMOC's answer leaves in this method's constraints",
-         of(measured_.of_dmoc, &ForeignViolation::violation)},
-        {"rounding_here", "", "what rounding may leave there", of(measured_.of_dmoc, &ForeignViolation::rounding)},
-        {"stage_costate_difference", "", "of Psi_i", difference(&T::stage_psi_q, &T::stage_psi_p)},
-        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", of(measured_.adjoint_residual)},
+         from(of_dmoc, &ForeignViolation::violation)},
+        {"rounding_here", "", "what rounding may leave there", from(of_dmoc, &ForeignViolation::rounding)},
+        {"stage_costate_difference", "", "of Psi_i", &Measured::stage_costate},
+        {"adjoint_residual", "", "what the costates leave in the adjoint scheme", &Measured::adjoint_residual},
         {"adjoint_residual_by_plain_coefficients", "", "the same with A and its conjugate not exchanged",
-         of(measured_.plain_residual)},
-        {"polish_steps", "", "Newton steps behind the solver", from(&SolvedCase::polish_steps)},
-        {"horizon_difference", "", "of T", of(measured_.horizon_difference)},
+         &Measured::plain_residual},
+        {"polish_steps", "", "Newton steps behind the solver", &Measured::polish_steps},
+        {"horizon_difference", "", "of T", &Measured::horizon},
     };
   }
-  void check(const std::vector<Case>& cases) override {
-    const auto is_dmoc = [](const Case& the_case) { return the_case.method == "dmoc"; };
-    if (!std::ranges::any_of(cases, is_dmoc)) throw Error("equivalence compares with dmoc: add it to --method");
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    if (std::ranges::count(chosen, "dmoc", &Case::method) == 0)
+      throw Error("equivalence compares with dmoc: add it to --method");
+    std::vector<Case> cases = chosen;
+    for (Case& the_case : cases) the_case.shares = by_dmoc(the_case).label();
+    return cases;
   }
 
-  /// DMOC's answer on the same grid.
-  [[nodiscard]] std::string shared_by(const Case& the_case) const override {
-    Case by_dmoc = the_case;
-    by_dmoc.method = "dmoc";
-    return by_dmoc.label();
-  }
-
-  void complete(SolvedCase& solved) override {
-    measured_ = {};
+  void measure(SolvedCase& solved, Measured& measured) override {
+    measured.polish_steps = solved.polish_steps;
     if (!solved.trajectory || !is_discrete_optimum(solved)) return;  // the theorem is about these
     const Case& here = solved.the_case;
     const Trajectory& trajectory = *solved.trajectory;
@@ -101,8 +124,8 @@ class Equivalence final : public Experiment {
       const auto residual = [&](const AdjointCoefficients& coefficients) {
         return adjoint_residual(*here.problem, trajectory, coefficients).largest();
       };
-      measured_.adjoint_residual = residual(adjoint_coefficients(tableau));
-      measured_.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
+      measured.adjoint_residual = residual(adjoint_coefficients(tableau));
+      measured.plain_residual = residual({.a_q = tableau.a, .a_p = tableau.a_conjugate});
     } else if (trajectory.has_costates()) {
       solved.note(
           "Its stages have no costates to put into the adjoint scheme: constraints along the path have "
@@ -112,53 +135,37 @@ class Equivalence final : public Experiment {
       answers_.emplace_back(here, trajectory);
       return;
     }
-    Case by_dmoc = here;
-    by_dmoc.method = "dmoc";
-    const auto is_partner = [&](const Case& dmoc) {
-      return dmoc.same_curve(by_dmoc) && dmoc.grid.relative_times() == here.grid.relative_times();
-    };
-    for (const auto& [dmoc, answer] : answers_) {
-      if (is_partner(dmoc)) measured_.dmoc = answer;
-    }
-    if (!measured_.dmoc) {
+    const Case partner = by_dmoc(here);
+    const auto found = std::ranges::find_if(answers_, [&](const auto& answer) {
+      return answer.first.same_curve(partner) && answer.first.grid.relative_times() == here.grid.relative_times();
+    });
+    if (found == answers_.end()) {
       solved.note("Not compared: DMOC was not solved on this grid, or on another branch.");
       return;
     }
-    const auto horizon = [](const Trajectory& any) { return any.node_times[any.intervals()]; };
-    measured_.horizon_difference = std::abs(horizon(trajectory) - horizon(*measured_.dmoc)) / horizon(*measured_.dmoc);
-    measured_.objective_difference = std::abs(trajectory.cost - measured_.dmoc->cost) / std::abs(measured_.dmoc->cost);
-    measured_.in_dmoc = violation_in(here, "dmoc", trajectory);
-    measured_.of_dmoc = violation_in(here, here.method, *measured_.dmoc);
+    compare(here, trajectory, found->second, measured);
   }
 
-  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_slopes.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_table(prefix.string() + "_slopes.csv", fit_differences(table, "configuration_difference"), metadata);
+  void finish(Table& table, FurtherOutput& output) override {
+    output.write("_slopes.csv", fit_differences(table, "configuration_difference"));
   }
 
  private:
-  /// A column's getter: the largest relative difference of some tables from those of DMOC's answer; none without them.
-  template <class... Tables>
-  [[nodiscard]] std::function<std::optional<double>(const SolvedCase&)> difference(Tables... tables) const {
-    return [this, tables...](const SolvedCase& solved) -> std::optional<double> {
-      const auto both_have = [&](auto table) {
-        return measured_.dmoc && (*solved.trajectory.*table).size() > 0 && (*measured_.dmoc.*table).size() > 0;
-      };
-      if (!(both_have(tables) && ...)) return {};
-      return std::max({relative_difference(*solved.trajectory.*tables, *measured_.dmoc.*tables)...});
-    };
+  static void compare(const Case& here, const Trajectory& answer, const Trajectory& dmoc, Measured& measured) {
+    using T = Trajectory;
+    const auto horizon = [](const Trajectory& any) { return any.node_times[any.intervals()]; };
+    measured.configuration = difference(answer, dmoc, &T::q);
+    measured.momentum = difference(answer, dmoc, &T::p);
+    measured.control = difference(answer, dmoc, &T::stage_u);
+    measured.costate = difference(answer, dmoc, &T::psi_q, &T::psi_p);
+    measured.stage_costate = difference(answer, dmoc, &T::stage_psi_q, &T::stage_psi_p);
+    measured.horizon = std::abs(horizon(answer) - horizon(dmoc)) / horizon(dmoc);
+    measured.objective = std::abs(answer.cost - dmoc.cost) / std::abs(dmoc.cost);
+    measured.in_dmoc = violation_in(here, "dmoc", answer);
+    measured.of_dmoc = violation_in(here, here.method, dmoc);
   }
 
-  std::vector<std::pair<Case, Trajectory>> answers_;  // of DMOC
-  struct {
-    std::optional<Trajectory> dmoc;  // DMOC's answer on the same grid
-    std::optional<double> objective_difference;
-    std::optional<double> horizon_difference;
-    std::optional<ForeignViolation> in_dmoc;  // this method's answer in DMOC's constraints
-    std::optional<ForeignViolation> of_dmoc;  // DMOC's answer in this method's constraints
-    std::optional<double> adjoint_residual;
-    std::optional<double> plain_residual;
-  } measured_;  // of the case that is completed
+  std::vector<std::pair<Case, Trajectory>> answers_;  // of DMOC, which is the first method
 };
 
 int run(int argc, char** argv) { return run_experiment(Equivalence(), argc, argv); }

@@ -1,12 +1,12 @@
 // Minor iterations and everything else that a solve is counted by: fig:kepler_iterations and fig:twolink_iterations.
-#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/tables/ratios.hpp"
 #include "methods/diagnostics/kkt_fill.hpp"
 #include "methods/error.hpp"
@@ -14,31 +14,42 @@
 
 namespace dmocbench::iterations_program {
 
-class Iterations final : public Experiment {
+struct Measured {
+  std::string crash;
+  Solution solution;
+  std::optional<long long> predicted_minors;
+  KktFill fill;
+  std::optional<ReplayError> replay;
+};
+
+class Iterations final : public ExperimentOf<Measured> {
  public:
   Iterations()
-      : Experiment({.name = "iterations",
-                    .description =
-                        "Major and minor iterations of the SQP method with the law that predicts them, and the same "
-                        "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free "
-                        "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
-                        "collocation against DMOC. Default start: the problem's guess.",
-                    .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
-                    .tells_branches_from_guess = true,
-                    .takes_turns = true,
-                    .compares_tolerances = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    constexpr auto solution = &SolvedCase::solution;
+      : ExperimentOf({.name = "iterations",
+                      .description =
+                          "Major and minor iterations of the SQP method with the law that predicts them, and the same "
+                          "solves in other currencies: Ipopt's iterations, SLSQP's evaluations (up to 200 free "
+                          "variables), seconds, entries of the KKT matrix and of its factor. NAME_ratios.csv sets "
+                          "collocation against DMOC. Default start: the problem's guess.",
+                      .options = {.solvers = {"sqp"}, .intervals = "8:256", .start = "guess", .tolerance = 1e-8},
+                      .further_files = {"_ratios.csv"},
+                      .branches = BranchesTold::of_any_start,
+                      .takes_turns = true,
+                      .compares_tolerances = true}) {}
+  [[nodiscard]] Columns<Measured> columns() const override {
+    constexpr auto solution = &Measured::solution;
+    constexpr auto fill = &Measured::fill;
     return {
-        {"crash", "", "first basis of sqp: none or basis", from(&SolvedCase::the_case, &Case::variant)},
+        {"crash", "", "first basis of sqp: none or basis", &Measured::crash},
         {"phase1_minors", "", "minor iterations of phase 1", from(solution, &Solution::phase_one_minor_iterations)},
         {"phase2_minors", "", "minor iterations of phase 2", from(solution, &Solution::phase_two_minor_iterations)},
-        {"predicted_minors", "", "minor iterations by the law that counts variables and iterations", predicted},
-        {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", of(fill_, &KktFill::nonzeros)},
-        {"factor_nonzeros", "", "entries of its factor", of(fill_, &KktFill::factor_nonzeros)},
+        {"predicted_minors", "", "minor iterations by the law that counts variables and iterations",
+         &Measured::predicted_minors},
+        {"kkt_nonzeros", "", "entries of the KKT matrix, lower triangle", from(fill, &KktFill::nonzeros)},
+        {"factor_nonzeros", "", "entries of its factor", from(fill, &KktFill::factor_nonzeros)},
         {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
          from(solution, &Solution::total_evaluations)},
-        replay_error_column(replay_),
+        replay_error_column(&Measured::replay),
     };
   }
   void add_options(CommandLine& line) override {
@@ -46,35 +57,34 @@ class Iterations final : public Experiment {
               "first basis of sqp: none (all slacks; phase 1 has to bring every row in), basis (chosen for free)");
   }
 
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<std::string> crashes = chosen_of("--crash", {"none", "basis"}, crashes_);
-    std::vector<Case> cases = curve.front().solver == "sqp" ? vary(curve, crashes) : curve;
+    std::vector<Case> cases =
+        vary(chosen, [&](const Case& c) { return c.solver == "sqp" ? crashes : std::vector<std::string>{""}; });
     std::erase_if(cases, [](const Case& the_case) {
       return the_case.solver == "nlopt" && free_variable_count(*the_case.transcribe()) > most_free_variables_for_slsqp;
     });
-    return cases;
-  }
-  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
-    if (the_case.solver != "sqp") return Experiment::solver_for(the_case, options);
-    SequentialOptions choices = sequential_options(named_options(this->options()));
-    choices.crash = crash_named(the_case.variant);
-    return std::make_unique<SqpSolver>(options, std::move(choices));
-  }
-  void check(const std::vector<Case>& cases) override {
-    if (!cases.empty()) return;
+    if (!cases.empty()) return cases;
     throw Error(fmt::format("--intervals: no grid is small enough for nlopt; it is left out above {} free variables",
                             most_free_variables_for_slsqp));
   }
 
-  void complete(SolvedCase& solved) override {
-    fill_ = kkt_fill(solved.program ? *solved.program : *solved.the_case.transcribe());
-    replay_ = is_solved(solved.solution.status) && solved.trajectory ? replay(solved) : std::nullopt;
+  [[nodiscard]] SolvedCase solve(SolveTask task) override {
+    if (task.the_case.solver != "sqp") return Experiment::solve(std::move(task));
+    SequentialOptions choices = sequential_options(task.named_options);
+    choices.crash = crash_named(task.the_case.variant.label);
+    return task.by(SqpSolver(task.options, std::move(choices)));
   }
 
-  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_table(prefix.string() + "_ratios.csv", currency_ratios(table), metadata);
+  void measure(SolvedCase& solved, Measured& measured) override {
+    measured.crash = solved.the_case.variant.label;
+    measured.solution = solved.solution;
+    measured.predicted_minors = predicted(solved);
+    measured.fill = kkt_fill(solved.program ? *solved.program : *solved.the_case.transcribe());
+    if (is_solved(solved.solution.status)) measured.replay = replay(solved);
   }
+
+  void finish(Table& table, FurtherOutput& output) override { output.write("_ratios.csv", currency_ratios(table)); }
 
  private:
   /// SLSQP is dense: a solve with more free variables takes seconds to minutes and says nothing new.
@@ -87,13 +97,11 @@ class Iterations final : public Experiment {
     if (!solution.minor_iterations || !solution.major_iterations) return {};
     const auto free_variables = static_cast<long long>(free_variable_count(*solved.program));
     const auto constraints = static_cast<long long>(solved.program->constraint_count());
-    const bool from_a_basis = solved.the_case.variant == "basis";
+    const bool from_a_basis = solved.the_case.variant.label == "basis";
     return free_variables - (from_a_basis ? constraints : 0) + *solution.major_iterations - 1;
   }
 
   std::vector<std::string> crashes_{"none"};
-  KktFill fill_;                       // of the case that is completed
-  std::optional<ReplayError> replay_;  // likewise
 };
 
 int run(int argc, char** argv) { return run_experiment(Iterations(), argc, argv); }

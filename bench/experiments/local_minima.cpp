@@ -8,17 +8,23 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/tables/minima.hpp"
 #include "bench/tables/selection.hpp"
 
 namespace dmocbench::local_minima_program {
 
-class LocalMinima final : public Experiment {
+struct Measured {
+  std::string start;
+  std::optional<double> bulge_1;
+  std::optional<double> bulge_2;
+  IndependentChecks checks;
+};
+
+class LocalMinima final : public ExperimentOf<Measured> {
  public:
   LocalMinima()
-      : Experiment(
+      : ExperimentOf(
             {.name = "local_minima",
              .description =
                  "Solves every case from many perturbed guesses; the minima found and how often each method ends in "
@@ -26,17 +32,17 @@ class LocalMinima final : public Experiment {
                  "(NAME_shares.csv). With --plane the starts are those of a plane, and NAME_basins.csv says where each "
                  "of them ends.",
              .options = {.intervals = "64", .start = "guess", .jobs = 2, .batch = true},
-             .tells_branches = false,
+             .further_files = {"_minima.csv", "_shares.csv", "_basins.csv"},
+             .branches = BranchesTold::none,
              .problems_are_independent = true,
              .takes_batches = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    return Columns<SolvedCase>{
-               {"start", "", "number of the start; 0 is the guess itself", from(&SolvedCase::the_case, &Case::variant)},
-               {"bulge_1", "", "of the start in q_1, in ranges of that coordinate (--plane)",
-                [this](const SolvedCase& solved) { return bulge(solved.the_case, 0); }},
+  [[nodiscard]] Columns<Measured> columns() const override {
+    return Columns<Measured>{
+               {"start", "", "number of the start; 0 is the guess itself", &Measured::start},
+               {"bulge_1", "", "of the start in q_1, in ranges of that coordinate (--plane)", &Measured::bulge_1},
                {"bulge_2", "", "of the start in q_2, or of double frequency where there is no q_2",
-                [this](const SolvedCase& solved) { return bulge(solved.the_case, 1); }}} +
-           columns_of(checks_);
+                &Measured::bulge_2}} +
+           columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
     line.number("--starts", starts_, 1, 100000, "starts per case: the guess, and perturbed ones");
@@ -48,35 +54,33 @@ class LocalMinima final : public Experiment {
         "instead of random curves M x M starts: the guess with bulges sin(pi t/T) in q_1 and q_2 whose sizes go "
         "from -amplitude to amplitude in M steps");
   }
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
-    std::vector<Case> all;
-    const long long starts = plane_ > 0 ? plane_ * plane_ : starts_;
-    for (const Case& each : curve) {
-      for (long long start = 0; start < starts; ++start) all.emplace_back(each).variant = std::to_string(start);
-    }
-    return all;
-  }
   /// All methods and grids start from the same curves.
-  [[nodiscard]] Motion start_for(const Case& the_case, Motion chosen) const override {
-    if (plane_ > 0) return bulged(chosen, bulges(the_case));
-    return perturbed(chosen, amplitude_, seed_, static_cast<std::uint64_t>(std::stoll(the_case.variant)));
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
+    return from_starts(
+        chosen, [this](const Case& /*the_case*/) { return plane_ > 0 ? plane_ * plane_ : starts_; },
+        [this](const Motion& motion, std::size_t start) {
+          return plane_ > 0 ? bulged(motion, bulges(start)) : perturbed(motion, amplitude_, seed_, start);
+        });
   }
 
-  void complete(SolvedCase& solved) override {
-    checks_ = {};
-    if (is_solved(solved.solution.status) && solved.trajectory) checks_ = check_independently(solved);
+  void measure(SolvedCase& solved, Measured& measured) override {
+    const Variant& start = solved.the_case.variant;
+    measured.start = start.label;
+    if (plane_ > 0) {
+      measured.bulge_1 = bulges(start.index)[0];
+      measured.bulge_2 = bulges(start.index)[1];
+    }
+    if (is_solved(solved.solution.status)) measured.checks = check_independently(solved);
   }
 
-  [[nodiscard]] std::vector<std::string> further_files() const override {
-    return {"_minima.csv", "_shares.csv", "_basins.csv"};
-  }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
+  void finish(Table& table, FurtherOutput& output) override {
+    nlohmann::ordered_json& metadata = output.metadata;
     const Table minima = distinct_minima(table, separation);
     const Table shares = best_minimum_shares(table, separation);
-    write_table(prefix.string() + "_minima.csv", minima, metadata);
-    write_table(prefix.string() + "_shares.csv", shares, metadata);
+    output.write("_minima.csv", minima);
+    output.write("_shares.csv", shares);
     if (plane_ > 0) {
-      write_table(prefix.string() + "_basins.csv", basins(table, separation), metadata);
+      output.write("_basins.csv", basins(table, separation));
       metadata["starts"] = {{"plane", plane_}, {"amplitude", amplitude_}};
     } else {
       metadata["starts"] = {{"count", starts_}, {"seed", seed_}, {"amplitude", amplitude_}};
@@ -110,22 +114,18 @@ class LocalMinima final : public Experiment {
   static constexpr double separation = 0.01;
 
   /// The sizes of the bulges of a start of the plane.
-  [[nodiscard]] Eigen::Vector2d bulges(const Case& the_case) const {
-    const long long number = std::stoll(the_case.variant);
+  [[nodiscard]] Eigen::Vector2d bulges(std::size_t start) const {
+    const auto number = static_cast<long long>(start);
     const auto size = [&](long long step) {
       return amplitude_ * (2.0 * static_cast<double>(step) / static_cast<double>(plane_ - 1) - 1.0);
     };
     return {size(number % plane_), size(number / plane_)};
-  }
-  [[nodiscard]] std::optional<double> bulge(const Case& the_case, Eigen::Index which) const {
-    return plane_ > 0 ? std::optional(bulges(the_case)[which]) : std::nullopt;
   }
 
   long long starts_ = 20;
   long long plane_ = 0;  // 0: random starts
   std::uint64_t seed_ = 1;
   double amplitude_ = 0.5;
-  IndependentChecks checks_;  // of the case that is completed
 };
 
 int run(int argc, char** argv) { return run_experiment(LocalMinima(), argc, argv); }

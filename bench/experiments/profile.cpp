@@ -6,16 +6,23 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/experiment.hpp"
-#include "bench/run/meanings.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/tables/profile_tables.hpp"
 
 namespace dmocbench::profile_program {
 
-class Profile final : public Experiment {
+struct Measured {
+  std::optional<ReferenceOptimum> reference;
+  std::optional<double> error;
+  bool is_success = false;
+  std::optional<int> evaluations;
+  IndependentChecks checks;
+};
+
+class Profile final : public ExperimentOf<Measured> {
  public:
   Profile()
-      : Experiment(
+      : ExperimentOf(
             {.name = "profile",
              .description =
                  "Every problem by every method from the problem's own guess: performance profiles after Dolan and "
@@ -28,54 +35,51 @@ class Profile final : public Experiment {
                          .start = "guess",
                          .tolerance = 1e-8,  // all solvers reach it
                          .most_seconds = 20.0},
-             .tells_branches = false,
+             .further_files = {"_profiles.csv", "_summary.csv", "_library.csv", "_library.md"},
+             .branches = BranchesTold::none,
              .problems_are_independent = true}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    const auto& reference = measured_.reference;
-    return Columns<SolvedCase>{
-               {"success", "", "yes or no", [this](const SolvedCase&) { return measured_.is_success ? "yes" : "no"; }},
+  [[nodiscard]] Columns<Measured> columns() const override {
+    constexpr auto reference = &Measured::reference;
+    return Columns<Measured>{
+               {"success", "", "yes or no", [](const Measured& measured) { return yes_or_no(measured.is_success); }},
                {"reference_objective", "cost", "cost that the problem states",
-                of(reference, &ReferenceOptimum::objective)},
-               {"reference_digits", "", "digits of it that hold", of(reference, &ReferenceOptimum::digits)},
+                from(reference, &ReferenceOptimum::objective)},
+               {"reference_digits", "", "digits of it that hold", from(reference, &ReferenceOptimum::digits)},
                {"reference_kind", "", "stated by the problem, or the best cost on the finest grid by any method here",
-                [this](const SolvedCase&) { return measured_.reference ? stated_reference : ""; }},
-               {"objective_error", "cost", "distance from it", of(measured_.error)},
+                [](const Measured& measured) { return measured.reference ? stated_reference : ""; }},
+               {"objective_error", "cost", "distance from it", &Measured::error},
                {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
-                from(&SolvedCase::solution, &Solution::total_evaluations)},
+                &Measured::evaluations},
            } +
-           columns_of(measured_.checks);
+           columns_through<Measured>(&Measured::checks, check_columns());
   }
   void add_options(CommandLine& line) override {
     line.number("--objective-tolerance", objective_tolerance_, 0.0, 1.0,
                 "largest difference of the cost from the reference, relative, that counts as a success");
   }
 
-  void complete(SolvedCase& solved) override {
-    measured_ = {};
-    measured_.reference = solved.the_case.problem->card().reference;
-    const auto& reference = measured_.reference;
+  void measure(SolvedCase& solved, Measured& measured) override {
+    measured.reference = solved.the_case.problem->card().reference;
+    measured.evaluations = solved.solution.total_evaluations();
+    const auto& reference = measured.reference;
     if (!is_solved(solved.solution.status) || !solved.trajectory) return;
-    measured_.checks = check_independently(solved);
+    measured.checks = check_independently(solved);
     if (!reference) return;
-    measured_.error = std::abs(solved.trajectory->cost - reference->objective);
-    measured_.is_success =
-        is_solved(solved.solution.status) && measured_.error <= objective_tolerance_ * std::abs(reference->objective);
+    measured.error = std::abs(solved.trajectory->cost - reference->objective);
+    measured.is_success =
+        is_solved(solved.solution.status) && measured.error <= objective_tolerance_ * std::abs(reference->objective);
   }
 
-  [[nodiscard]] Table compared(const Table& table) const override {
-    return with_best_found_references(table, objective_tolerance_);
-  }
-  [[nodiscard]] std::vector<std::string> further_files() const override {
-    return {"_profiles.csv", "_summary.csv", "_library.csv", "_library.md"};
-  }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_table(prefix.string() + "_profiles.csv", performance_profiles(table), metadata);
+  void finish(Table& table, FurtherOutput& output) override {
+    table = with_best_found_references(table, objective_tolerance_);
+    output.write("_profiles.csv", performance_profiles(table));
     const Table summary = profile_summary(table);
-    write_table(prefix.string() + "_summary.csv", summary, metadata);
+    output.write("_summary.csv", summary);
     const Table library = library_table(table);
-    write_table(prefix.string() + "_library.csv", library, metadata);
-    write_file(prefix.string() + "_library.md", library_table_in_markdown(library));
-    metadata["success"] = {{"objective_tolerance", objective_tolerance_}, {"most_seconds", options().most_seconds}};
+    output.write("_library.csv", library);
+    write_file(output.prefix.string() + "_library.md", library_table_in_markdown(library));
+    output.metadata["success"] = {{"objective_tolerance", objective_tolerance_},
+                                  {"most_seconds", options().most_seconds}};
     for (const Row& row : summary.rows()) {
       fmt::print("{:<12} {} {} {:<6} {} of {} instances\n", row.text("method"), row.text("tableau"), row.text("stages"),
                  row.text("solver"), row.text("successes"), row.text("instances"));
@@ -84,12 +88,6 @@ class Profile final : public Experiment {
 
  private:
   double objective_tolerance_ = 0.02;
-  struct {
-    std::optional<ReferenceOptimum> reference;
-    std::optional<double> error;
-    bool is_success = false;
-    IndependentChecks checks;
-  } measured_;  // of the case that is completed
 };
 
 int run(int argc, char** argv) { return run_experiment(Profile(), argc, argv); }

@@ -11,7 +11,6 @@
 #include "bench/experiments/advantage_ratios.hpp"
 #include "bench/run/experiment.hpp"
 #include "bench/run/indirect_reference.hpp"
-#include "bench/run/meanings.hpp"
 #include "methods/error.hpp"
 #include "methods/solvers/interior_point/interior_point_solver.hpp"
 
@@ -29,30 +28,40 @@ std::string linear_rounds(const SolvedCase& solved) {
   return joined_numbers(seconds);
 }
 
-class StructureAdvantage final : public Experiment {
+struct Measured {
+  std::string factorisation;
+  std::optional<int> linear_systems;
+  std::optional<double> per_iteration;
+  std::optional<double> linear_algebra_per_iteration;
+  std::optional<double> per_linear_system;
+  std::optional<double> objective_error;
+  std::string linear_rounds;
+};
+
+class StructureAdvantage final : public ExperimentOf<Measured> {
  public:
   StructureAdvantage()
-      : Experiment(
+      : ExperimentOf(
             {.name = "structure_advantage",
              .description =
                  "What collocation costs beside DMOC by Ipopt and by interior_point with its linear systems solved by "
                  "intervals or as any sparse matrix: iterations, linear systems, seconds. NAME_ratios.csv sets them "
                  "against DMOC at equal N and at equal error of the objective.",
              .options = {.solvers = {"ipopt", "interior_point"}, .intervals = "64:1024", .repeats = 11},
+             .further_files = {"_ratios.csv"},
              .takes_turns = true}) {}
 
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
+  [[nodiscard]] Columns<Measured> columns() const override {
     return {
-        {"factorisation", "", "how interior_point solves its linear systems",
-         from(&SolvedCase::the_case, &Case::variant)},
-        {"linear_systems", "", "linear systems of the solve", from(&SolvedCase::solution, &Solution::linear_systems)},
-        {"seconds_per_iteration", "s", "wall clock of the solve by iterations", of(measured_.per_iteration)},
-        {"linear_algebra_per_iteration", "s", "the same without evaluations",
-         of(measured_.linear_algebra_per_iteration)},
-        {"seconds_per_linear_system", "s", "factorisation and substitution", of(measured_.per_linear_system)},
+        {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation},
+        {"linear_systems", "", "linear systems of the solve", &Measured::linear_systems},
+        {"seconds_per_iteration", "s", "wall clock of the solve by iterations", &Measured::per_iteration},
+        {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},
+        {"seconds_per_linear_system", "s", "factorisation and substitution", &Measured::per_linear_system},
         {"objective_error", "", "of the objective, relative, against the indirect solution",
-         of(measured_.objective_error)},
-        {"round_linear_seconds", "s", "spent in linear systems in each round, with spaces between them", linear_rounds},
+         &Measured::objective_error},
+        {"round_linear_seconds", "s", "spent in linear systems in each round, with spaces between them",
+         &Measured::linear_rounds},
     };
   }
 
@@ -61,63 +70,52 @@ class StructureAdvantage final : public Experiment {
   }
 
   /// Solvers but ours have no factorisation to choose.
-  [[nodiscard]] std::vector<Case> variants(const std::vector<Case>& curve) const override {
+  [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const auto factorisations = chosen_of("--factorisation", all_factorisations, factorisations_);
-    return curve.front().solver == "interior_point" ? vary(curve, factorisations) : curve;
+    std::vector<Case> cases = vary(chosen, [&](const Case& c) {
+      return c.solver == "interior_point" ? factorisations : std::vector<std::string>{""};
+    });
+    for (Case& the_case : cases) the_case.shares = the_case.problem->name();
+    indirect_ = std::make_shared<IndirectReference>(options().out);
+    return cases;
   }
 
-  [[nodiscard]] std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options) override {
-    if (the_case.variant.empty()) return Experiment::solver_for(the_case, options);
-    InteriorPointOptions choices = interior_point_options(named_options(this->options()));
-    choices.factorisation = factorisation_named(the_case.variant);
-    return std::make_unique<InteriorPointSolver>(options, std::move(choices));
+  [[nodiscard]] SolvedCase solve(SolveTask task) override {
+    const std::string& factorisation = task.the_case.variant.label;
+    if (factorisation.empty()) return Experiment::solve(std::move(task));
+    InteriorPointOptions choices = interior_point_options(task.named_options);
+    choices.factorisation = factorisation_named(factorisation);
+    return task.by(InteriorPointSolver(task.options, std::move(choices)));
   }
 
-  void check(const std::vector<Case>& cases) override {
-    for (const Case& the_case : cases) static_cast<void>(solver_for(the_case, solver_options(options())));
-    reference_ = IndirectReference(options().out);
-  }
-
-  /// The indirect solution.
-  [[nodiscard]] std::string shared_by(const Case& the_case) const override { return the_case.problem->name(); }
-
-  void complete(SolvedCase& solved) override {
-    measured_ = {};
+  void measure(SolvedCase& solved, Measured& measured) override {
+    measured.factorisation = solved.the_case.variant.label;
+    measured.linear_systems = solved.solution.linear_systems;
+    measured.linear_rounds = linear_rounds(solved);
     const Solution& solution = solved.solution;
     if (!is_solved(solution.status)) return;
     if (const int iterations = solution.major_iterations.value_or(0); iterations > 0) {
-      measured_.per_iteration = solution.seconds / iterations;
-      measured_.linear_algebra_per_iteration = (solution.seconds - solution.evaluation_seconds) / iterations;
+      measured.per_iteration = solution.seconds / iterations;
+      measured.linear_algebra_per_iteration = (solution.seconds - solution.evaluation_seconds) / iterations;
     }
     const int systems = solution.linear_systems.value_or(0);
-    if (solution.linear_seconds && systems > 0) measured_.per_linear_system = *solution.linear_seconds / systems;
+    if (solution.linear_seconds && systems > 0) measured.per_linear_system = *solution.linear_seconds / systems;
     if (!is_usable(solved) || !solved.trajectory) return;
     try {
-      const double exact = reference_.near(*solved.the_case.problem, *solved.trajectory).cost();
-      measured_.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
+      const double exact = indirect_->near(*solved.the_case.problem, *solved.trajectory).cost();
+      measured.objective_error = std::abs(solved.trajectory->cost - exact) / std::abs(exact);
     } catch (const Error& error) {
       solved.note(error.what());
     }
   }
 
-  [[nodiscard]] nlohmann::ordered_json findings() const override { return reference_.findings(); }
-  void add_findings(const JsonPlace& findings) override { reference_.add_findings(findings); }
-
-  [[nodiscard]] std::vector<std::string> further_files() const override { return {"_ratios.csv"}; }
-  void finish(const Table& table, const std::filesystem::path& prefix, nlohmann::ordered_json& metadata) override {
-    write_table(prefix.string() + "_ratios.csv", advantage_ratios(table), metadata);
-    metadata["references"] = reference_.metadata();
+  void finish(Table& table, FurtherOutput& output) override {
+    output.write("_ratios.csv", advantage_ratios(table));
+    output.metadata["references"] = indirect_->metadata();
   }
 
  private:
   std::vector<std::string> factorisations_ = all_factorisations;
-  IndirectReference reference_{std::filesystem::path()};  // of the folder of the run, once it is known
-  struct {
-    std::optional<double> per_iteration;
-    std::optional<double> linear_algebra_per_iteration;
-    std::optional<double> per_linear_system;
-    std::optional<double> objective_error;
-  } measured_;  // of the case that is completed
 };
 
 int run(int argc, char** argv) { return run_experiment(StructureAdvantage(), argc, argv); }

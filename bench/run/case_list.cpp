@@ -33,12 +33,40 @@ std::vector<std::string> chosen_of(const std::string& option, const std::vector<
   return names;
 }
 
-std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants) {
-  std::vector<Case> cases;
-  for (const std::string& variant : variants) {
-    for (const Case& of_curve : curve) cases.emplace_back(of_curve).variant = variant;
+std::vector<Case> vary(const std::vector<Case>& cases, const LabelsOfCase& labels_of) {
+  std::vector<Case> varied;
+  for (const std::vector<Case>& curve : curves_of(cases)) {
+    const std::vector<std::string> labels = labels_of(curve.front());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      for (const Case& of_curve : curve) varied.emplace_back(of_curve).variant = {i, labels[i]};
+    }
   }
-  return cases;
+  return varied;
+}
+
+std::vector<std::string> numbers_below(std::size_t count) {
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < count; ++i) labels.push_back(std::to_string(i));
+  return labels;
+}
+
+std::vector<Case> from_starts(const std::vector<Case>& cases, const std::function<long long(const Case&)>& count_of,
+                              const std::function<Motion(const Motion& chosen, std::size_t number)>& motion_of) {
+  std::vector<Case> started;
+  for (const Case& the_case : cases) {
+    const auto count = static_cast<std::size_t>(count_of(the_case));
+    for (std::size_t i = 0; i < count; ++i) {
+      Case& from_start = started.emplace_back(the_case);
+      from_start.variant = {i, std::to_string(i)};
+      from_start.start = [motion_of, i](const Motion& chosen) { return motion_of(chosen, i); };
+    }
+  }
+  return started;
+}
+
+std::size_t reference_of(const std::vector<Case>& curve) {
+  const auto found = std::ranges::find(curve, true, &Case::is_reference);
+  return found == curve.end() ? 0 : static_cast<std::size_t>(found - curve.begin());
 }
 
 std::vector<Case> with_tolerances(const std::vector<Case>& cases, const std::vector<double>& tolerances) {
@@ -79,7 +107,7 @@ std::vector<std::vector<std::size_t>> turns_of(const std::vector<Case>& cases) {
 std::string label_of_curve(const Case& the_case) {
   const Case& c = the_case;
   return fmt::format("{} {} {} {} {} {} {} {}", c.problem->name(), c.method, c.tableau, c.stages, c.solver,
-                     c.derivatives, c.variant, c.tolerance.value_or(0.0));
+                     c.derivatives, c.variant.label, c.tolerance.value_or(0.0));
 }
 
 }  // namespace dmocbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +18,22 @@ namespace dmocbench {
 [[nodiscard]] std::vector<std::string> chosen_of(const std::string& option, const std::vector<std::string>& known,
                                                  const std::vector<std::string>& chosen);
 
-/// A curve once for each of some variants.
-[[nodiscard]] std::vector<Case> vary(const std::vector<Case>& curve, const std::vector<std::string>& variants);
+/// The labels of the variants that a case is solved in; one that is empty leaves it as it is.
+using LabelsOfCase = std::function<std::vector<std::string>(const Case&)>;
+/// Each curve once for each of its variants, which are asked for by its first case.
+[[nodiscard]] std::vector<Case> vary(const std::vector<Case>& cases, const LabelsOfCase& labels_of);
+
+/// Labels that are numbers: "0", "1", ...
+[[nodiscard]] std::vector<std::string> numbers_below(std::size_t count);
+
+/// Each case once for each of its starts, by number: `count_of` says how many it has, `motion_of` makes the motion of a
+/// number from the one that --start names.
+[[nodiscard]] std::vector<Case> from_starts(
+    const std::vector<Case>& cases, const std::function<long long(const Case&)>& count_of,
+    const std::function<Motion(const Motion& chosen, std::size_t number)>& motion_of);
+
+/// The place of the case of a curve that is solved first: that of its reference, or 0.
+[[nodiscard]] std::size_t reference_of(const std::vector<Case>& curve);
 
 /// The cases once for each tolerance that is compared, curve after curve; as they are if none is.
 [[nodiscard]] std::vector<Case> with_tolerances(const std::vector<Case>& cases, const std::vector<double>& tolerances);

@@ -138,6 +138,18 @@ template <class Record>
   return left;
 }
 
+/// The columns of a part of each record, which a function or a pointer to a member finds:
+/// `columns_through<Measured>(&Measured::checks, check_columns())`.
+template <class Record, class Part, class Function>
+[[nodiscard]] Columns<Record> columns_through(Function part, const Columns<Part>& columns) {
+  Columns<Record> result;
+  for (const Column<Part>& column : columns) {
+    const auto read = [part, cell = column.cell](const Record& record) { return cell(std::invoke(part, record)); };
+    result.push_back({column.name, column.unit, column.meaning, FieldReader<Record>(read, column.cell.type())});
+  }
+  return result;
+}
+
 /// Columns that a summary takes over from a row of what it sums up, `Record::head`; the table of that row explains
 /// them.
 template <class Record>
@@ -186,13 +198,6 @@ template <class Object, class First, class... Rest>
 template <class... Members>
 [[nodiscard]] auto from(Members... members) {
   return [=](const auto& record) { return member(record, members...); };
-}
-
-/// Reads a field from an object outside the record that is written:
-/// `of(error_, &TrajectoryError::state)`. The object is read when the row is made.
-template <class Object, class... Members>
-[[nodiscard]] auto of(const Object& object, Members... members) {
-  return [&object, members...](const auto& /*record*/) { return member(object, members...); };
 }
 
 /// What a row is about where nothing is solved.

@@ -1,47 +1,97 @@
 #pragma once
 
+#include <any>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/run/case_list.hpp"
-#include "bench/run/json_place.hpp"
 #include "bench/run/options.hpp"
 
 namespace dmocbench {
 
+class IndirectReference;
+
+/// Which rows tell whether their answer is on the branch of their start (the column `branch`).
+enum class BranchesTold : std::uint8_t {
+  of_chosen_start,  ///< those that start from the common start or from a file
+  of_any_start,     ///< also those that start at the guess: methods are compared by rows of one branch, and a common
+                    ///< start is looked for to know it
+  none,             ///< no row
+};
+
 /// The properties of an experiment that do not depend on its cases.
 struct ExperimentCard {
-  std::string name;                        ///< of the binary, and of the table unless the user gives another
-  std::string description;                 ///< in `--help`
-  ExperimentOptions options;               ///< the defaults; then the choice of the user
-  bool tells_branches = true;              ///< rows tell whether they are on the branch of their start
-  bool tells_branches_from_guess = false;  ///< also where solves start at the guess: methods are compared by rows of
-                                           ///< one branch, which needs a common start
-  bool problems_are_independent = false;   ///< rows of one problem need nothing of another's: --jobs is offered
+  std::string name;           ///< of the binary, and of the table unless the user gives another
+  std::string description;    ///< in `--help`
+  ExperimentOptions options;  ///< the defaults; then the choice of the user
+  /// What `finish` puts behind the table's name, as in "_slopes.csv"; known when `cases` has returned. Those of an
+  /// earlier run are removed when the first row is written, so that old and new never stand beside each other.
+  std::vector<std::string> further_files = {};
+  BranchesTold branches = BranchesTold::of_chosen_start;  ///< which rows tell of their branch
+  bool problems_are_independent = false;  ///< rows of one problem need nothing of another's: --jobs is offered
   bool takes_turns = false;  ///< all solves of a problem and grid are repeated in turn (--repeats rounds), so that
                              ///< other load of the machine slows all of them alike
   bool compares_tolerances = false;   ///< several tolerances make several cases: --tolerances is offered
   bool polishes = false;              ///< solved cases are tightened by Newton steps (polish.hpp)
-  bool takes_costates = false;        ///< a start from a file brings its costates as start multipliers
-  bool cases_stand_alone = false;     ///< an error in the first case is no reason to give up the others
-  bool takes_batches = false;         ///< cases of one program may be solved side by side, without times: --batch is
-                                      ///< offered; `solver_for`, `solved_first` and `solved_once` are those above
+  bool takes_batches = false;         ///< cases of one program may be solved side by side, without times and without
+                                      ///< `solve`: --batch is offered
   bool finishes_interrupted = false;  ///< `finish` is called too where a stop was asked for behind the first row
-  bool takes_parts = true;            ///< --part is offered: `finish` needs nothing of solves but rows and findings
+  bool takes_parts = true;            ///< --part is offered: `finish` needs nothing of solves but rows and `indirect`
+};
+
+/// A solve that is to be done.
+struct SolveTask {
+  Case the_case;                ///< what is solved
+  Start start;                  ///< where the solve begins
+  SolverOptions options;        ///< those of the command line, with the tolerance of the case
+  NamedOptions named_options;   ///< those for the solver by name
+  int repeats = 1;              ///< solves; times are their medians
+  bool polishes = false;        ///< as the card says
+  bool takes_costates = false;  ///< those that the start brings become start multipliers
+
+  /// Solves the case as it stands here (`solve_case`).
+  [[nodiscard]] SolvedCase by(const Solver& solver) const;
+};
+
+/// What an experiment writes besides its rows.
+struct FurtherOutput {
+  std::filesystem::path prefix;                           ///< folder and name of the table
+  nlohmann::ordered_json& metadata;                       ///< of the run
+  std::vector<std::filesystem::path> named_by_user = {};  ///< tables in that folder whose names are the user's
+
+  /// Writes one of the card's further files, and to the metadata what its columns mean. Throws `Error` as `write_file`.
+  void write(const std::string& suffix, const Table& table);
+};
+
+/// A solved case with what was measured of it: an object of a type that the experiment chooses.
+struct MeasuredCase {
+  SolvedCase& solved;  ///< as it was solved, and noted since
+  std::any measured;   ///< what the columns of the experiment read
+};
+
+/// The columns that an experiment adds to the core ones, and how their values are found.
+struct OwnColumns {
+  Columns<MeasuredCase> columns = {};                    ///< behind the core ones
+  std::any not_measured = {};                            ///< what is known of a case before `measure`
+  std::function<void(MeasuredCase&)> measure = nullptr;  ///< null if nothing is measured
 };
 
 /// An experiment: many solves, a row for each, and files made of all rows.
 ///
-/// `run_experiment` reads the command line, solves case after case and keeps the table on disk up to date; an
-/// experiment adds its own columns and files.
+/// `run_experiment` reads the command line, makes the cases, solves them one by one, measures each answer and keeps the
+/// table on disk up to date. An experiment whose columns only read solved cases is an object of this class; one that
+/// measures something of them derives from `ExperimentOf`.
 class Experiment {
  public:
-  /// An experiment of this name, with these options.
-  explicit Experiment(ExperimentCard card) : card_(std::move(card)) { card_.options.name = card_.name; }
+  /// An experiment with these columns behind the core ones.
+  explicit Experiment(ExperimentCard card, Columns<SolvedCase> columns = {});
   virtual ~Experiment() = default;
   Experiment(const Experiment&) = delete;
   Experiment& operator=(const Experiment&) = delete;
@@ -52,51 +102,56 @@ class Experiment {
   [[nodiscard]] const ExperimentCard& card() const noexcept { return card_; }
   /// Its options, as the command line has set them.
   [[nodiscard]] ExperimentOptions& options() noexcept { return card_.options; }
+  /// The indirect solutions that it compares with; null if there are none. A part of a run keeps them in its file.
+  [[nodiscard]] IndirectReference* indirect() const noexcept { return indirect_.get(); }
 
-  /// Columns behind the core ones; they are read when `complete` has returned.
-  [[nodiscard]] virtual Columns<SolvedCase> columns() const { return {}; }
   /// Options behind the common ones.
   virtual void add_options(CommandLine& /*line*/) {}
-  /// The cases that are made of one curve (cases that differ in their grid only), curve after curve; by default itself.
-  [[nodiscard]] virtual std::vector<Case> variants(const std::vector<Case>& curve) const { return curve; }
-  /// The solver of a case, with the options of the command line; by default the one of its name.
-  [[nodiscard]] virtual std::unique_ptr<Solver> solver_for(const Case& the_case, SolverOptions options);
-  /// The motion that a case starts from; by default the one that --start names.
-  [[nodiscard]] virtual Motion start_for(const Case& /*the_case*/, Motion chosen) const { return chosen; }
-  /// May give a case another grid, number of stages and start, and lower the time and tolerance of its solve; by
-  /// default nothing. Throws `NoStart` where there is nothing to solve then.
-  virtual void adapt(Case& /*the_case*/, Start& /*start*/, SolverOptions& /*options*/) {}
-  /// Looks at the cases before anything is solved or written. Throws `Error` if they do not fit.
-  virtual void check(const std::vector<Case>& /*cases*/) {}
-  /// The case of one curve (intervals ascending) that is solved first, before the others in ascending order.
-  [[nodiscard]] virtual std::size_t solved_first(const std::vector<Case>& /*curve*/) const { return 0; }
-  /// Told of every case behind its first solve, before the next one is solved.
-  virtual void solved_once(const SolvedCase& /*solved*/) {}
-  /// What a case shares with others, in words: those of equal words need something of each other (a reference, an
-  /// answer to compare with) and are solved by one part of a run; empty if it needs nothing. A common start, and turns,
-  /// are shared anyway.
-  [[nodiscard]] virtual std::string shared_by(const Case& /*the_case*/) const { return {}; }
-  /// Measures the values of the own columns for a solved case. Called in the order of solving.
-  virtual void complete(SolvedCase& /*solved*/) {}
-  /// What `finish` puts behind the table's name, as in "_slopes.csv"; asked for after `check`. Those of an earlier run
-  /// are removed when the first row is written, so that old and new never stand beside each other.
-  [[nodiscard]] virtual std::vector<std::string> further_files() const { return {}; }
-  /// Tables of the run's folder that the command line names and `complete` writes; the metadata tell of them too.
-  [[nodiscard]] virtual std::vector<std::filesystem::path> named_files() const { return {}; }
-  /// The rows with what they tell of each other, when all are there; by default as they are.
-  [[nodiscard]] virtual Table compared(const Table& table) const { return table; }
-  /// What `finish` needs of the cases that were solved, besides their rows: a part keeps it in its file.
-  [[nodiscard]] virtual nlohmann::ordered_json findings() const;
-  /// Takes in what a part has found, part after part, before `finish` is called of all.
-  virtual void add_findings(const JsonPlace& /*findings*/) {}
-  /// Writes further files when all rows are there, or as the card says; may add to the metadata. `prefix` is the folder
-  /// and name of the table.
-  virtual void finish(const Table& /*table*/, const std::filesystem::path& /*prefix*/,
-                      nlohmann::ordered_json& /*metadata*/) {}
+  /// The cases of the run in the order of rows, made of those that the common options name; by default these. Called
+  /// once, when the command line is read and before anything is written. Throws `Error` if they do not fit.
+  [[nodiscard]] virtual std::vector<Case> cases(const std::vector<Case>& chosen) { return chosen; }
+  /// Solves a case; by default by the solver of its name. Throws `NoStart` with the status for its row where there is
+  /// nothing to solve.
+  [[nodiscard]] virtual SolvedCase solve(SolveTask task);
+  /// The columns behind the core ones; by default those of the constructor.
+  [[nodiscard]] virtual OwnColumns own_columns();
+  /// Writes further files when all rows are there, or as the card says; may add to the metadata, and to the rows what
+  /// they tell of each other.
+  virtual void finish(Table& /*rows*/, FurtherOutput& /*output*/) {}
 
  protected:
   /// What the experiment says of itself.
   ExperimentCard card_;
+  /// Set by `cases` where rows are compared with indirect solutions.
+  std::shared_ptr<IndirectReference> indirect_;
+
+ private:
+  Columns<SolvedCase> columns_;
+};
+
+/// An experiment that measures a `Measured` of each solved case; its columns are those of that record. A case of which
+/// nothing could be measured has the default one.
+template <class Measured>
+class ExperimentOf : public Experiment {
+ public:
+  /// An experiment of this card.
+  explicit ExperimentOf(ExperimentCard card) : Experiment(std::move(card)) {}
+
+  /// Columns behind the core ones. Called for `--help` and, when `cases` has returned, for the table.
+  [[nodiscard]] virtual Columns<Measured> columns() const = 0;
+  /// Measures a case, solved or not, in the order of solving: cases in their order, references of curves first. What is
+  /// filled in when time or memory run out goes to the row. May add to the message of the row.
+  virtual void measure(SolvedCase& solved, Measured& measured) = 0;
+
+  /// The columns of the record.
+  [[nodiscard]] OwnColumns own_columns() final {
+    const auto record = [](const MeasuredCase& one) -> const Measured& {
+      return std::any_cast<const Measured&>(one.measured);
+    };
+    return {.columns = columns_through<MeasuredCase>(record, columns()),
+            .not_measured = Measured{},
+            .measure = [this](MeasuredCase& one) { measure(one.solved, std::any_cast<Measured&>(one.measured)); }};
+  }
 };
 
 /// Runs an experiment from the command line and returns the exit code: 0 if all is solved, 1 if a solve failed (it

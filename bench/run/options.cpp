@@ -195,6 +195,15 @@ void add_options(CommandLine& line, ExperimentOptions& options) {
   line.flag("--verbose", options.verbose, "show the solver's own output");
 }
 
+void add_jobs_option(CommandLine& line, ExperimentOptions& options) {
+  line.number("--jobs", options.jobs, 1, 256,
+              "problems, in large batches also methods, worked on at the same time, each in a process of its own");
+}
+
+void add_tolerances_option(CommandLine& line, ExperimentOptions& options) {
+  line.list("--tolerances", options.tolerances, "several tolerances, a row for each; wins over --tolerance");
+}
+
 void add_batch_option(CommandLine& line, ExperimentOptions& options) {
   line.flag("--batch,!--no-batch", options.batch,
             "solves by interior_point that differ in start, parameters or ends side by side, without times; not with "
@@ -284,7 +293,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
     std::set<std::string> checked;
     for (const auto& [tableau, stages] : schemes) {
       if (!checked.insert(tableau).second) continue;
-      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), "", form};
+      const Case coarsest{problem, methods.front(), tableau, stages, "", "tape", grids.front(), {}, form};
       try {
         const StopScope scope(interrupt_requested, options.most_seconds);
         static_cast<void>(coarsest.transcribe());
@@ -298,7 +307,7 @@ std::vector<Case> expand_cases(const ExperimentOptions& options) {
         for (const std::string& solver : solvers) {
           for (const std::string& derivatives : back_ends) {
             for (const Grid& grid : grids) {
-              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, "", form});
+              cases.push_back({problem, method, tableau, stages, solver, derivatives, grid, {}, form});
             }
           }
         }

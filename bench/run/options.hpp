@@ -52,6 +52,10 @@ void add_options(CommandLine& line, ExperimentOptions& options);
 
 /// Registers the options of an experiment whose cases can be dealt out to parts.
 void add_part_options(CommandLine& line, ExperimentOptions& options);
+/// `--jobs`.
+void add_jobs_option(CommandLine& line, ExperimentOptions& options);
+/// `--tolerances`.
+void add_tolerances_option(CommandLine& line, ExperimentOptions& options);
 /// `--batch` and `--no-batch`.
 void add_batch_option(CommandLine& line, ExperimentOptions& options);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "methods/program/status.hpp"
 
@@ -29,6 +30,12 @@ Outcome outcome_of(const Table& table) {
   for (const auto& [method, count] : coarse) counts.push_back(fmt::format("{} {}", method, count));
   outcome.coarse_by_method = fmt::format(", {} too coarse ({})", outcome.too_coarse, fmt::join(counts, ", "));
   return outcome;
+}
+
+void describe(const Outcome& outcome, nlohmann::ordered_json& metadata) {
+  metadata["not_solved"] = outcome.failures;
+  metadata["too_coarse"] = outcome.too_coarse;
+  metadata["on_another_branch"] = outcome.other_branch;
 }
 
 }  // namespace dmocbench

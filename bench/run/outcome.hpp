@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "methods/tables/table.hpp"
 
 namespace dmocbench {
@@ -17,5 +19,8 @@ struct Outcome {
 
 /// How the rows of a table ended, by their columns `status` and `branch`.
 [[nodiscard]] Outcome outcome_of(const Table& table);
+
+/// Adds the numbers of rows that ended so to the metadata of the run.
+void describe(const Outcome& outcome, nlohmann::ordered_json& metadata);
 
 }  // namespace dmocbench

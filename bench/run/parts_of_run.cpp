@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/indirect_reference.hpp"
 #include "bench/run/json_place.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/run_identity.hpp"
@@ -26,9 +27,10 @@ constexpr const char* case_column = "case";
 std::vector<SharedBy> respects_of(const Experiment& experiment) {
   const auto scheme = [](const Case& c) { return fmt::format("{} {} {}", c.problem->name(), c.tableau, c.stages); };
   const ExperimentCard& card = experiment.card();
-  std::vector<SharedBy> respects{[&](const Case& the_case) { return experiment.shared_by(the_case); }};
+  std::vector<SharedBy> respects{[](const Case& the_case) { return the_case.shares; }};
   const std::string& start = card.options.start;
-  if (start == "common" || (start == "guess" && card.tells_branches_from_guess)) respects.emplace_back(scheme);
+  if (start == "common" || (start == "guess" && card.branches == BranchesTold::of_any_start))
+    respects.emplace_back(scheme);
   if (card.takes_turns) {
     respects.emplace_back([scheme](const Case& c) { return fmt::format("{} {}", scheme(c), c.intervals()); });
   }
@@ -143,7 +145,7 @@ void PartsOfRun::write(const RowsOfCases& rows, const Json& metadata) const {
                          {"command_line", metadata.at("command_line")},
                          {"utc_time", metadata.at("utc_time")},
                          {"machine", machine_of(metadata)},
-                         {"findings", experiment_.findings()}};
+                         {"findings", experiment_.indirect() ? experiment_.indirect()->findings() : Json()}};
   write_part({.path = file(), .description = description, .table = table.csv()});
 }
 
@@ -186,7 +188,8 @@ RowsOfCases PartsOfRun::join(Json& metadata) const {
   RowsOfCases rows(cases_.size());
   for (const PartFile& file : files) {
     take_rows(file, rows);
-    experiment_.add_findings(JsonPlace(file.description, file.path.string()).at("findings"));
+    const JsonPlace description(file.description, file.path.string());
+    if (experiment_.indirect() != nullptr) experiment_.indirect()->add_findings(description.at("findings"));
   }
   const auto lost = std::ranges::find(rows, false, &std::optional<Row>::has_value);
   if (lost != rows.end())

@@ -189,7 +189,7 @@ std::unique_ptr<Transcription> Case::transcribe() const {
 
 std::string Case::label() const {
   return fmt::format("{} {} {} {} {} {}{}{} N = {}", problem->name(), method, tableau, stages, solver, derivatives,
-                     variant.empty() ? "" : " ", variant, intervals());
+                     variant.label.empty() ? "" : " ", variant.label, intervals());
 }
 
 std::string Case::file_label() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,14 @@
 
 namespace dmocbench {
 
+/// A choice that an experiment varies beyond the options of all experiments.
+struct Variant {
+  std::size_t index = 0;   ///< its number among those of the experiment
+  std::string label = {};  ///< its name in tables and messages; empty where there is nothing to choose
+
+  friend bool operator==(const Variant&, const Variant&) = default;
+};
+
 /// One solve: a problem, a method with its tableau, a solver, its derivatives and a grid.
 struct Case {
   std::shared_ptr<const Problem> problem;          ///< what is solved; shared between cases
@@ -28,7 +37,7 @@ struct Case {
   std::string solver = {};                         ///< as `make_solver` takes it
   std::string derivatives = "tape";                ///< the back end that the solver sees
   Grid grid = Grid::uniform(1);                    ///< relative node times
-  std::string variant = {};                        ///< a choice that only some experiments vary; empty in others
+  Variant variant = {};                            ///< what the experiment varies; the default where it varies nothing
   CostForm form = CostForm::bolza;                 ///< how the cost is stated
   std::optional<double> tolerance = std::nullopt;  ///< of the solve, where an experiment compares several
   /// The problem of which this is an instance with other values: where its common start is looked for. Null for none.
@@ -37,6 +46,13 @@ struct Case {
   /// vary.
   Eigen::VectorXd parameters = {};
   std::vector<std::string> varied = {};  ///< names of parameters that differ from case to case
+  /// Makes the motion that the case starts from of the one that --start names; null for that one itself.
+  std::function<Motion(const Motion&)> start = nullptr;
+  /// In words, what the case shares with others (a reference, an answer to compare with): one part of a run solves all
+  /// cases of equal words. Empty if it needs nothing of others; common starts and turns are shared anyway.
+  std::string shares = {};
+  /// True if the other cases of its curve are measured against its answer: it is solved and measured before them.
+  bool is_reference = false;
 
   /// N.
   [[nodiscard]] std::size_t intervals() const { return grid.intervals(); }
@@ -76,8 +92,10 @@ struct SolvedCase {
   std::vector<SolveTimes> rounds = {};                 ///< of every solve; the times of the solution are their medians
   double tolerance = 0.0;                              ///< of the solver; 0 if the case could not start
   std::optional<int> polish_steps = std::nullopt;      ///< none if the answer was not to be polished
-  double seconds_left = unbounded;                     ///< of the solver's limit, for what is measured of the answer
-  bool is_timed = true;  ///< false of one of a batch: eight are solved side by side, so that none has a time
+  std::optional<double> estimated_error =
+      std::nullopt;                 ///< of q, p and cost, relative, where the grid was chosen by it
+  double seconds_left = unbounded;  ///< of the solver's limit, for what is measured of the answer
+  bool is_timed = true;             ///< false of one of a batch: eight are solved side by side, so that none has a time
   std::shared_ptr<JudgedAnswer> answer = nullptr;  ///< of one of a batch: what it shares with others of the same answer
 
   /// The program that the solver sees, unless the case could not start.
@@ -136,8 +154,10 @@ void take_judgement(SolvedCase& solved, const Start& start, std::shared_ptr<Judg
 /// Keeps the times of several solves, and replaces those of the answer by their medians.
 void set_times(SolvedCase& solved, const std::vector<Solution>& repeats);
 
-/// Columns of experiments that solve in turn: the times of all rounds and their quartiles.
-[[nodiscard]] Columns<SolvedCase> columns_of_rounds();
+/// The seconds of all rounds of a solved case; none of others.
+[[nodiscard]] std::vector<double> seconds_of_rounds(const SolvedCase& solved);
+/// The columns that tell them, and their quartiles.
+[[nodiscard]] Columns<std::vector<double>> round_columns();
 
 /// True if no node is a tenth of the range of q or more away from the motion, at the same relative time.
 [[nodiscard]] bool is_on_branch(const Trajectory& trajectory, const Motion& branch);
@@ -161,10 +181,14 @@ void note_stop(SolvedCase& solved, const std::string& left_out);
 /// which the row's message says.
 [[nodiscard]] IndependentChecks check_independently(SolvedCase& solved);
 
-/// The columns that tell `checks`.
-[[nodiscard]] Columns<SolvedCase> columns_of(const IndependentChecks& checks);
+/// The column that tells how far a replay ends from the final state.
+template <class Record>
+[[nodiscard]] Column<Record> replay_error_column(std::optional<ReplayError> Record::*replay) {
+  return {"replay_error", "", "distance from the final state when the controls are replayed",
+          from(replay, &ReplayError::norm)};
+}
 
-/// The column replay_error alone.
-[[nodiscard]] Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay);
+/// The columns that tell all checks.
+[[nodiscard]] Columns<IndependentChecks> check_columns();
 
 }  // namespace dmocbench

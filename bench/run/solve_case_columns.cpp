@@ -26,17 +26,9 @@ auto seconds(double Solution::*member) {
   };
 }
 
-std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
-  std::vector<double> seconds;
-  if (!is_solved(solved.solution.status)) return seconds;
-  std::ranges::transform(solved.rounds, std::back_inserter(seconds), &SolveTimes::seconds);
-  return seconds;
-}
-
 /// A getter of the time that a share of the rounds stays below.
 auto quantile_of_rounds(double share) {
-  return [share](const SolvedCase& solved) -> std::optional<double> {
-    std::vector<double> seconds = seconds_of_rounds(solved);
+  return [share](std::vector<double> seconds) -> std::optional<double> {
     if (seconds.empty()) return {};
     std::ranges::sort(seconds);
     return seconds[static_cast<std::size_t>(std::lround(share * static_cast<double>(seconds.size() - 1)))];
@@ -112,26 +104,29 @@ const Columns<SolvedCase>& core_columns() {
   return columns;
 }
 
-Columns<SolvedCase> columns_of_rounds() {
+std::vector<double> seconds_of_rounds(const SolvedCase& solved) {
+  std::vector<double> seconds;
+  if (!is_solved(solved.solution.status)) return seconds;
+  std::ranges::transform(solved.rounds, std::back_inserter(seconds), &SolveTimes::seconds);
+  return seconds;
+}
+
+Columns<std::vector<double>> round_columns() {
   constexpr double quarter = 0.25;
   return {{"seconds_lower_quartile", "s", "of the rounds", quantile_of_rounds(quarter)},
           {"seconds_upper_quartile", "s", "of the rounds", quantile_of_rounds(1.0 - quarter)},
           {"round_seconds", "s", "wall clock of the solve in each round, with spaces between them",
-           [](const SolvedCase& solved) { return joined_numbers(seconds_of_rounds(solved)); }}};
+           [](const std::vector<double>& seconds) { return joined_numbers(seconds); }}};
 }
 
-Column<SolvedCase> replay_error_column(const std::optional<ReplayError>& replay) {
-  return {"replay_error", "", "distance from the final state when the controls are replayed",
-          of(replay, &ReplayError::norm)};
-}
-
-Columns<SolvedCase> columns_of(const IndependentChecks& checks) {
-  return {replay_error_column(checks.replay),
-          {"replay_cost", "cost", "cost of the replayed motion", of(checks.replay, &ReplayError::cost)},
+Columns<IndependentChecks> check_columns() {
+  using Checks = IndependentChecks;
+  return {replay_error_column(&Checks::replay),
+          {"replay_cost", "cost", "cost of the replayed motion", from(&Checks::replay, &ReplayError::cost)},
           {"violation_between_nodes", "", "of bounds and path constraints, where no point imposes them",
-           of(checks.violation_between_nodes)},
+           &Checks::violation_between_nodes},
           {"free_horizon_residual", "", "what is left of the condition on T; empty for a fixed horizon",
-           of(checks.free_horizon_residual)}};
+           &Checks::free_horizon_residual}};
 }
 
 }  // namespace dmocbench

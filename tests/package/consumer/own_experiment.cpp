@@ -5,18 +5,17 @@ namespace {
 
 using namespace dmocbench;
 
-struct Torque final : Experiment {
-  Torque()
-      : Experiment({.name = "torque",
-                    .description = "The highest torque of each method over the number of intervals.",
-                    .options = {.intervals = "16:64"}}) {}
-  [[nodiscard]] Columns<SolvedCase> columns() const override {
-    return {{"highest_torque", "N m", "at the stages", [](const SolvedCase& solved) {
-               return solved.trajectory ? Cell(solved.trajectory->stage_u.cwiseAbs().maxCoeff()) : Cell();
-             }}};
-  }
-};
+std::optional<double> highest_torque(const SolvedCase& solved) {
+  if (!solved.trajectory) return {};
+  return solved.trajectory->stage_u.cwiseAbs().maxCoeff();
+}
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_experiment(Torque(), argc, argv); }
+int main(int argc, char** argv) {
+  return run_experiment(Experiment({.name = "torque",
+                                    .description = "The highest torque of each method over the number of intervals.",
+                                    .options = {.intervals = "16:64"}},
+                                   {{"highest_torque", "N m", "at the stages", highest_torque}}),
+                        argc, argv);
+}

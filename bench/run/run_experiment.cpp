@@ -1,0 +1,396 @@
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/run/case_batch.hpp"
+#include "bench/run/case_list.hpp"
+#include "bench/run/experiment.hpp"
+#include "bench/run/meanings.hpp"
+#include "bench/run/metadata.hpp"
+#include "bench/run/outcome.hpp"
+#include "bench/run/parts_of_run.hpp"
+#include "bench/run/problem_libraries.hpp"
+#include "bench/run/process_pool.hpp"
+#include "bench/run/progress_line.hpp"
+#include "bench/run/result_file.hpp"
+#include "bench/run/start_provider.hpp"
+#include "methods/error.hpp"
+#include "methods/runtime/counted.hpp"
+#include "methods/runtime/stop_scope.hpp"
+#include "methods/tables/motion_file.hpp"
+#include "methods/tables/table_file.hpp"
+
+namespace dmocbench {
+
+namespace {
+
+/// Each once for every tolerance that is compared. Throws `Error` on anything unknown or out of range.
+std::vector<Case> cases_of(Experiment& experiment) {
+  const std::vector<Case> cases = experiment.cases(expand_cases(experiment.options()));
+  return with_tolerances(cases, chosen_tolerances(experiment.options()));
+}
+
+/// The columns of its table.
+Columns<MeasuredCase> columns_of(const ExperimentCard& card, const OwnColumns& own) {
+  const auto solved = [](const MeasuredCase& one) -> const SolvedCase& { return one.solved; };
+  const auto rounds = [](const MeasuredCase& one) { return seconds_of_rounds(one.solved); };
+  const Columns<MeasuredCase> columns = columns_through<MeasuredCase>(solved, core_columns()) + own.columns;
+  return card.takes_turns ? columns + columns_through<MeasuredCase>(rounds, round_columns()) : columns;
+}
+
+/// One run of an experiment: its cases, its table, its files.
+class Run {
+ public:
+  Run(Experiment& experiment, const std::vector<std::string>& command_line,
+      const std::vector<std::pair<std::string, std::string>>& values)
+      : experiment_(experiment),
+        options_(experiment.options()),
+        solver_options_(solver_options(options_)),
+        cases_(cases_of(experiment)),
+        starts_({.start = options_.start,
+                 .most_seconds = options_.start_seconds,
+                 .tells_branch = experiment.card().branches != BranchesTold::none,
+                 .takes_costates = true,
+                 .tells_branch_from_guess = experiment.card().branches == BranchesTold::of_any_start},
+                solver_options_),
+        own_columns_(experiment.own_columns()),
+        columns_(columns_of(experiment.card(), own_columns_)),
+        names_(names_of(columns_)),
+        rows_(cases_.size()),
+        metadata_(describe_run(command_line)),
+        parts_(experiment, cases_, metadata_, values, names_),
+        prefix_(parts_.is_one() ? parts_.file() : options_.out / options_.name) {
+    starts_.check(cases_);
+    is_own_ = parts_.own_cases();
+    starts_.on_progress = [this](const std::string& activity) { show(activity); };
+    starts_.on_long_search = [this](const std::string& sentence) {
+      if (!progress_.is_shown()) fmt::print(stderr, "{}: {}\n", experiment_.card().name, sentence);
+    };
+    metadata_["start"] = options_.start;
+    if (options_.tolerances.empty()) metadata_["tolerance"] = options_.tolerance;
+    metadata_["repeats"] = options_.repeats;
+    for (const Case& the_case : cases_) {
+      nlohmann::ordered_json& scale = metadata_["cost_scale"][the_case.problem->name()];
+      if (scale.is_null()) scale = the_case.problem->cost_scale();
+    }
+    const NamedOptions named = named_options(options_);
+    for (const std::string& solver : options_.solvers) static_cast<void>(make_solver(solver, solver_options_, named));
+  }
+
+  int run() {
+    listen_for_interrupt();
+    if (!options_.missing_parts.empty()) return name_missing_parts();
+    if (parts_.is_one()) return run_part();
+    const OutputFolder folder(options_.out);
+    const ResultLock lock(prefix_);
+    require_writable(table_file());
+    if (options_.join.empty()) {
+      solve_all();
+    } else {
+      rows_ = parts_.join(metadata_);
+      replace_earlier_files();
+    }
+    const bool complete = !interrupt_requested();
+    Table table = write_table();
+    if (table.rows().empty()) throw_if_interrupted();
+    FurtherOutput output{prefix_, metadata_};
+    if (complete || experiment_.card().finishes_interrupted) experiment_.finish(table, output);
+    if (complete) write_file(table_file(), table.csv());
+    const Outcome outcome = outcome_of(table);
+    metadata_["complete"] = complete;
+    metadata_["cases"] = cases_.size();
+    metadata_["rows"] = table.rows().size();
+    describe(outcome, metadata_);
+    describe_tables_of_run(files_of_run(output.named_by_user), table_of(columns_, {}), metadata_);
+    write_metadata(prefix_.string() + ".json", metadata_);
+    fmt::print(
+        "{}: {}{}, {} not solved, {} on another branch{}: {}\n", experiment_.card().name,
+        complete ? "" : fmt::format("interrupted before {} complete: ", counted(cases_.size(), "row was", "rows were")),
+        counted(table.rows().size(), "row"), outcome.failures, outcome.other_branch, outcome.coarse_by_method,
+        table_file().string());
+    if (!complete) return 130;
+    return outcome.failures > 0 ? 1 : 0;
+  }
+
+ private:
+  [[nodiscard]] std::filesystem::path table_file() const {
+    return is_child() ? table_of_child_ : std::filesystem::path(prefix_.string() + ".csv");
+  }
+
+  /// True in a process that works for another one.
+  [[nodiscard]] bool is_child() const { return !table_of_child_.empty(); }
+
+  /// One part of the run: nothing is written before all its rows are there.
+  int run_part() {
+    const std::string& name = experiment_.card().name;
+    if (parts_.is_there()) {
+      fmt::print("{}: part {} is there already: {}\n", name, options_.part, prefix_.string());
+      return 0;
+    }
+    const OutputFolder folder(prefix_.parent_path(), true);
+    const ResultLock lock(prefix_);
+    require_writable(prefix_);
+    solve_all();
+    throw_if_interrupted();
+    parts_.write(rows_, metadata_);
+    fmt::print("{}: part {}: {} of {} rows: {}\n", name, options_.part, own_cases(), cases_.size(), prefix_.string());
+    return 0;
+  }
+
+  [[nodiscard]] int name_missing_parts() const {
+    for (const std::size_t number : parts_.missing()) fmt::print("{}\n", number);
+    return 0;
+  }
+
+  [[nodiscard]] std::ptrdiff_t own_cases() const { return std::ranges::count(is_own_, true); }
+
+  void solve_all() {
+    if (experiment_.card().takes_turns) {
+      solve_in_turn();
+    } else {
+      first_solved_ = cases_.empty() ? 0 : reference_of(curves_of(cases_).front());
+      if (options_.jobs > 1) {
+        solve_in_processes();
+      } else {
+        solve_span(0, cases_.size());
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> files_of_run(std::vector<std::filesystem::path> files) const {
+    files.insert(files.begin(), table_file());
+    for (const std::string& suffix : experiment_.card().further_files) files.emplace_back(prefix_.string() + suffix);
+    return files;
+  }
+
+  /// The files of an earlier run make room for this one's. One that the run starts from is kept.
+  void replace_earlier_files() {
+    metadata_["complete"] = false;
+    write_metadata(prefix_.string() + ".json", metadata_);
+    for (const std::string& suffix : experiment_.card().further_files) {
+      const std::string file = prefix_.string() + suffix;
+      std::error_code none;  // it need not exist
+      if (!is_file_of_motion(file, options_.start)) std::filesystem::remove(file, none);
+    }
+  }
+
+  /// Writes and returns all rows so far in the order of the cases.
+  [[nodiscard]] Table write_table() const {
+    Table table(names_);
+    for (const auto& row : rows_) {
+      if (row) table.append(*row);
+    }
+    if (!table.rows().empty()) write_file(table_file(), table.csv());
+    return table;
+  }
+
+  void show(const std::string& activity) const {
+    progress_.show(fmt::format("[{}/{}] {}", done_ + 1, own_cases(), activity));
+  }
+
+  void solve_span(std::size_t first, std::size_t end) {
+    if (options_.batch && options_.repeats == 1 && options_.passed_on.empty()) solve_batches(first, end);
+    for (const std::vector<Case>& curve : curves_of(std::span(cases_).subspan(first, end - first))) {
+      solve_curve(curve, first);
+      first += curve.size();
+    }
+  }
+
+  /// What batches leave is solved alone.
+  void solve_batches(std::size_t first, std::size_t end) {
+    solve_in_batches({.cases = cases_,
+                      .is_wanted = is_own_,
+                      .options = solver_options_,
+                      .start = [this](const Case& the_case) { return start_of(the_case); },
+                      .keep = [this](SolvedCase& solved, std::size_t number) { keep(completed(solved), number); },
+                      .show = [this](const std::string& activity) { show(activity); }},
+                     {first, end});
+  }
+
+  [[nodiscard]] Start start_of(const Case& the_case) {
+    Start start = starts_.start_for(the_case);
+    if (the_case.start) start.motion = the_case.start(start.motion);
+    return start;
+  }
+
+  void solve_curve(const std::vector<Case>& curve, std::size_t first) {
+    const std::size_t solved_first = reference_of(curve);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      if (interrupt_requested()) return;
+      const std::size_t position = i == 0 ? solved_first : i - (i <= solved_first ? 1 : 0);
+      if (!is_own_[first + position] || rows_[first + position]) continue;
+      SolvedCase solved = solve(first + position, options_.repeats);
+      if (interrupt_requested() && !is_solved(solved.solution.status)) return;  // it was not solved to its end
+      keep(completed(solved), first + position);
+    }
+  }
+
+  /// The solved case. Without a start or memory, or where a library fails, its row says so, and the run goes
+  /// on; what is wrong with the first case is wrong with the run, unless it is an instance with values of its own.
+  SolvedCase solve(std::size_t number, int repeats) {
+    const Case& the_case = cases_[number];
+    SolvedCase unsolved{.the_case = the_case};
+    try {
+      SolveTask task{.the_case = the_case,
+                     .start = start_of(the_case),
+                     .options = solver_options_,
+                     .named_options = named_options(options_),
+                     .repeats = repeats,
+                     .polishes = experiment_.card().polishes};
+      show(the_case.label());
+      task.options.tolerance = the_case.tolerance.value_or(task.options.tolerance);
+      return experiment_.solve(std::move(task));
+    } catch (const NoStart& reason) {
+      unsolved.solution.status = reason.status;
+      unsolved.solution.message = reason.what();
+    } catch (const Error& error) {
+      if (number == first_solved_ && !the_case.nominal) throw;
+      unsolved.solution.message = error.what();
+    } catch (const std::exception& error) {
+      unsolved.solution.status = is_out_of_memory(error) ? Status::out_of_memory : Status::solver_error;
+      unsolved.solution.message = sentence_of(error);
+    }
+    return unsolved;
+  }
+
+  /// The row of a solved case, with what the experiment measures; without memory or time for that its message says so.
+  Row completed(SolvedCase& solved) {
+    MeasuredCase measured{solved, own_columns_.not_measured};
+    try {
+      const StopScope scope(interrupt_requested, solved.seconds_left);
+      if (own_columns_.measure) own_columns_.measure(measured);
+    } catch (const Stopped&) {
+      note_stop(solved, "What is measured of the answer is missing");
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& error) {
+      solved.note(fmt::format("What is measured of the answer is missing: {}.", sentence_of(error)));
+    }
+    return row_of(columns_, measured);
+  }
+
+  /// Grid after grid; the cases that differ in method, solver and variant only are solved in turn.
+  void solve_in_turn() {
+    const std::vector<std::vector<std::size_t>> turns = turns_of(cases_);
+    if (!turns.empty()) first_solved_ = turns.front().front();
+    for (const std::vector<std::size_t>& numbers : turns) {  // of one part, each
+      if (!interrupt_requested() && is_own_[numbers.front()]) solve_rounds(numbers);
+    }
+  }
+
+  /// Solves some cases once, then in turn, round after round, each round beginning with another case; the first solves
+  /// find memory and caches cold and count where there are no others. If it is interrupted, no case gets a row.
+  void solve_rounds(const std::vector<std::size_t>& numbers) {
+    std::vector<SolvedCase> first;
+    std::vector<std::vector<Solution>> rounds(numbers.size());
+    const int rounds_after_first = options_.repeats > 1 ? options_.repeats : 0;
+    for (std::size_t round = 0; std::cmp_less_equal(round, rounds_after_first); ++round) {
+      for (std::size_t turn = 0; turn < numbers.size(); ++turn) {
+        const std::size_t i = (turn + round) % numbers.size();
+        if (round > 0 && !is_solved(first[i].solution.status)) continue;
+        SolvedCase solved = solve(numbers[i], round == 0 ? 1 : solves_per_round(rounds[i].front()));
+        if (interrupt_requested()) return;
+        if (round == 1) rounds[i].clear();
+        rounds[i].push_back(solved.solution);
+        if (round == 0) first.push_back(std::move(solved));
+      }
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      set_times(first[i], rounds[i]);
+      keep(completed(first[i]), numbers[i]);
+    }
+  }
+
+  /// The table on disk has every finished row, in the order of solving until the end.
+  void keep(Row row, std::size_t number) {
+    const std::string line = row.csv(names_);
+    rows_[number] = std::move(row);
+    ++done_;
+    if (parts_.is_one() && !is_child()) return;
+    if (std::exchange(has_file_, true)) {
+      append_to_file(table_file(), line);
+    } else {
+      if (!is_child()) replace_earlier_files();
+      static_cast<void>(write_table());
+    }
+  }
+
+  /// A process per problem, of batches per program; its rows come back in a file.
+  void solve_in_processes() {
+    std::vector<CaseSpan> spans = spans_of_problems(cases_, is_own_);
+    if (experiment_.card().takes_batches && options_.batch) spans = spans_of_programs(cases_, spans, parts_.groups());
+    std::vector<std::filesystem::path> files;  // named by this process
+    files.reserve(spans.size());
+    for (const CaseSpan& span : spans) {
+      files.push_back(temporary_name(fmt::format("{}_part_{}.csv", prefix_.string(), span.first)));
+    }
+    const auto work = [&](std::size_t i) {
+      table_of_child_ = files[i];
+      has_file_ = true;
+      rows_.assign(cases_.size(), std::nullopt);  // those of other problems are the parent's
+      write_file(files[i], Table(names_).csv());
+      solve_span(spans[i].first, spans[i].end);
+      static_cast<void>(write_table());
+    };
+    const auto collect = [&](std::size_t i) {
+      const std::filesystem::path& file = files[i];
+      if (!std::filesystem::exists(file)) {
+        if (interrupt_requested()) return;
+        throw Error(fmt::format("the rows of {} are lost: {} has vanished", cases_[spans[i].first].problem->name(),
+                                file.string()));
+      }
+      const Table table = read_table(file);
+      std::filesystem::remove(file);
+      std::size_t number = spans[i].first;
+      for (const Row& row : table.rows()) {
+        while (number < spans[i].end && !is_own_[number]) ++number;
+        if (number == spans[i].end) throw Error("a process wrote more rows than it had cases");
+        keep(row, number++);
+        show(row.text("problem"));
+      }
+    };
+    for_each_in_processes(spans.size(), static_cast<std::size_t>(options_.jobs), work, collect);
+  }
+
+  Experiment& experiment_;
+  const ExperimentOptions& options_;
+  SolverOptions solver_options_;
+  std::vector<Case> cases_;
+  StartProvider starts_;
+  OwnColumns own_columns_;
+  Columns<MeasuredCase> columns_;
+  std::vector<std::string> names_;
+  RowsOfCases rows_;
+  nlohmann::ordered_json metadata_;
+  PartsOfRun parts_;
+  std::vector<bool> is_own_;              ///< for every case whether this run works on it, and not another part
+  std::filesystem::path prefix_;          ///< of the files: folder and name of the table, or the file of a part
+  std::filesystem::path table_of_child_;  ///< of a process that works for another; empty in that one
+  ProgressLine progress_;
+  std::size_t done_ = 0;          ///< cases
+  std::size_t first_solved_ = 0;  ///< the case that the whole run begins with
+  bool has_file_ = false;         ///< a row has been written to the table's file
+};
+
+}  // namespace
+
+int run_experiment(Experiment&& experiment, int argc, char** argv) {
+  const ExperimentCard& card = experiment.card();
+  return run_program(card.name, card.description, argc, argv, [&](CommandLine& line) {
+    line.footer(fmt::format("Columns of {}.csv:\n{}", card.name, describe(columns_of(card, experiment.own_columns()))));
+    add_options(line, experiment.options());
+    if (card.problems_are_independent) add_jobs_option(line, experiment.options());
+    if (card.compares_tolerances) add_tolerances_option(line, experiment.options());
+    if (card.takes_batches) add_batch_option(line, experiment.options());
+    if (card.takes_parts) add_part_options(line, experiment.options());
+    experiment.add_options(line);
+    const std::vector<std::string> command_line = parse_with_libraries(line);
+    return Run(experiment, command_line, line.values()).run();
+  });
+}
+
+}  // namespace dmocbench
