@@ -57,8 +57,9 @@ TEST_P(ShootingRows, AreTheRatesThatAnIntegrationByHandMisses) {
   const auto& [name, integrator, substeps, stages] = GetParam();
   const auto problem = tests::problem_named(name);
   const Tableau tableau = gauss_tableau(stages);
-  Transcription program(*problem, *make_element(shooting_name(shooting_family(Shooting::multiple), integrator, substeps)), tableau,
-                        tests::graded_grid(64));
+  Transcription program(*problem,
+                        *make_element(shooting_name(shooting_family(Shooting::multiple), integrator, substeps)),
+                        tableau, tests::graded_grid(64));
   const auto size = static_cast<Eigen::Index>(program.variable_count());
   const Eigen::VectorXd x = tests::RandomPoints(5).vector(size, 0.5, 1.5);
   Eigen::VectorXd rows(static_cast<Eigen::Index>(program.constraint_count()));
