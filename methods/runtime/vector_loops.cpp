@@ -1,12 +1,12 @@
 #include "methods/runtime/vector_loops.hpp"
 
+#include "methods/runtime/lanes.hpp"
+
 // Compiled once per instruction set, DMOCBENCH_VECTOR_LOOPS being the name of what it defines. Everything else is in
 // an unnamed namespace, since a linker may take either of two functions of the same name.
 namespace dmocbench {
 
 namespace {
-
-#include "methods/runtime/lanes.inc"
 
 constexpr std::ptrdiff_t lanes = 8;
 using Vector = Lanes::Vector;

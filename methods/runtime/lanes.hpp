@@ -1,10 +1,21 @@
-// A fragment for sources that are compiled once per instruction set. Each includes it inside a namespace of its own,
-// because a linker may take either of two functions of the same name.
-// NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays that live in registers
+#pragma once
+
+#include <cstddef>
+
+// For sources that are compiled once per instruction set. Before the first of the headers that include this one, such a
+// source defines DMOCBENCH_LANES: the name of the inline namespace that all of them are in, one of its own for each
+// source, because a linker may take either of two functions of the same name.
+#ifndef DMOCBENCH_LANES
+#define DMOCBENCH_LANES lanes_of_any_source
+#endif
+
+// NOLINTBEGIN(*-avoid-c-arrays,*-member-init,*-reinterpret-cast): arrays that live in registers
+namespace dmocbench {
+inline namespace DMOCBENCH_LANES {
 
 /// Eight numbers that a processor adds and multiplies at a time, on every instruction set: vector loops and segment
-/// kernels give results that depend on the order of sums, and eight lanes keep that order the same everywhere. They take
-/// as many registers as the instruction set needs for them, since the compiler keeps a vector that is wider than a
+/// kernels give results that depend on the order of sums, and eight lanes keep that order the same everywhere. They
+/// take as many registers as the instruction set needs for them, since the compiler keeps a vector that is wider than a
 /// register in memory. A tape sums nothing across lanes, so it takes vectors as wide as the processor's, with the
 /// functions that xsimd has for them; xsimd has no vector of eight where the processor has none.
 struct Lanes {
@@ -24,8 +35,8 @@ struct Lanes {
 
   alignas(sizeof(Vector)) Part part[parts];
 
-  double operator[](std::size_t lane) const { return part[lane / width][lane % width]; }
-  void set(std::size_t lane, double value) { part[lane / width][lane % width] = value; }
+  double operator[](std::size_t lane) const { return reinterpret_cast<const double*>(part)[lane]; }
+  void set(std::size_t lane, double value) { reinterpret_cast<double*>(part)[lane] = value; }
 
   /// What `operation(i)` is for part i.
   template <class Result = Lanes, class Operation>
@@ -66,4 +77,7 @@ struct Lanes {
     return each([&](int i) { return mask.part[i] ? yes.part[i] : no.part[i]; });
   }
 };
-// NOLINTEND(*-avoid-c-arrays,*-member-init)
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench
+// NOLINTEND(*-avoid-c-arrays,*-member-init,*-reinterpret-cast)

@@ -1,6 +1,17 @@
-// A fragment of segment_kernel.inc: products of matrices whose sizes the compiler does not know. A tile of the result
-// stays in registers while the factors are read once, so that most operations are on registers.
-// NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays that live in registers
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "methods/kkt/intervals/kernel_blocks.hpp"
+
+// Products of matrices whose sizes the compiler does not know. A tile of the result stays in registers while the
+// factors are read once, so that most operations are on registers. NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays
+// that live in registers
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 /// A matrix in an array: entry (i, j) stands at `first[i * down + j * right]`.
 template <class Number>
@@ -11,7 +22,9 @@ struct StridedView {
 
   DMOCBENCH_INLINE Number& operator()(int i, int j) const { return first[i * down + j * right]; }
   /// The part that begins with entry (i, j).
-  [[nodiscard]] DMOCBENCH_INLINE StridedView from(int i, int j) const { return {first + i * down + j * right, down, right}; }
+  [[nodiscard]] DMOCBENCH_INLINE StridedView from(int i, int j) const {
+    return {first + i * down + j * right, down, right};
+  }
   [[nodiscard]] DMOCBENCH_INLINE StridedView transposed() const { return {first, right, down}; }
   // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions): as a pointer to numbers is one to constants
   DMOCBENCH_INLINE operator StridedView<const Number>() const { return {first, down, right}; }
@@ -143,4 +156,7 @@ inline void clear_above_diagonal(const Block& matrix, int size) {
     for (int i = j < tile_columns ? 0 : j - tile_columns + 1; i < j; ++i) matrix(i, j) = Lanes{};
   }
 }
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt
 // NOLINTEND(*-avoid-c-arrays,*-member-init)

@@ -1,16 +1,24 @@
-// Both sweeps over a group, for one number type `Lanes` (methods/runtime/lanes.inc). Sources define it and the macros
-// DMOCBENCH_INLINE and DMOCBENCH_ANY_SIZE, and include this in a namespace of their own (segment_kernel.cpp does).
-// NOLINTBEGIN(*-reinterpret-cast,*-member-init): memory of the caller, as numbers
+#pragma once
 
-#include "methods/kkt/intervals/kernel_blocks.inc"
-//
-#include "methods/kkt/intervals/fixed_size_step.inc"
-//
-#include "methods/kkt/intervals/products.inc"
-//
-#include "methods/kkt/intervals/any_size_step.inc"
-//
-#include "methods/kkt/intervals/kernel_gather.inc"
+#include <cstddef>
+#include <type_traits>
+
+#include "methods/kkt/intervals/any_size_step.hpp"
+#include "methods/kkt/intervals/fixed_size_step.hpp"
+#include "methods/kkt/intervals/kernel_blocks.hpp"
+#include "methods/kkt/intervals/kernel_gather.hpp"
+#include "methods/kkt/intervals/segment_kernel.hpp"
+#include "methods/kkt/intervals/shape.hpp"
+
+// Both sweeps over a group. DMOCBENCH_ANY_SIZE is 1 where a source wants the kernel for any shape only: where
+// processors usually have a wider instruction set, which saves a minute of compilation.
+#ifndef DMOCBENCH_ANY_SIZE
+#define DMOCBENCH_ANY_SIZE 0
+#endif
+
+// NOLINTBEGIN(*-reinterpret-cast,*-member-init): memory of the caller, as numbers
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 template <class S>
 S shape_of(const EliminationPlan& plan) {
@@ -75,7 +83,8 @@ inline void start_cost_to_go(const S& shape, const SegmentGroup& group, const do
   for (int i = 0; i < X * value_columns(shape); ++i) V.value.data()[i] = Lanes{};
   for (int i = 0; i < X * reachability_columns(shape); ++i) V.reachability.data()[i] = Lanes{};
   for (int j = 0; j < X; ++j) {
-    V.P(j, j) = group.is_interleaved ? load_lanes(terminal_weights + std::ptrdiff_t{j} * lane_count) : Lanes::all(terminal_weights[j]);
+    V.P(j, j) = group.is_interleaved ? load_lanes(terminal_weights + std::ptrdiff_t{j} * lane_count)
+                                     : Lanes::all(terminal_weights[j]);
     V.Phi(j, j) = Lanes::all(1.0);
   }
   V.signs = PivotSigns{};
@@ -272,7 +281,6 @@ SegmentKernel choose([[maybe_unused]] const Shape& shape) {
   return kernel;
 }
 
-/// DMOCBENCH_ANY_SIZE is 1 where processors usually have a wider instruction set, which saves a minute of compilation.
 inline SegmentKernel choose_kernel(const Shape& shape) {
 #if DMOCBENCH_ANY_SIZE
   return choose<>(shape);
@@ -289,4 +297,7 @@ inline SegmentKernel choose_kernel(const Shape& shape) {
                 FixedShape<3, 3, 1, 3, 3>, FixedShape<6, 0, 1, 3, 6>>(shape);
 #endif
 }
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt
 // NOLINTEND(*-reinterpret-cast,*-member-init)

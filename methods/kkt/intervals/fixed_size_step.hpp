@@ -1,5 +1,11 @@
-// A fragment of segment_kernel.inc: one step of both sweeps for a plain shape whose sizes the compiler knows, by the
-// formulas of README.md. All loops are unrolled, and what they work on can live in registers.
+#pragma once
+
+#include "methods/kkt/intervals/kernel_blocks.hpp"
+
+// One step of both sweeps for a plain shape whose sizes the compiler knows, by the formulas of README.md. All loops are
+// unrolled, and what they work on can live in registers.
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 /// Solves the equalities for the dependent entries of Z. Rows and columns come in an order in which no exchange is
 /// needed, see elimination_plan.hpp.
@@ -350,3 +356,6 @@ inline void step_forward(const S& shape, const Lanes* record, const Lanes* nu, L
     for (int i = 0; i < shape.node_sums; ++i) multipliers[i] = times_state(view(record, places.multipliers()), i);
   }
 }
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt

@@ -1,5 +1,13 @@
-// A fragment of segment_kernel.inc: how blocks of steps are read from the program's arrays and written to them.
+#pragma once
+
+#include <cstddef>
+
+#include "methods/kkt/intervals/kernel_blocks.hpp"
+
+// How blocks of steps are read from the program's arrays and written to them.
 // NOLINTBEGIN(*-avoid-c-arrays,*-member-init): arrays that live in registers
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 /// Steps of a segment whose numbers are gathered together: eight, so that whole cache lines are read.
 inline constexpr int block_steps = 8;
@@ -132,4 +140,7 @@ inline void gather(const EliminationPlan& plan, const NewtonArrays& arrays, cons
     for (int step = 0; step < steps.count; ++step) locals(item.mirror, step) = block[step];
   }
 }
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt
 // NOLINTEND(*-avoid-c-arrays,*-member-init)

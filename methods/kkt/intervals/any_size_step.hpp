@@ -1,6 +1,14 @@
-// A fragment of segment_kernel.inc: one step of both sweeps for sizes that the compiler does not know. The formulas are
-// those of fixed_size_step.inc and README.md, as products of matrices (products.inc) instead of loops.
+#pragma once
+
+#include "methods/kkt/intervals/fixed_size_step.hpp"
+#include "methods/kkt/intervals/kernel_blocks.hpp"
+#include "methods/kkt/intervals/products.hpp"
+
+// One step of both sweeps for sizes that the compiler does not know. The formulas are those of fixed_size_step.hpp and
+// README.md, as products of matrices (products.hpp) instead of loops.
 // NOLINTBEGIN(*-avoid-c-arrays): arrays that live in registers
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 /// Work of one step backward.
 template <>
@@ -373,4 +381,7 @@ inline void step_forward(const Shape& shape, const Lanes* record, const Lanes* n
     add_applied(places.multipliers(), X + 1, multipliers);
   }
 }
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt
 // NOLINTEND(*-avoid-c-arrays)

@@ -1,5 +1,17 @@
-// A fragment of segment_kernel.inc.
+#pragma once
+
+#include "methods/kkt/intervals/segment_kernel.hpp"
+#include "methods/kkt/intervals/shape.hpp"
+#include "methods/runtime/lanes.hpp"
+
+// A step is inlined into its sweep so that its blocks can live in registers; CMake says otherwise for sanitizers.
+#ifndef DMOCBENCH_INLINE
+#define DMOCBENCH_INLINE [[gnu::always_inline]] inline
+#endif
+
 // NOLINTBEGIN(*-avoid-c-arrays,*-member-init,*-identifier-naming): in registers; names of the formulas
+namespace dmocbench::kkt {
+inline namespace DMOCBENCH_LANES {
 
 inline Lanes smaller(const Lanes& a, const Lanes& b) { return chosen(a < b, a, b); }
 inline Lanes larger(const Lanes& a, const Lanes& b) { return chosen(b < a, a, b); }
@@ -10,8 +22,8 @@ inline Lanes least_so_far(const Lanes& so_far, const Lanes& value) {
 }
 inline Lanes magnitude(const Lanes& a) { return larger(a, -a); }
 
-/// What a pivot near zero adds to the number of negative ones: more than there are unknowns, so that nobody takes the sum
-/// for a number of pivots.
+/// What a pivot near zero adds to the number of negative ones: more than there are unknowns, so that nobody takes the
+/// sum for a number of pivots.
 inline constexpr double uncertain = 1e15;
 
 /// The signs of the pivots that were met so far: those of the Hessians of free unknowns.
@@ -130,7 +142,7 @@ struct CostToGo {
   LaneMatrix<S, state_size<S>, value_columns> value;                // X x (X, 1, ν): P, p, Φ
   LaneMatrix<S, state_size<S>, reachability_columns> reachability;  // ν x (1, ν): γ, lower triangle of Γ
   PivotSigns signs;
-  Lanes smallest_ratio;                                             // of the pivots of the equalities
+  Lanes smallest_ratio;  // of the pivots of the equalities
 };
 
 /// One step of all lanes: the blocks of its intervals, and the order in which they are eliminated.
@@ -190,4 +202,7 @@ struct StepWork {
   LaneMatrix<S, column_count<S>, one_column> line;     // an inequality, weighted
   LaneMatrix<S, column_count<S>, state_size<S>> last_state;  // (w, X, 1) x ν
 };
+
+}  // namespace DMOCBENCH_LANES
+}  // namespace dmocbench::kkt
 // NOLINTEND(*-avoid-c-arrays,*-member-init,*-identifier-naming)
