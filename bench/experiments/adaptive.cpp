@@ -8,7 +8,7 @@
 
 #include "bench/experiments/effectivity.hpp"
 #include "bench/experiments/needed_intervals.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/transcription/elements/families.hpp"

@@ -3,7 +3,7 @@
 
 #include "bench/experiments/smallest_curvature.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/transcription/elements/families.hpp"

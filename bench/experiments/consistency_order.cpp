@@ -11,9 +11,7 @@
 
 #include "bench/experiments/one_step_tableaus.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/measured_or_reason.hpp"
 #include "bench/run/options.hpp"
-#include "bench/run/problem_options.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"

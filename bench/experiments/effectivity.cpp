@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "bench/run/warm_start.hpp"
+#include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/diagnostics/accuracy.hpp"
 #include "methods/transcription/sample_multipliers.hpp"

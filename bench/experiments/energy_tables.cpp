@@ -11,9 +11,9 @@
 
 #include "bench/experiments/example_systems.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/measured_or_reason.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/start_provider.hpp"
+#include "bench/run/table_run.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/modified_energy.hpp"
 #include "methods/diagnostics/one_step_map.hpp"

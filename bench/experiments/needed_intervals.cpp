@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/run/warm_start.hpp"
+#include "bench/run/solve_case.hpp"
 #include "methods/adaptive/adaptive_solve.hpp"
 #include "methods/numerics/median.hpp"
 #include "methods/runtime/clock.hpp"

@@ -9,7 +9,7 @@
 #include "bench/experiments/solved_steps.hpp"
 #include "bench/run/column.hpp"
 #include "bench/run/experiment.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"

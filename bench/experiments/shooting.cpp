@@ -8,7 +8,7 @@
 
 #include "bench/experiments/program_condition.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/kkt/linearisation.hpp"
 #include "methods/transcription/motions/interpolation.hpp"

@@ -6,7 +6,7 @@
 #include "bench/experiments/optimum_error.hpp"
 #include "bench/experiments/situation.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"

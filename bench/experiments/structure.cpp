@@ -8,7 +8,7 @@
 #include "bench/experiments/rotations.hpp"
 #include "bench/experiments/simulated_tables.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/start_provider.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdio>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -64,5 +66,19 @@ class CommandLine {
 /// `Interrupted` gives 130.
 int run_program(const std::string& name, const std::string& description, int argc, char** argv,
                 const std::function<int(CommandLine&)>& body);
+
+/// Standard error if it is a terminal: one line there says what is being done. The line is erased at the end.
+class ProgressLine {
+ public:
+  ProgressLine();
+
+  /// Whether anybody sees it.
+  [[nodiscard]] bool is_shown() const noexcept { return terminal_ != nullptr; }
+  /// Replaces the line.
+  void show(const std::string& activity) const;
+
+ private:
+  std::unique_ptr<std::FILE, void (*)(std::FILE*)> terminal_;  ///< empty where it is no terminal
+};
 
 }  // namespace dmocbench

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"
 #include "bench/run/result_file.hpp"
 #include "methods/choose.hpp"
@@ -274,6 +275,17 @@ std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<
     for (const auto& problem : problems) check_problem(*problem);
   }
   return {problems.begin(), problems.end()};
+}
+
+void ProblemOptions::add_to(CommandLine& line) {
+  line.list("--problem", problems, "problems, as `list` names them; all: every one");
+  line.option("--set", settings, "parameter=value of a problem, as `list` shows them; may be repeated");
+  add_library_option(line, libraries);
+}
+
+std::vector<std::shared_ptr<const Problem>> ProblemOptions::selected() const {
+  load_problem_libraries(libraries);
+  return selected_problems(problems, settings);
 }
 
 std::vector<Case> expand_cases(const ExperimentOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,6 +74,19 @@ void add_batch_option(CommandLine& line, ExperimentOptions& options);
 /// must belong to at least one of them.
 [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected_problems(const std::vector<std::string>& names,
                                                                             const std::vector<std::string>& settings);
+
+/// The options --problem, --set and --library of an experiment that takes problems by their names.
+struct ProblemOptions {
+  std::vector<std::string> problems = {};   ///< names; "all" for every one
+  std::vector<std::string> settings = {};   ///< "parameter=value"
+  std::vector<std::string> libraries = {};  ///< paths
+
+  /// Registers the options; what they hold is the default.
+  void add_to(CommandLine& line);
+  /// The problems, after the command line was read: loads the libraries first. Throws `Error` as `selected_problems`
+  /// and `load_problem_libraries`.
+  [[nodiscard]] std::vector<std::shared_ptr<const Problem>> selected() const;
+};
 
 /// Numbers of intervals from a list like "16,48,64" or "8:1024" (8, 16, ..., 1024: doubling while not above the end),
 /// or a mixture; ascending, each once, at most 1000. Throws `Error` that names the option and quotes the entry if one

@@ -15,7 +15,6 @@
 #include "bench/run/parts_of_run.hpp"
 #include "bench/run/problem_libraries.hpp"
 #include "bench/run/process_pool.hpp"
-#include "bench/run/progress_line.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/start_provider.hpp"
 #include "methods/error.hpp"

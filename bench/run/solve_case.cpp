@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/run/warm_start.hpp"
 #include "methods/diagnostics/conserved_quantities.hpp"
 #include "methods/diagnostics/undefined_point.hpp"
 #include "methods/diagnostics/violation_between_nodes.hpp"
@@ -19,6 +18,7 @@
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/transcription/describe_violation.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "methods/transcription/sample_multipliers.hpp"
 #include "methods/transcription/start.hpp"
 #include "methods/transcription/trajectory_reader.hpp"
 
@@ -47,6 +47,8 @@ class TimeOfCase {
   const SolverOptions& options_;
   Clock::time_point begin_ = Clock::now();
 };
+
+bool takes_multipliers(const Solver& solver) { return solver.name() == "interior_point" || solver.name() == "auto"; }
 
 Solution solve_once(const SolvedCase& solved, const Start& start, const Solver& solver) {
   if (!solved.condensed) return solve_from(*solved.program, solved.start, start.with_costates, solver);
@@ -259,6 +261,16 @@ SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& so
   result.seconds_left = time.left();
   repeat(result, start, solver, first, repeats);
   return result;
+}
+
+Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
+                    const std::optional<Trajectory>& with_costates, const Solver& solver) {
+  if (!with_costates || !takes_multipliers(solver)) return solver.solve(program, start);
+  Solution solution = solver.solve(program, start, sample_multipliers(program, *with_costates));
+  if (is_solved(solution.status) || solution.status == Status::interrupted) return solution;
+  Solution cold = solver.solve(program, start);
+  cold.message += " With the costates of its start it had failed; this is the answer from the motion alone.";
+  return cold;
 }
 
 void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options) {

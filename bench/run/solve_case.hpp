@@ -140,6 +140,11 @@ struct Start {
 [[nodiscard]] SolvedCase solve_case(const Case& the_case, const Start& start, const Solver& solver, double tolerance,
                                     int repeats, bool polishes = false);
 
+/// Solves from a point, with the multipliers that belong to a trajectory's costates (`sample_multipliers`) where there
+/// is one and the solver can use them; where that fails from the point alone, which the message then says.
+[[nodiscard]] Solution solve_from(Transcription& program, const Eigen::VectorXd& start,
+                                  const std::optional<Trajectory>& with_costates, const Solver& solver);
+
 /// What follows a solve: settles the answer (its program, start, solution and tolerance are there), reads the
 /// trajectory, judges it by the replay of each interval, and says what there is to say. `options` are the solver's.
 void judge_case(SolvedCase& solved, const Start& start, const SolverOptions& options);

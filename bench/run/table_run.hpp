@@ -3,12 +3,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
+
+#include <tl/expected.hpp>
 
 #include "bench/run/column.hpp"
 #include "bench/run/command_line.hpp"
-#include "bench/run/progress_line.hpp"
 #include "bench/run/result_file.hpp"
+#include "methods/error.hpp"
 #include "methods/runtime/stop_scope.hpp"
 #include "methods/solvers/solver.hpp"
 
@@ -62,5 +65,19 @@ class TableRun {
   std::vector<std::string> rows_of_tables_;  ///< how many each has, in words
   std::ptrdiff_t not_measured_ = 0;          ///< rows of all tables
 };
+
+/// What `measure()` returns, or the sentence of the `Error` by which it refuses. Throws `Stopped` on, because a stop
+/// that was asked for is no finding.
+template <class Measure>
+[[nodiscard]] tl::expected<std::invoke_result_t<const Measure&>, std::string> measured_or_reason(
+    const Measure& measure) {
+  try {
+    return measure();
+  } catch (const Stopped&) {
+    throw;
+  } catch (const Error& error) {
+    return tl::unexpected<std::string>(error.what());
+  }
+}
 
 }  // namespace dmocbench

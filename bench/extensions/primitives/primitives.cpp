@@ -11,7 +11,7 @@
 #include "bench/extensions/primitives/roadmap_file.hpp"
 #include "bench/extensions/primitives/roadmap_picture.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/problem_options.hpp"
+#include "bench/run/options.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/error.hpp"
 #include "methods/runtime/clock.hpp"

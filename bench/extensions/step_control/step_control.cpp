@@ -8,7 +8,6 @@
 #include "bench/extensions/step_control/controlled_steps.hpp"
 #include "bench/extensions/step_control/optimal_steps.hpp"
 #include "bench/run/column.hpp"
-#include "bench/run/measured_or_reason.hpp"
 #include "bench/run/table_run.hpp"
 #include "methods/diagnostics/convergence_order.hpp"
 
