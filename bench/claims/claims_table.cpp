@@ -19,7 +19,7 @@ namespace {
 
 const Columns<JudgedClaim>& claim_columns() {
   static const Columns<JudgedClaim> all{
-      {"claim", "", "problem and short name", &JudgedClaim::id},
+      {"claim", "", "problem and short name", &JudgedClaim::id, in_key},
       {"where", "", "in the paper", &JudgedClaim::where},
       {"figure", "", "of the paper", &JudgedClaim::figure},
       {"whose", "", "who states it", [](const JudgedClaim& claim) { return name_of(claim.whose); }},
@@ -92,8 +92,8 @@ Table claims_rows_table(const std::vector<JudgedClaim>& claims) {
     std::string records;
     std::string columns;
   };
-  const Columns<Evidence> columns{{"claim", "", "its name", &Evidence::claim},
-                                  {"table", "", "the file that was read", &Evidence::table},
+  const Columns<Evidence> columns{{"claim", "", "its name", &Evidence::claim, in_key},
+                                  {"table", "", "the file that was read", &Evidence::table, in_key},
                                   {"records", "", "of that file, 2-5 9; the header is record 1", &Evidence::records},
                                   {"columns", "", "that were read, with spaces between them", &Evidence::columns}};
   std::vector<Evidence> evidence;

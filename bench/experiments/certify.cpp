@@ -108,7 +108,7 @@ std::string published(const Certificate& certificate) {
 
 Columns<Certificate> certificate_columns(const std::vector<std::string>& routes) {
   constexpr auto reference = &Certificate::reference;
-  Columns<Certificate> columns{{"problem", "", "name of the problem", from(&Certificate::problem)}};
+  Columns<Certificate> columns{{"problem", "", "name of the problem", from(&Certificate::problem), in_key}};
   for (const std::string& route : routes) {
     columns.push_back({route + "_objective", "cost", "cost on the finest grid", [route](const Certificate& c) {
                          const auto found = c.objectives.find(route);

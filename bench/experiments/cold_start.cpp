@@ -37,7 +37,7 @@ class ColdStart final : public Experiment {
              .problems_are_independent = true,
              .takes_batches = true},
             {{"start", "", "number of the start, cold; 0 is the guess itself",
-              from(&SolvedCase::the_case, &Case::variant, &Variant::label)},
+              from(&SolvedCase::the_case, &Case::variant, &Variant::label), in_key},
              {"evaluations", "", "calls of the cost, the constraints and their derivatives by the solver",
               from(&SolvedCase::solution, &Solution::total_evaluations)},
              {"reference_objective", "cost", "certified cost that the problem states", [](const SolvedCase& solved) {

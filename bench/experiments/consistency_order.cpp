@@ -69,11 +69,11 @@ struct Measured {
 /// The columns that begin both tables.
 template <class Record>
 Columns<Record> first_columns() {
-  return {{"problem", "", "name of the problem", &Record::problem},
-          {"tableau", "", "family of Butcher tableaus", &Record::tableau},
-          {"stages", "", "number of stages", &Record::stages},
-          {"order", "", "the tableau's order", &Record::order},
-          {"quantity", "", "what is compared with the exact one", &Record::quantity}};
+  return {{"problem", "", "name of the problem", &Record::problem, in_key},
+          {"tableau", "", "family of Butcher tableaus", &Record::tableau, in_key},
+          {"stages", "", "number of stages", &Record::stages, in_key},
+          {"order", "", "the tableau's order", &Record::order, in_key},
+          {"quantity", "", "what is compared with the exact one", &Record::quantity, in_key}};
 }
 
 /// What was measured on one step; no error where an equation has no solution for it.
@@ -87,7 +87,7 @@ using MeasuredError = Measured<ErrorOfStep>;
 const Columns<MeasuredError> error_columns =
     first_columns<MeasuredError>() +
     Columns<MeasuredError>{
-        {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h)},
+        {"h", "", "step", from(&MeasuredError::value, &ErrorOfStep::h), in_key},
         {"error", "", "largest error over the initial conditions", from(&MeasuredError::value, &ErrorOfStep::error)},
         {"message", "", "why there is none", from(&MeasuredError::value, &ErrorOfStep::message)}};
 
@@ -153,8 +153,8 @@ struct ExactTransform {
 };
 
 const Columns<ExactTransform> transform_columns{
-    {"problem", "", "name of the problem", &ExactTransform::problem},
-    {"h", "", "step", &ExactTransform::h},
+    {"problem", "", "name of the problem", &ExactTransform::problem, in_key},
+    {"h", "", "step", &ExactTransform::h, in_key},
     {"left_defect", "", "max of |-D_1 L_d^E - f_d^{E-} - L_v(0)|", &ExactTransform::left},
     {"right_defect", "", "max of |D_2 L_d^E + f_d^{E+} - L_v(h)|", &ExactTransform::right},
     {"largest_momentum", "", "largest entry of L_v, to compare with", &ExactTransform::momentum}};

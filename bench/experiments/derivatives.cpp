@@ -59,7 +59,7 @@ class Derivatives final : public ExperimentOf<Measured> {
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
         {"hessian", "", "exact, or limited_memory",
-         [](const Measured& measured) { return measured.is_exact ? "exact" : limited_memory; }},
+         [](const Measured& measured) { return measured.is_exact ? "exact" : limited_memory; }, in_key},
         {"jacobian_error", "", "largest error of an entry, relative to the largest entry", &Measured::jacobian_error},
         {"hessian_error", "", "the same of the Hessian; empty where the solver was given none",
          &Measured::hessian_error},

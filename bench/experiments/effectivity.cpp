@@ -102,9 +102,9 @@ std::vector<MeasuredEffectivity> measure_effectivity(const CertifiedProblem& cer
 Columns<MeasuredEffectivity> effectivity_columns() {
   using M = MeasuredEffectivity;
   return scheme_columns<M>() +
-         Columns<M>{{"grid", "", "uniform, or adapted to an accuracy of 1e-4 (s = 1) or 1e-6", &M::grid},
-                    {"intervals", "", "number of intervals N", &M::intervals},
-                    {"quantity", "", "q, p, psi at the nodes (largest), or the cost", &M::quantity},
+         Columns<M>{{"grid", "", "uniform, or adapted to an accuracy of 1e-4 (s = 1) or 1e-6", &M::grid, in_key},
+                    {"intervals", "", "number of intervals N", &M::intervals, in_key},
+                    {"quantity", "", "q, p, psi at the nodes (largest), or the cost", &M::quantity, in_key},
                     {"status", "", "of the solve", &M::status},
                     {"estimated", "", "error by the estimate", &M::estimated},
                     {"true_error", "", "against the certified optimum", &M::true_error},

@@ -8,7 +8,7 @@ namespace dmocbench {
 /// The columns of the energy during one period, which is a member of a record.
 template <class Record>
 Columns<Record> period_energy_columns(PeriodEnergy Record::*energy) {
-  return {{"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period)},
+  return {{"period", "", "number of the period, from 0", from(energy, &PeriodEnergy::period), in_key},
           {"energy_smallest", "", "smallest error of the energy", from(energy, &PeriodEnergy::smallest)},
           {"energy_mean", "", "mean error over the period", from(energy, &PeriodEnergy::mean)},
           {"energy_largest", "", "largest error of the energy", from(energy, &PeriodEnergy::largest)}};

@@ -98,7 +98,7 @@ struct FittedQuantity {
 
 const Columns<FittedQuantity> fitted_columns =
     scheme_columns<FittedQuantity>() +
-    Columns<FittedQuantity>{{"quantity", "", "what shrinks with the step", &FittedQuantity::quantity}} +
+    Columns<FittedQuantity>{{"quantity", "", "what shrinks with the step", &FittedQuantity::quantity, in_key}} +
     fitted_order_columns(&FittedQuantity::fit);
 
 /// Points of several curves of one scheme, by the names of their quantities.
@@ -126,11 +126,11 @@ struct Drift {
 
 const Columns<Drift> drift_columns =
     scheme_columns<Drift>() +
-    Columns<Drift>{
-        {"steps", "", "number of steps", &Drift::steps},
-        {"h", "", "step", &Drift::h},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Drift::truncation},
-        {"drift", "", "max - min of the truncated modified energy over the motion", &Drift::drift}};
+    Columns<Drift>{{"steps", "", "number of steps", &Drift::steps, in_key},
+                   {"h", "", "step", &Drift::h},
+                   {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself",
+                    &Drift::truncation, in_key},
+                   {"drift", "", "max - min of the truncated modified energy over the motion", &Drift::drift}};
 
 struct FreeSystem {
   std::shared_ptr<const Problem> problem;
@@ -161,9 +161,10 @@ struct Gap {
 const Columns<Gap> gap_columns =
     scheme_columns<Gap>() +
     Columns<Gap>{
-        {"intervals", "", "number of intervals N", &Gap::intervals},
+        {"intervals", "", "number of intervals N", &Gap::intervals, in_key},
         {"h", "", "step", &Gap::h},
-        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Gap::truncation},
+        {"truncation", "", "order at which the modified energy is cut off: 2 is the energy itself", &Gap::truncation,
+         in_key},
         {"gap_to_work", "", "largest difference of its change and the virtual work over the nodes", &Gap::to_work},
         {"gap_to_modified_work", "", "the same to the modified work, cut off at the same order",
          &Gap::to_modified_work}};
@@ -180,7 +181,7 @@ constexpr auto balance_of = &PlainGap::balance;
 const Columns<PlainGap> plain_columns =
     scheme_columns<PlainGap>() +
     Columns<PlainGap>{
-        {"intervals", "", "number of intervals N", &PlainGap::intervals},
+        {"intervals", "", "number of intervals N", &PlainGap::intervals, in_key},
         {"h", "", "step", &PlainGap::h},
         {"energy_change", "", "E(T) - E(0)", from(balance_of, &EnergyBalance::change)},
         {"work", "", "virtual work of the control forces", from(balance_of, &EnergyBalance::work)},

@@ -40,7 +40,7 @@ class Iterations final : public ExperimentOf<Measured> {
     constexpr auto solution = &Measured::solution;
     constexpr auto fill = &Measured::fill;
     return {
-        {"crash", "", "first basis of sqp: none or basis", &Measured::crash},
+        {"crash", "", "first basis of sqp: none or basis", &Measured::crash, in_key},
         {"phase1_minors", "", "minor iterations of phase 1", from(solution, &Solution::phase_one_minor_iterations)},
         {"phase2_minors", "", "minor iterations of phase 2", from(solution, &Solution::phase_two_minor_iterations)},
         {"predicted_minors", "", "minor iterations by the law that counts variables and iterations",

@@ -38,7 +38,7 @@ class LocalMinima final : public ExperimentOf<Measured> {
              .takes_batches = true}) {}
   [[nodiscard]] Columns<Measured> columns() const override {
     return Columns<Measured>{
-               {"start", "", "number of the start; 0 is the guess itself", &Measured::start},
+               {"start", "", "number of the start; 0 is the guess itself", &Measured::start, in_key},
                {"bulge_1", "", "of the start in q_1, in ranges of that coordinate (--plane)", &Measured::bulge_1},
                {"bulge_2", "", "of the start in q_2, or of double frequency where there is no q_2",
                 &Measured::bulge_2}} +

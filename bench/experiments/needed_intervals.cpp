@@ -137,7 +137,7 @@ Columns<NeededGrid> needed_columns() {
   using N = NeededGrid;
   return scheme_columns<N>() +
          Columns<N>{
-             {"grid", "", "uniform, or adapted", &N::grid},
+             {"grid", "", "uniform, or adapted", &N::grid, in_key},
              {"accuracy", "", "relative error of q, p and cost that is asked for", &N::accuracy},
              {"status", "", "of the last solve, or why there is no such grid", &N::status},
              {"intervals", "", "number of intervals N", &N::intervals},
@@ -156,7 +156,7 @@ Columns<NeededGrid> needed_columns() {
 
 Columns<StepOfGrid> step_columns() {
   return scheme_columns<StepOfGrid>() +
-         Columns<StepOfGrid>{{"t", "", "time of a node", &StepOfGrid::t},
+         Columns<StepOfGrid>{{"t", "", "time of a node", &StepOfGrid::t, in_key},
                              {"step", "", "length of the interval that begins there", &StepOfGrid::step},
                              {"motion", "", "first component of q over its largest value", &StepOfGrid::motion}};
 }

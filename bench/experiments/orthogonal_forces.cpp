@@ -28,7 +28,7 @@ struct KeptMomentum {
 const Columns<KeptMomentum> kept_momentum_columns =
     scheme_columns<KeptMomentum>() +
     Columns<KeptMomentum>{
-        {"intervals", "", "number of intervals N", &KeptMomentum::intervals},
+        {"intervals", "", "number of intervals N", &KeptMomentum::intervals, in_key},
         {"h", "", "step", &KeptMomentum::h},
         {"objective", "", "cost of the optimal motion", &KeptMomentum::objective},
         {"momentum", "", "J_0 = p_0·xi", &KeptMomentum::momentum},

@@ -64,7 +64,7 @@ struct Rotated {
 const Columns<Rotated> rotated_columns =
     scheme_columns<Rotated>() +
     Columns<Rotated>{{"action", "", "of the rotations on the coordinates", &Rotated::action},
-                     {"axis", "", "1, 2 or 3", &Rotated::axis},
+                     {"axis", "", "1, 2 or 3", &Rotated::axis, in_key},
                      {"steps", "", "number of steps", &Rotated::steps},
                      {"h", "", "step", &Rotated::h},
                      {"momentum_change", "", "J_N - J_0 about this axis", &Rotated::change},

@@ -200,9 +200,9 @@ Table noether_table(int steps) {
     });
   }
   const Columns<Forced> columns{
-      {"force", "", "orthogonal to the group action, or along it", &Forced::force},
-      {"steps", "", "number of steps", &Forced::steps},
-      {"h", "", "step", &Forced::h},
+      {"force", "", "orthogonal to the group action, or along it", &Forced::force, in_key},
+      {"steps", "", "number of steps", &Forced::steps, in_key},
+      {"h", "", "step", &Forced::h, in_key},
       {"momentum_change", "", "J_N - J_0", &Forced::change},
       {"work", "", "sum of h b_i f·xi", &Forced::work},
       {"work_of_discrete_forces", "", "sum of f_d^-·xi(q_k) + f_d^+·xi(q_k+1); DMOC only",
@@ -220,7 +220,7 @@ SymplecticityTable symplecticity_table(const std::vector<MappedStates>& systems)
     for_all_maps(
         [&](const Element& element, const Tableau& tableau) { rows.push_back(unforced(system, element, tableau)); });
   }
-  const Columns<Unforced> columns{{"h", "", "step", &Unforced::h},
+  const Columns<Unforced> columns{{"h", "", "step", &Unforced::h, in_key},
                                   {"defect", "", "largest entry of D^T Omega D - Omega over some states",
                                    from(&Unforced::defect, &SymplecticityDefect::largest)},
                                   {"rounding", "", "machine epsilon times the largest square of an entry of D",

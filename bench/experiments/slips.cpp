@@ -214,8 +214,8 @@ Misprint figure_of_iterations() {
 }
 
 const Columns<Misprint> columns{
-    {"problem", "", "name of the problem", &Misprint::problem},
-    {"slip", "", "short name of the statement", &Misprint::name},
+    {"problem", "", "name of the problem", &Misprint::problem, in_key},
+    {"slip", "", "short name of the statement", &Misprint::name, in_key},
     {"where", "", "in the paper", &Misprint::where},
     {"printed", "", "what is printed", &Misprint::printed},
     {"meant", "", "what is meant", &Misprint::meant},

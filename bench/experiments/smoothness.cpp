@@ -40,7 +40,7 @@ struct MeasuredOrder {
 template <class Record>
 Columns<Record> situation_columns() {
   return Columns<Record>{
-             {"situation", "", "problem with its bounds and end", from(&Record::situation, &Situation::name)},
+             {"situation", "", "problem with its bounds and end", from(&Record::situation, &Situation::name), in_key},
              {"active", "", "which bounds are active along the optimum", from(&Record::situation, &Situation::active)},
              {"end", "", "fixed or free final state", from(&Record::situation, &Situation::end)}} +
          scheme_columns<Record>();
@@ -52,7 +52,7 @@ const Columns<Measured> error_columns =
         {"status", "", "of the solve", &Measured::status},
         {"reference", "", "closed form, or a finer grid",
          [](const Measured& m) { return m.is_exact ? "closed form" : "finer grid"; }},
-        {"intervals", "", "number of intervals N", &Measured::intervals},
+        {"intervals", "", "number of intervals N", &Measured::intervals, in_key},
         {"h", "", "step", &Measured::h},
         {"state_error", "", "largest error of (q, p) over the nodes", from(&Measured::error, &OptimumError::state)},
         {"costate_q_error", "", "of psi^q over the nodes", from(&Measured::error, &OptimumError::costate_q)},
@@ -63,9 +63,9 @@ const Columns<Measured> error_columns =
 
 const Columns<MeasuredOrder> order_columns =
     situation_columns<MeasuredOrder>() +
-    Columns<MeasuredOrder>{
-        {"order", "", "the tableau's order", &MeasuredOrder::order},
-        {"quantity", "", "whose error is fitted: the largest on a grid and all finer ones", &MeasuredOrder::quantity}} +
+    Columns<MeasuredOrder>{{"order", "", "the tableau's order", &MeasuredOrder::order},
+                           {"quantity", "", "whose error is fitted: the largest on a grid and all finer ones",
+                            &MeasuredOrder::quantity, in_key}} +
     fitted_order_columns(&MeasuredOrder::fit);
 
 /// The largest error on each grid and all finer ones. Where a kink lies inside an interval, the error's factor changes

@@ -105,9 +105,9 @@ Table step_table(const std::vector<SequenceStep>& steps) {
   const Columns<SequenceStep> columns =
       scheme_columns<SequenceStep>() +
       Columns<SequenceStep>{
-          {"intervals", "", "number of intervals N", &SequenceStep::intervals},
-          {"sequence", "", "receding_horizon or homotopy", &SequenceStep::sequence},
-          {"step", "", "number of the step, from 1", &SequenceStep::number},
+          {"intervals", "", "number of intervals N", &SequenceStep::intervals, in_key},
+          {"sequence", "", "receding_horizon or homotopy", &SequenceStep::sequence, in_key},
+          {"step", "", "number of the step, from 1", &SequenceStep::number, in_key},
           {"status", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::status)},
           {"iterations", "", "of the warm solve", from(&SequenceStep::warm, &StepSolve::iterations)},
           {"microseconds", "us", "of the warm solve, the solver alone",
@@ -170,8 +170,8 @@ Columns<SummarisedSteps> summary_columns() {
   const auto warm = [](const SequenceStep& step) { return &step.warm; };
   const auto cold = [](const SequenceStep& step) { return step.cold ? &*step.cold : nullptr; };
   return scheme_columns<Steps>() +
-         Columns<Steps>{{"intervals", "", "number of intervals N", &Steps::intervals},
-                        {"sequence", "", "receding_horizon or homotopy", &Steps::sequence},
+         Columns<Steps>{{"intervals", "", "number of intervals N", &Steps::intervals, in_key},
+                        {"sequence", "", "receding_horizon or homotopy", &Steps::sequence, in_key},
                         {"steps", "", "number of steps", [](const Steps& of) { return of.steps.size(); }},
                         {"solved", "", "how many of them were solved", &Steps::solved}} +
          quantile_columns("iterations", "", "iterations of a warm solve", warm, &StepSolve::iterations) +

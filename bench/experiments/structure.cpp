@@ -39,8 +39,8 @@ struct EnergyOrder {
 template <class Record>
 Columns<Record> ellipse_columns() {
   return scheme_columns<Record>() +
-         Columns<Record>{{"order", "", "order of the method", &Record::order},
-                         {"steps_per_period", "", "steps per period", &Record::steps_per_period}};
+         Columns<Record>{{"order", "", "order of the method", &Record::order, in_key},
+                         {"steps_per_period", "", "steps per period", &Record::steps_per_period, in_key}};
 }
 
 const Columns<EnergyOfPeriod> period_columns =
@@ -48,12 +48,12 @@ const Columns<EnergyOfPeriod> period_columns =
 
 const Columns<EnergyOfPeriods> behaviour_columns =
     ellipse_columns<EnergyOfPeriods>() +
-    Columns<EnergyOfPeriods>{{"periods", "", "number of periods", &EnergyOfPeriods::periods}} +
+    Columns<EnergyOfPeriods>{{"periods", "", "number of periods", &EnergyOfPeriods::periods, in_key}} +
     energy_behaviour_columns(&EnergyOfPeriods::energy);
 
 const Columns<EnergyOrder> order_columns =
     scheme_columns<EnergyOrder>() +
-    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity}} +
+    Columns<EnergyOrder>{{"quantity", "", "what shrinks with the step", &EnergyOrder::quantity, in_key}} +
     fitted_order_columns(&EnergyOrder::fit);
 
 struct EnergyResults {

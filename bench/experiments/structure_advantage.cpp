@@ -53,7 +53,7 @@ class StructureAdvantage final : public ExperimentOf<Measured> {
 
   [[nodiscard]] Columns<Measured> columns() const override {
     return {
-        {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation},
+        {"factorisation", "", "how interior_point solves its linear systems", &Measured::factorisation, in_key},
         {"linear_systems", "", "linear systems of the solve", &Measured::linear_systems},
         {"seconds_per_iteration", "s", "wall clock of the solve by iterations", &Measured::per_iteration},
         {"linear_algebra_per_iteration", "s", "the same without evaluations", &Measured::linear_algebra_per_iteration},

@@ -46,12 +46,13 @@ class Sweep final : public ExperimentOf<Instance> {
     line.number("--seed", seed_, 0, 0xffffffffU, "of the samples; the same seed gives the same instances");
   }
   [[nodiscard]] Columns<Instance> columns() const override {
-    Columns<Instance> columns{{"instance", "", "number of the instance", &Instance::number}};
-    for (std::size_t i = 0; i < over_.size(); ++i) {
-      columns.push_back({over_[i].substr(0, over_[i].find('=')), "", "its value",
-                         [i](const Instance& instance) { return instance.values.at(i); }});
-    }
-    return columns;
+    std::vector<std::string> names;
+    for (const std::string& over : over_) names.push_back(over.substr(0, over.find('=')));
+    const auto value = [](std::size_t i) {
+      return [i](const Instance& instance) { return instance.values.at(i); };
+    };
+    return Columns<Instance>{{"instance", "", "number of the instance", &Instance::number, in_key}} +
+           column_group<Instance>(names, "", "its value", value);
   }
   [[nodiscard]] std::vector<Case> cases(const std::vector<Case>& chosen) override {
     const std::vector<SweptQuantity> quantities = read_instances();

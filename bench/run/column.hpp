@@ -67,7 +67,11 @@ struct Column {
   std::string unit;          ///< empty for texts, counts and numbers without unit
   std::string meaning;       ///< in words, for `--help`
   FieldReader<Record> cell;  ///< the record's field
+  bool is_key = false;       ///< whether it is part of the table's key
 };
+
+/// Behind a column's field: the column is part of the key, by which the rows of a table are told apart.
+inline constexpr bool in_key = true;
 
 /// The columns of a table whose rows are made of records.
 template <class Record>
@@ -87,6 +91,16 @@ template <class Record>
   std::vector<std::string> names;
   for (const Column<Record>& column : columns) names.push_back(column.name);
   return names;
+}
+
+/// The names of the columns that are the key.
+template <class Record>
+[[nodiscard]] std::vector<std::string> key_of(const Columns<Record>& columns) {
+  std::vector<std::string> key;
+  for (const Column<Record>& column : columns) {
+    if (column.is_key) key.push_back(column.name);
+  }
+  return key;
 }
 
 /// What columns mean by their names: "[UNIT] MEANING". Columns that another table explains are not among them.
@@ -116,6 +130,7 @@ template <class Record, std::ranges::input_range Records = std::vector<Record>>
   Table table(names_of(columns));
   table.explain(meanings_of(columns));
   table.declare(types_of(columns));
+  table.set_key(key_of(columns));
   for (const Record& record : records) table.append(row_of(columns, record));
   return table;
 }
@@ -145,19 +160,28 @@ template <class Record, class Part, class Function>
   Columns<Record> result;
   for (const Column<Part>& column : columns) {
     const auto read = [part, cell = column.cell](const Record& record) { return cell(std::invoke(part, record)); };
-    result.push_back({column.name, column.unit, column.meaning, FieldReader<Record>(read, column.cell.type())});
+    result.push_back({column.name, column.unit, column.meaning, FieldReader<Record>(read, column.cell.type()), column.is_key});
   }
   return result;
 }
 
+/// A group of columns of variable count, one for each name; `cell_of(i)` reads the field of the i-th.
+template <class Record, class CellOf>
+[[nodiscard]] Columns<Record> column_group(const std::vector<std::string>& names, const std::string& unit,
+                                           const std::string& meaning, const CellOf& cell_of) {
+  Columns<Record> columns;
+  for (std::size_t i = 0; i < names.size(); ++i) columns.push_back({names[i], unit, meaning, cell_of(i)});
+  return columns;
+}
+
 /// Columns that a summary takes over from a row of what it sums up, `Record::head`; the table of that row explains
-/// them.
+/// them. `is_key`: they are part of the summary's key.
 template <class Record>
-[[nodiscard]] Columns<Record> head_columns(const std::vector<std::string>& names) {
+[[nodiscard]] Columns<Record> head_columns(const std::vector<std::string>& names, bool is_key = false) {
   Columns<Record> columns;
   for (const std::string& name : names) {
     const auto text = [name](const Record& record) { return Cell(record.head.text(name)); };
-    columns.push_back({name, "", "", FieldReader<Record>(text, FieldType())});
+    columns.push_back({name, "", "", FieldReader<Record>(text, FieldType()), is_key});
   }
   return columns;
 }
@@ -212,10 +236,10 @@ struct Scheme {
 template <class Record>
 [[nodiscard]] Columns<Record> scheme_columns() {
   constexpr auto scheme = &Record::scheme;
-  return {{"problem", "", "name of the problem", from(scheme, &Scheme::problem)},
-          {"method", "", "family of elements, or another integrator", from(scheme, &Scheme::method)},
-          {"tableau", "", "family of Butcher tableaus", from(scheme, &Scheme::tableau)},
-          {"stages", "", "number of stages s", from(scheme, &Scheme::stages)}};
+  return {{"problem", "", "name of the problem", from(scheme, &Scheme::problem), in_key},
+          {"method", "", "family of elements, or another integrator", from(scheme, &Scheme::method), in_key},
+          {"tableau", "", "family of Butcher tableaus", from(scheme, &Scheme::tableau), in_key},
+          {"stages", "", "number of stages s", from(scheme, &Scheme::stages), in_key}};
 }
 
 /// The standard error of a fitted order; none with two points.

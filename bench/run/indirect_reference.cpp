@@ -118,7 +118,7 @@ constexpr auto solution_of = &Entry::solution;
 constexpr auto agreement_of = &IndirectSolution::agreement;
 constexpr auto extremal_of = &IndirectSolution::extremal;
 const Columns<Entry> reference_columns{
-    {"problem", "", "name of the problem", from(&Entry::problem)},
+    {"problem", "", "name of the problem", from(&Entry::problem), in_key},
     {"cost", "cost", "optimal cost", from(solution_of, &IndirectSolution::cost)},
     {"certified_digits", "", "digits that two runs of different order and grid share",
      from(solution_of, &IndirectSolution::certified_digits)},
@@ -214,6 +214,7 @@ Table IndirectReference::table() const {
   Table table(names);
   table.explain(meanings_of(reference_columns));
   table.declare(types_of(reference_columns));
+  table.set_key(key_of(reference_columns));
   for (const std::string& name : names) {  // what the columns above do not explain
     table.explain({{name, "costate at t = 0"}});
     table.declare({{name, {FieldKind::number, true}}});

@@ -88,6 +88,7 @@ void add_type(FieldType type, Json& property) {
 void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table) {
   Json& told = metadata["tables"][file.filename().string()];
   if (told.is_null()) told = Json::object();
+  told["key"] = table.key();
   for (const std::string& column : table.columns()) {
     const auto meaning = table.meanings().find(column);
     if (meaning != table.meanings().end()) told["meanings"][column] = meaning->second;
@@ -108,6 +109,7 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files, con
   Json tables = describe_tables(files);
   for (const auto& [file, told] : tables.items()) {
     const Json of_file = noted.value(file, Json::object());
+    const auto key = of_file.value("key", rows.key());
     const auto columns = told.at("columns").get<std::vector<std::string>>();  // an entry more may move the others
     std::vector<DeclaredColumn> declarations;
     for (const std::string& column : columns) {
@@ -115,12 +117,13 @@ void describe_tables_of_run(const std::vector<std::filesystem::path>& files, con
       if (const std::string meaning = meaning_of(column, of_file, rows); !meaning.empty())
         told["meanings"][column] = meaning;
     }
-    told["schema"] = row_schema(file, declarations);
+    told["schema"] = row_schema(file, declarations, key);
   }
   metadata["tables"] = std::move(tables);
 }
 
-nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns) {
+nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns,
+                                  const std::vector<std::string>& key) {
   Json properties = Json::object();
   Json names = Json::array();
   for (const DeclaredColumn& column : columns) {
@@ -141,13 +144,14 @@ nlohmann::ordered_json row_schema(const std::string& title, const std::vector<De
           {"type", "object"},
           {"properties", properties},
           {"required", names},
+          {"primaryKey", key},
           {"additionalProperties", false}};
 }
 
 nlohmann::ordered_json row_schema(const std::string& title, const Table& table) {
   std::vector<DeclaredColumn> columns;
   for (const std::string& column : table.columns()) columns.push_back(declaration_of(column, Json::object(), table));
-  return row_schema(title, columns);
+  return row_schema(title, columns, table.key());
 }
 
 nlohmann::ordered_json metadata_schema() {

@@ -11,8 +11,9 @@
 
 namespace dmocbench {
 
-/// Adds what the columns of a table mean, "[s] median time of a solve", and what they hold to what a run's metadata
-/// tell of its file, as `metadata["tables"][FILE]["meanings"]` and `["types"]`, which `describe_tables_of_run` reads.
+/// Adds what the columns of a table mean, "[s] median time of a solve", what they hold and which are its key to what a
+/// run's metadata tell of its file, as `metadata["tables"][FILE]["meanings"]`, `["types"]` and `["key"]`, which
+/// `describe_tables_of_run` reads.
 /// Columns that the table lacks are left out.
 void add_meanings(nlohmann::ordered_json& metadata, const std::filesystem::path& file, const Table& table);
 
@@ -39,8 +40,10 @@ struct DeclaredColumn {
 
 /// The JSON Schema (draft 2020-12) of a row as an object: a property per column with its type, its meaning and, as
 /// "unit", its unit, where they are known; all are required, others are not allowed. Empty fields are null, those of
-/// columns of texts texts, others that read as numbers numbers; booleans are 0 or 1.
-[[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns);
+/// columns of texts texts, others that read as numbers numbers; booleans are 0 or 1. "primaryKey" names the columns of
+/// the key, by which rows are told apart; none where nobody has said it.
+[[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const std::vector<DeclaredColumn>& columns,
+                                                const std::vector<std::string>& key = {});
 
 /// The JSON Schema of the rows of a table, by what it says of its columns itself.
 [[nodiscard]] nlohmann::ordered_json row_schema(const std::string& title, const Table& table);

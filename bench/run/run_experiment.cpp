@@ -37,7 +37,8 @@ std::vector<Case> cases_of(Experiment& experiment) {
 Columns<MeasuredCase> columns_of(const ExperimentCard& card, const OwnColumns& own) {
   const auto solved = [](const MeasuredCase& one) -> const SolvedCase& { return one.solved; };
   const auto rounds = [](const MeasuredCase& one) { return seconds_of_rounds(one.solved); };
-  const Columns<MeasuredCase> columns = columns_through<MeasuredCase>(solved, core_columns()) + own.columns;
+  Columns<MeasuredCase> columns = columns_through<MeasuredCase>(solved, core_columns()) + own.columns;
+  std::ranges::find(columns, "tolerance", &Column<MeasuredCase>::name)->is_key = !card.options.tolerances.empty();
   return card.takes_turns ? columns + columns_through<MeasuredCase>(rounds, round_columns()) : columns;
 }
 

@@ -52,13 +52,14 @@ double horizon_of(const SolvedCase& solved) {
 const Columns<SolvedCase>& core_columns() {
   using P = const NonlinearProgram&;
   static const Columns<SolvedCase> columns{
-      {"problem", "", "name of the problem", [](const SolvedCase& s) { return s.the_case.problem->name(); }},
-      {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method)},
-      {"tableau", "", "family of Butcher tableaus", from(&SolvedCase::the_case, &Case::tableau)},
-      {"stages", "", "number of stages s", from(&SolvedCase::the_case, &Case::stages)},
-      {"solver", "", "who solved the program", from(&SolvedCase::the_case, &Case::solver)},
-      {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives)},
-      {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals)},
+      {"problem", "", "name of the problem", [](const SolvedCase& s) { return s.the_case.problem->name(); }, in_key},
+      {"method", "", "family of elements", from(&SolvedCase::the_case, &Case::method), in_key},
+      {"tableau", "", "family of Butcher tableaus", from(&SolvedCase::the_case, &Case::tableau), in_key},
+      {"stages", "", "number of stages s", from(&SolvedCase::the_case, &Case::stages), in_key},
+      {"solver", "", "who solved the program", from(&SolvedCase::the_case, &Case::solver), in_key},
+      {"derivatives", "", "back end of the solver's derivatives", from(&SolvedCase::the_case, &Case::derivatives),
+       in_key},
+      {"intervals", "", "number of intervals N", from(&SolvedCase::the_case, &Case::intervals), in_key},
       {"step", "time", "largest step of the start, in the problem's unit of time", largest_step},
       {"horizon", "time", "T of the answer, or the guessed one, in the problem's unit of time", horizon_of},
       {"settings", "", "parameters that differ from their defaults, with spaces between them: mass=2 length=0.5",

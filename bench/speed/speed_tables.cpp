@@ -151,8 +151,8 @@ struct SolvesOfPair {
 
 Columns<SolvesOfPair> pair_columns() {
   using Pair = SolvesOfPair;
-  return head_columns<Pair>({"problem", "method", "intervals"}) +
-         Columns<Pair>{{"quantity", "", "in which the two solves differ: solver or threads", &Pair::quantity},
+  return head_columns<Pair>({"problem", "method", "intervals"}, in_key) +
+         Columns<Pair>{{"quantity", "", "in which the two solves differ: solver or threads", &Pair::quantity, in_key},
                        {"ratio", "", "of their seconds, Ipopt's or one thread's above",
                         [](const Pair& pair) { return pair.ratio_of("seconds"); }},
                        {"ratio_of_smallest", "", "of their smallest seconds",
@@ -173,7 +173,7 @@ struct TimesOverGrids {
 
 Columns<TimesOverGrids> exponent_columns() {
   constexpr auto line = &TimesOverGrids::line;
-  return head_columns<TimesOverGrids>({"problem", "method", "solver", "threads"}) +
+  return head_columns<TimesOverGrids>({"problem", "method", "solver", "threads"}, in_key) +
          Columns<TimesOverGrids>{
              {"exponent", "", "of N in the time per iteration", from(line, &FittedOrder::order)},
              {"standard_error", "", "of the exponent", from(line, &FittedOrder::standard_error)},

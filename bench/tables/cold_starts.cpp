@@ -84,13 +84,13 @@ Columns<EndsOfCell> share_columns(const std::string& name, const std::string& me
 /// Every row of the tables says so itself.
 template <class Record>
 Column<Record> start_kind_column() {
-  return {"start_kind", "", "what solves start from", [](const Record& /*record*/) { return "cold"; }};
+  return {"start_kind", "", "what solves start from", [](const Record& /*record*/) { return "cold"; }, in_key};
 }
 
 Columns<EndsOfCell> columns_of_ends() {
   using Ends = EndsOfCell;
   Columns<Ends> columns =
-      head_columns<Ends>(cell_columns) +
+      head_columns<Ends>(cell_columns, in_key) +
       Columns<Ends>{start_kind_column<Ends>(),
                     {"starts", "", "number of starts", from(&Ends::solved, &ShareCount::trials)}} +
       share_columns("solved", "how many ended at a confirmed optimum of the discrete program", &Ends::solved) +
@@ -193,12 +193,12 @@ struct BudgetPoint {
 };
 
 Columns<BudgetPoint> profile_columns() {
-  return head_columns<BudgetPoint>(cell_columns) +
+  return head_columns<BudgetPoint>(cell_columns, in_key) +
          Columns<BudgetPoint>{
              start_kind_column<BudgetPoint>(),
-             {"measure", "", "what the budget is counted in", &BudgetPoint::measure},
-             {"budget", "", "largest number of evaluations, or of seconds, that a solve may take",
-              &BudgetPoint::budget},
+             {"measure", "", "what the budget is counted in", &BudgetPoint::measure, in_key},
+             {"budget", "", "largest number of evaluations, or of seconds, that a solve may take", &BudgetPoint::budget,
+              in_key},
              {"share", "", "of all starts that are solved and confirmed within the budget", &BudgetPoint::share}};
 }
 

@@ -134,10 +134,10 @@ struct FittedCurve {
 
 Columns<FittedCurve> order_columns() {
   using Curve = FittedCurve;
-  return head_columns<Curve>(scheme_names) +
+  return head_columns<Curve>(scheme_names, in_key) +
          Columns<Curve>{
              {"quantity", "", "the error whose order is fitted: the column of that name with _error behind it",
-              &Curve::quantity},
+              &Curve::quantity, in_key},
              {"slope", "", "fitted order; empty where the verdict is not \"slope\"",
               from(&Curve::order, &FittedOrder::order)},
              {"standard_error", "", "of the order; empty with two points", from(&Curve::order, standard_error_of)},
@@ -208,7 +208,7 @@ double error_of_jumps(const Row& grid) {
 
 Columns<JumpsOfCurve> jump_columns() {
   constexpr auto orders = &JumpsOfCurve::orders;
-  return head_columns<JumpsOfCurve>(scheme_names) +
+  return head_columns<JumpsOfCurve>(scheme_names, in_key) +
          Columns<JumpsOfCurve>{
              {"jump_slope", "", "fitted order of the largest jump of an interval that is replayed alone",
               from(orders, &TwoOrders::jump, &FittedOrder::order)},

@@ -67,23 +67,22 @@ struct Minimum {
 const char* is_motion_in_words(const Selection& minimum) { return yes_or_no(is_motion(minimum)); }
 
 Columns<Minimum> minimum_columns(const std::vector<std::string>& methods) {
-  Columns<Minimum> columns =
-      head_columns<Minimum>(group_columns) +
-      Columns<Minimum>{
-          {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number},
-          {"objective", "cost", "the lowest among the answers that are this minimum", &Minimum::objective},
-          {"is_best", "", "yes for the lowest minimum that is a motion", from(&Minimum::is_best, yes_or_no)},
-          {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
-           from(&Minimum::answers, is_motion_in_words)},
-          {"replay_confirmed", "", "yes if the replay of the whole horizon ends near the final state for some answer",
-           [](const Minimum& minimum) {
-             return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
-           }}};
-  for (const std::string& method : methods) {
-    columns.push_back({method, "", "how often this method ended there",
-                       [method](const Minimum& minimum) { return minimum.answers.where("method", method).size(); }});
-  }
-  return columns;
+  const auto found_by = [&](std::size_t i) {
+    return [method = methods[i]](const Minimum& minimum) { return minimum.answers.where("method", method).size(); };
+  };
+  return head_columns<Minimum>(group_columns, in_key) +
+         Columns<Minimum>{
+             {"minimum", "", "number of the minimum, from the lowest cost upwards", &Minimum::number, in_key},
+             {"objective", "cost", "the lowest among the answers that are this minimum", &Minimum::objective},
+             {"is_best", "", "yes for the lowest minimum that is a motion", from(&Minimum::is_best, yes_or_no)},
+             {"is_motion", "", "yes if the intervals of some answer, replayed one by one, join",
+              from(&Minimum::answers, is_motion_in_words)},
+             {"replay_confirmed", "",
+              "yes if the replay of the whole horizon ends near the final state for some answer",
+              [](const Minimum& minimum) {
+                return yes_or_no(has_at_most(minimum.answers, "replay_error", confirmed_replay));
+              }}} +
+         column_group<Minimum>(methods, "", "how often this method ended there", found_by);
 }
 
 /// A start, and the minimum that it ended in, if it ended in one.
@@ -94,8 +93,10 @@ struct StartInPlane {
 };
 
 Columns<StartInPlane> basin_columns() {
-  return head_columns<StartInPlane>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals",
-                                     "bulge_1", "bulge_2", "status"}) +
+  return head_columns<StartInPlane>(
+             {"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals", "bulge_1", "bulge_2"},
+             in_key) +
+         head_columns<StartInPlane>({"status"}) +
          Columns<StartInPlane>{
              {"minimum", "", "number of the minimum, from the lowest cost upwards", &StartInPlane::number},
              {"objective", "cost", "the lowest among the answers that are this minimum",
@@ -117,7 +118,8 @@ struct StartsOfMethod {
 
 Columns<StartsOfMethod> best_share_columns() {
   using Starts = StartsOfMethod;
-  return head_columns<Starts>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"}) +
+  return head_columns<Starts>({"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"},
+                              in_key) +
          Columns<Starts>{{"starts", "", "number of starts", from(&Starts::best, &ShareCount::trials)},
                          {"solved", "", "how many were solved", &Starts::solved},
                          {"unsolved", "", "how many were not solved",

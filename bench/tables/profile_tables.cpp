@@ -77,7 +77,7 @@ struct Standing {
 
 Columns<Standing> standing_columns() {
   Columns<Standing> columns =
-      head_columns<Standing>(competitor_columns) +
+      head_columns<Standing>(competitor_columns, in_key) +
       Columns<Standing>{{"instances", "", "problems, each on every number of intervals", &Standing::instances},
                         {"successes", "", "instances that were solved to the reference", &Standing::successes},
                         {"common", "", "instances on which all competitors succeed", &Standing::common}};

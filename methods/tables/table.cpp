@@ -72,6 +72,11 @@ double Row::needed(std::string_view column) const {
                           field.empty() ? "there is no number" : "\"" + field + "\" is no finite number"));
 }
 
+std::vector<std::string> Row::columns() const {
+  const auto names = std::views::keys(cells_);
+  return {names.begin(), names.end()};
+}
+
 std::vector<double> Row::numbers(std::string_view column) const {
   note_read_field(place_, column, true);
   const std::string& field = text(column);

@@ -58,6 +58,8 @@ class Row {
   [[nodiscard]] std::optional<double> number(std::string_view column) const;
   /// The field as a number that has to be there. Throws `Error` that names the place, the column and what stands there.
   [[nodiscard]] double needed(std::string_view column) const;
+  /// The names of the columns in which the row has a cell, in their alphabetical order.
+  [[nodiscard]] std::vector<std::string> columns() const;
   /// The numbers of a field that holds several (`joined_numbers`); none if it is empty. Throws `Error` that names the
   /// place and the column if something else stands there.
   [[nodiscard]] std::vector<double> numbers(std::string_view column) const;
@@ -111,6 +113,10 @@ class Table {
   [[nodiscard]] const std::map<std::string, FieldType>& types() const noexcept { return types_; }
   /// Says what columns hold; what was said before stays.
   void declare(const std::map<std::string, FieldType>& types) { types_.insert(types.begin(), types.end()); }
+  /// The columns by which rows are told apart; empty if nobody has said it. It is not part of `csv`.
+  [[nodiscard]] const std::vector<std::string>& key() const noexcept { return key_; }
+  /// Says by which columns rows are told apart.
+  void set_key(std::vector<std::string> key) { key_ = std::move(key); }
   /// Removes all rows.
   void clear() { rows_.clear(); }
   /// Gives every row its place in a file of this name.
@@ -126,6 +132,7 @@ class Table {
   std::vector<Row> rows_;
   std::map<std::string, std::string> meanings_;  ///< by the names of columns, which need not have one
   std::map<std::string, FieldType> types_;       ///< by the names of columns, which need not have one
+  std::vector<std::string> key_;                 ///< names of columns
 };
 
 }  // namespace dmocbench

@@ -67,6 +67,19 @@ TEST(Column, KnowsWhatItHoldsByTheTypeThatItsGetterReturns) {
   EXPECT_FALSE(types.contains("anything"));
 }
 
+TEST(Column, IsPartOfTheKeyOfItsTable) {
+  const Columns<Cart> carts{{"name", "", "", &Cart::name, in_key},
+                            {"diameter", "m", "", from(&Cart::front, &Wheel::diameter)},
+                            {"spokes", "", "", from(&Cart::front, &Wheel::spokes), in_key}};
+  EXPECT_EQ(table_of(carts, std::vector<Cart>{}).key(), (std::vector<std::string>{"name", "spokes"}));
+}
+
+TEST(Column, OfAGroupHasTheFieldOfItsPlace) {
+  const auto letter = [](std::size_t i) { return [i](const Cart& cart) { return cart.name.substr(i, 1); }; };
+  const auto letters = column_group<Cart>({"first", "second"}, "", "a letter of its name", letter);
+  EXPECT_EQ(row_of(letters, Cart{"ox", {}, {}, {}}).csv(names_of(letters)), "o,x\n");
+}
+
 TEST(Column, IsDescribedWithItsUnit) {
   const std::string text = describe(columns);
   EXPECT_NE(text.find("  name: what it is called\n"), std::string::npos) << text;

@@ -37,7 +37,7 @@ std::optional<double> cost_of(const std::optional<Trajectory>& motion) {
 }
 
 const Columns<PlannedMotion> columns{
-    {"problem", "", "name of the problem", [](const PlannedMotion& p) { return p.problem->name(); }},
+    {"problem", "", "name of the problem", [](const PlannedMotion& p) { return p.problem->name(); }, in_key},
     {"states", "", "what the nodes are", [](const PlannedMotion& p) { return p.system->nodes; }},
     {"horizontal", "", "x of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).x; }},
     {"vertical", "", "y of primitives_picture", [](const PlannedMotion& p) { return picture_axes(p).y; }},

@@ -48,8 +48,8 @@ constexpr auto errors = &Measured::errors;
 const Columns<Measured> columns =
     scheme_columns<Measured>() +
     Columns<Measured>{
-        {"revolutions", "", "number of revolutions d", &Measured::revolutions},
-        {"steps_per_revolution", "", "N/d", &Measured::steps},
+        {"revolutions", "", "number of revolutions d", &Measured::revolutions, in_key},
+        {"steps_per_revolution", "", "N/d", &Measured::steps, in_key},
         {"intervals", "", "number of intervals N", [](const Measured& m) { return m.revolutions * m.steps; }},
         {"h", "", "step", &Measured::h},
         {"status", "", "of the solve", &Measured::status},
@@ -76,8 +76,8 @@ struct Reference {
   double cost = 0.0;
 };
 const Columns<Reference> reference_columns{
-    {"problem", "", "name of the problem", &Reference::problem},
-    {"revolutions", "", "number of revolutions d", &Reference::revolutions},
+    {"problem", "", "name of the problem", &Reference::problem, in_key},
+    {"revolutions", "", "number of revolutions d", &Reference::revolutions, in_key},
     {"reference", "", "indirect solution, or a fine grid on which two methods agree", &Reference::kind},
     {"digits", "", "that two routes share", &Reference::digits},
     {"cost", "cost", "J", &Reference::cost}};

@@ -34,21 +34,28 @@ struct Order {
 };
 using ErrorOrder = OnEllipse<Order>;
 
+/// The eccentricity as it was asked for, without the digits of its rounding.
+template <class Record>
+FieldReader<Record> eccentricity_of() {
+  return {[](const Record& row) { return Cell(fmt::format("{:g}", row.eccentricity)); },
+          FieldType{FieldKind::number, false}};
+}
+
 template <class Record>
 Columns<Record> choice_columns() {
-  return {
-      {"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }},
-      {"eccentricity", "", "of the ellipse", [](const Record& row) { return fmt::format("{:g}", row.eccentricity); }},
-      {"rule", "",
-       "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
-       "h = pace * sigma(q_k), known before the step (from_left)",
-       from(&Record::choice, &StepChoice::rule_name)},
-      {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name)},
-      {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages)}};
+  return {{"problem", "", "name of the problem", [](const Record& /*row*/) { return "kepler"; }, in_key},
+          {"eccentricity", "", "of the ellipse", eccentricity_of<Record>(), in_key},
+          {"rule", "",
+           "uniform; h = pace * sigma as part of the principle (variational) or imposed on plain DMOC (imposed); "
+           "h = pace * sigma(q_k), known before the step (from_left)",
+           from(&Record::choice, &StepChoice::rule_name), in_key},
+          {"sigma", "", "quantity on which the step function depends", from(&Record::choice, &StepChoice::sigma_name),
+           in_key},
+          {"stages", "", "Gauss stages", from(&Record::choice, &StepChoice::stages), in_key}};
 }
 template <class Record>
-Column<Record> steps_per_period() {
-  return {"steps_per_period", "", "steps in a period of the unforced motion", &Record::steps};
+Column<Record> steps_per_period(bool is_key = false) {
+  return {"steps_per_period", "", "steps in a period of the unforced motion", &Record::steps, is_key};
 }
 
 const Columns<Symplecticity> symplecticity_columns =
@@ -68,7 +75,7 @@ const Columns<Momentum> momentum_columns =
                        from(&Momentum::result, &ControlledSteps::Momentum::defect)}};
 
 const Columns<EnergyOfPeriod> energy_columns = choice_columns<EnergyOfPeriod>() +
-                                               Columns<EnergyOfPeriod>{steps_per_period<EnergyOfPeriod>()} +
+                                               Columns<EnergyOfPeriod>{steps_per_period<EnergyOfPeriod>(in_key)} +
                                                period_energy_columns(&EnergyOfPeriod::result);
 
 const Columns<EnergyOfPeriods> behaviour_columns =
@@ -81,7 +88,7 @@ constexpr auto period_error = &PeriodError::result;
 const Columns<PeriodError> error_columns =
     choice_columns<PeriodError>() +
     Columns<PeriodError>{
-        steps_per_period<PeriodError>(),
+        steps_per_period<PeriodError>(in_key),
         {"status", "", "solved, or step failed: the equations of a step that is too large have no solution",
          [](const PeriodError& row) { return row.result ? "solved" : "step failed"; }},
         {"state_error", "", "max over a period of |(q, v) - exact|, each node at its own time",
@@ -111,13 +118,14 @@ struct Transfer {
 constexpr auto solved = &Transfer::solved;
 constexpr auto transfer_errors = &OptimalSteps::errors;
 const Columns<Transfer> transfer_columns{
-    {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }},
-    {"eccentricity", "", "of both ellipses", [](const Transfer& row) { return fmt::format("{:g}", row.eccentricity); }},
+    {"problem", "", "name of the problem", [](const Transfer& /*row*/) { return "ellipse_transfer"; }, in_key},
+    {"eccentricity", "", "of both ellipses", eccentricity_of<Transfer>(), in_key},
     {"rule", "", "uniform; proportional to sigma along the optimum (imposed); part of the principle (variational)",
-     from(&Transfer::choice, &StepChoice::rule_name)},
-    {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name)},
-    {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages)},
-    {"intervals", "", "number of intervals N", &Transfer::intervals},
+     from(&Transfer::choice, &StepChoice::rule_name), in_key},
+    {"sigma", "", "quantity on which the step function depends", from(&Transfer::choice, &StepChoice::sigma_name),
+     in_key},
+    {"stages", "", "Gauss stages", from(&Transfer::choice, &StepChoice::stages), in_key},
+    {"intervals", "", "number of intervals N", &Transfer::intervals, in_key},
     {"variables", "", "of the program", from(solved, &OptimalSteps::variables)},
     {"status", "", "of the solve", from(solved, &OptimalSteps::status)},
     {"reference_digits", "", "of the indirect solution", &Transfer::digits},
