@@ -24,7 +24,12 @@ int judge_all(CommandLine& line) {
   line.option("--out", out, "the results folder");
   line.list("--require", required, "claims that have to be reproduced; exit code 1 if one is not");
   line.parse();
-  std::vector<JudgedClaim> claims = judge_claims(ResultTables::read(out));
+  const ResultTables tables = ResultTables::read(out);
+  std::vector<JudgedClaim> claims = judge_claims(tables);
+  if (!tables.has_any()) {
+    throw Error(fmt::format("there is no table that a claim reads in {0}; run an experiment with --out {0} first",
+                            out.string()));
+  }
   tell_missing_evidence(claims, out);
   const std::vector<std::string> missed = not_reproduced(claims, required);
   write_file(out / "claims.csv", claims_table(claims).csv());

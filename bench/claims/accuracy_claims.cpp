@@ -39,6 +39,7 @@ Finding replay_beside_tangent(const ResultTables& tables, const std::string& pro
 /// What rounding leaves of the momentum balance on the finest grid.
 Finding rounding_floor(const ResultTables& tables, const std::string& problem) {
   const Selection rows = tables.rows("consistency", problem).where(is_midpoint).usable();
+  for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const Selection tightest = rows.where("tolerance", rows.sorted_by("tolerance").front().text("tolerance"));
   const auto finest = [&](const char* method) {
     const Selection of_method = tightest.where("method", method).sorted_by("intervals");

@@ -60,6 +60,17 @@ Finding finding_of(const Judge& judge) {
   }
 }
 
+/// The same of a judge that reads tables. A column that is not there would be read as empty fields, so it is asked for
+/// behind.
+template <std::invocable Judge>
+Finding finding_in(const ResultTables& tables, const ReadFields& fields, const Judge& judge) {
+  Finding finding = finding_of(judge);
+  return finding_of([&] {
+    tables.require_columns(fields);
+    return finding;
+  });
+}
+
 bool is_equal(double value, double required) {
   constexpr double tolerance = 1e-6;
   return std::abs(value - required) < tolerance * std::max(1.0, std::abs(required));
@@ -98,7 +109,7 @@ std::vector<JudgedClaim> judge_misprints(const ResultTables& tables) {
   try {
     for (const Row& row : tables.rows("slips")) {
       const ReadFields fields;
-      Finding finding = finding_of([&] { return judge_misprint(row); });
+      Finding finding = finding_in(tables, fields, [&] { return judge_misprint(row); });
       append(row.text("problem") + "/" + row.text("slip"), row, std::move(finding), read_rows(fields));
     }
   } catch (const Error& fault) {
@@ -136,7 +147,7 @@ std::string id_of(const Claim& claim, const std::string& problem) { return probl
 
 JudgedClaim judge_claim(const Claim& claim, const ResultTables& tables, const std::string& problem) {
   const ReadFields fields;
-  Finding finding = finding_of([&] { return claim.judge(tables, problem); });
+  Finding finding = finding_in(tables, fields, [&] { return claim.judge(tables, problem); });
   return {.id = id_of(claim, problem),
           .where = claim.where.on(problem),
           .figure = claim.figure.on(problem),
@@ -173,8 +184,8 @@ std::string left_out(const Selection& all, const Selection& used, std::string_vi
   if (unused.empty()) return "";
   std::vector<std::string> favoured;
   for (const Selection& rows : unused.group_by({"method"})) {
-    std::vector<std::string> grids = rows.distinct("intervals");
-    std::erase(grids, "");
+    const bool have_grids = std::ranges::count(rows.front().columns(), "intervals") > 0;
+    const std::vector<std::string> grids = have_grids ? rows.distinct("intervals") : std::vector<std::string>();
     favoured.push_back(fmt::format("{} ({}{}{})", rows.front().text("method"), rows.size(),
                                    grids.empty() ? "" : ": N = ", fmt::join(grids, ", ")));
   }
@@ -192,10 +203,7 @@ Selection midpoint(const Selection& rows, const std::string& method) {
   return rows.where(is_midpoint).where("method", method);
 }
 
-void add_claims(ClaimTopic topic) {
-  added_chapters().push_back(std::move(topic.claims));
-  for (DeclaredTable& table : topic.tables) declare_table(std::move(table));
-}
+void add_claims(Claims claims) { added_chapters().push_back(std::move(claims)); }
 
 std::vector<JudgedClaim> judge_claims(const ResultTables& tables) {
   return judge_claims(tables, [](const std::string&) { return true; });

@@ -130,15 +130,9 @@ struct JudgedClaim {
 /// Claims of one topic.
 using Claims = std::vector<Claim>;
 
-/// The claims that an experiment adds to those of the core: a chapter of its own at the end of the written table.
-struct ClaimTopic {
-  Claims claims;
-  std::vector<DeclaredTable> tables;  ///< that they read, besides those of the core
-};
-
-/// From now on `judge_claims` judges these claims too, and `ResultTables::read` reads their tables. For extensions and
-/// for experiments of your own: call it in `main`, before a program runs.
-void add_claims(ClaimTopic topic);
+/// From now on `judge_claims` judges these claims too, in a chapter of their own at the end of the written table. For
+/// extensions and for experiments of your own: call it in `main`, before a program runs.
+void add_claims(Claims claims);
 
 // The claims of the core by topic, each topic's predicates and the numbers that decide in one file.
 

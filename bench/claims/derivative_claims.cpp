@@ -19,6 +19,7 @@ Selection with_back_end(const Selection& rows, const std::string& table, const c
 /// Adds the ratio of the times by two back ends, round by round the geometric mean over all methods and grids that both
 /// solve, and counts the rows that it leaves out.
 std::string add_ratio(TimedRatios& ratios, const Selection& rows, const char* slow, const char* fast) {
+  for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const Selection slower = with_back_end(rows, "derivatives", slow);
   const Selection faster = with_back_end(rows, "derivatives", fast).usable();
   Selection timed;

@@ -15,13 +15,17 @@ namespace {
 /// What was read of the rows of one table, by their records.
 using RowsOfTable = std::map<std::size_t, const ReadFields::OfRow*>;
 
-/// Puts a row where "objective.csv, record 2" says that it stands.
-void sort_in(const std::string& place, const ReadFields::OfRow& row, std::map<std::string, RowsOfTable>& tables) {
+/// The rows by their tables: each stands where its place, "objective.csv, record 2", says.
+std::map<std::string, RowsOfTable> by_tables(const ReadFields& fields) {
   constexpr std::string_view mark = ", record ";
-  const std::size_t at = place.rfind(mark);
-  if (at == std::string::npos) return;
-  if (const auto record = parsed<std::size_t>(std::string_view(place).substr(at + mark.size())))
-    tables[place.substr(0, at)][*record] = &row;
+  std::map<std::string, RowsOfTable> tables;
+  for (const auto& [place, row] : fields.rows()) {
+    const std::size_t at = place.rfind(mark);
+    if (at == std::string::npos) continue;
+    if (const auto record = parsed<std::size_t>(std::string_view(place).substr(at + mark.size())))
+      tables[place.substr(0, at)][*record] = &row;
+  }
+  return tables;
 }
 
 ReadRows rows_behind(const std::string& table, const RowsOfTable& rows) {
@@ -39,12 +43,17 @@ ReadRows rows_behind(const std::string& table, const RowsOfTable& rows) {
 
 }  // namespace
 
+std::map<std::string, std::set<std::string>> read_columns(const ReadFields& fields) {
+  std::map<std::string, std::set<std::string>> columns;
+  for (const auto& [table, rows] : by_tables(fields)) {
+    for (const auto& [record, row] : rows) columns[table].insert(row->columns.begin(), row->columns.end());
+  }
+  return columns;
+}
+
 std::vector<ReadRows> read_rows(const ReadFields& fields) {
-  std::map<std::string, RowsOfTable> tables;
-  for (const auto& [place, row] : fields.rows()) sort_in(place, row, tables);
   std::vector<ReadRows> result;
-  result.reserve(tables.size());
-  for (const auto& [table, rows] : tables) result.push_back(rows_behind(table, rows));
+  for (const auto& [table, rows] : by_tables(fields)) result.push_back(rows_behind(table, rows));
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@ struct ReadRows {
   std::vector<std::size_t> records;  ///< of the rows whose numbers were read, in order; the header is record 1
   std::vector<std::string> columns;  ///< that were read of these rows, numbers and texts, by their names
 };
+
+/// The columns that were read, by the files of their tables; also those by which rows were only chosen.
+[[nodiscard]] std::map<std::string, std::set<std::string>> read_columns(const ReadFields& fields);
 
 /// What was read, table by table. Of a table no number of which was read, the rows whose texts were.
 [[nodiscard]] std::vector<ReadRows> read_rows(const ReadFields& fields);

@@ -1,11 +1,11 @@
-// Which tables claims are judged by, what these have to look like, and whether the run that wrote them came to its end.
+// Reads the tables that claims are judged by, each with what the metadata of its run tell of it.
 #include "bench/claims/result_tables.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/run/json_place.hpp"
 #include "bench/run/part_file.hpp"
 #include "bench/run/result_file.hpp"
 #include "bench/run/written_tables.hpp"
@@ -14,42 +14,47 @@ namespace dmocbench {
 
 namespace {
 
-ColumnNames columns(ColumnNames first, const ColumnNames& more) {
-  first.insert(first.end(), more.begin(), more.end());
-  return first;
+/// True of columns of numbers alone.
+bool is_of_numbers(const JsonPlace& property) {
+  const std::string types = property.has("type") ? property.at("type").json().dump() : "";
+  const auto has = [&types](const char* type) { return types.find(type) != std::string::npos; };
+  return (has("number") || has("integer")) && !has("string");
 }
 
-const ColumnNames solve{"problem", "method", "tableau", "stages", "solver", "derivatives", "intervals"};
-const ColumnNames status{"status", "branch"};
-const ColumnNames fit{"problem", "method", "tableau", "stages", "quantity"};
-const ColumnNames scheme{"problem", "method", "tableau", "stages"};
-
-/// Columns of keys that count or measure something.
-bool is_number(const std::string& column) {
-  constexpr std::array numbers{
-      "stages",    "intervals", "order", "steps",       "steps_per_period",     "periods",     "h", "minimum",
-      "tolerance", "error",     "step",  "revolutions", "steps_per_revolution", "eccentricity"};
-  return std::ranges::find(numbers, column) != numbers.end();
-}
-
-/// Throws `Error` unless the table has its columns, each once, and every row a key of its own.
-void check(const Table& table, const DeclaredTable& declared) {
-  for (const std::string& column : columns(declared.key, declared.texts)) {
+/// Throws `Error` unless the table has its columns, each once, every row has a key of its own, and all numbers are
+/// finite; in the key none is missing.
+void check(const Table& table, const std::string& file, const JsonPlace& schema) {
+  const std::vector<std::string> key = schema.at("primaryKey").texts();
+  if (key.empty()) throw Error(fmt::format("nobody has said by which columns the rows of {} are told apart", file));
+  ColumnNames columns = key;
+  columns.insert(columns.end(), table.columns().begin(), table.columns().end());
+  for (const std::string& column : columns) {
     const auto count = std::ranges::count(table.columns(), column);
-    if (count == 1) continue;
-    throw Error(fmt::format("{}.csv has {} column {}", declared.name, count == 0 ? "no" : "more than one", column));
+    if (count != 1) throw Error(fmt::format("{} has {} column {}", file, count == 0 ? "no" : "more than one", column));
   }
+  std::erase_if(columns, [&](const std::string& column) { return !is_of_numbers(schema.at("properties").at(column)); });
   std::map<std::vector<std::string>, const Row*> seen;
   for (const Row& row : table.rows()) {
-    std::vector<std::string> key;
-    for (const std::string& column : declared.key) {
-      if (is_number(column)) static_cast<void>(row.needed(column));
-      key.push_back(row.text(column));
+    for (const std::string& column : columns) {
+      if (!row.text(column).empty() || std::ranges::count(key, column) > 0) static_cast<void>(row.needed(column));
     }
-    const auto [first, is_new] = seen.try_emplace(key, &row);
+    std::vector<std::string> fields;
+    for (const std::string& column : key) fields.push_back(row.text(column));
+    const auto [first, is_new] = seen.try_emplace(fields, &row);
     if (!is_new)
-      throw Error(fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(key, ", ")));
+      throw Error(
+          fmt::format("{} has the key of {}: {}", row.place(), first->second->place(), fmt::join(fields, ", ")));
   }
+}
+
+/// The longest beginning of a table's name, up to its end or a "_", that is the name of a run with such a file or
+/// folder; empty if there is none.
+std::string run_of(const std::filesystem::path& folder, std::string name, const char* ending) {
+  std::error_code unknown;
+  while (!name.empty() && !std::filesystem::exists(folder / (name + ending), unknown)) {
+    name.resize(name.find('_') == std::string::npos ? 0 : name.rfind('_'));
+  }
+  return name;
 }
 
 /// Reads a regular file; pipes are refused because they could block.
@@ -61,145 +66,116 @@ std::string content_of(const std::filesystem::path& path) {
 }
 
 /// Throws `Error` if there are parts of a run instead of its table.
-void refuse_parts(const std::filesystem::path& folder, const std::string& run, const std::string& table) {
-  if (std::error_code unknown; !std::filesystem::exists(folder_of_parts(folder / run), unknown)) return;
-  throw Error(fmt::format("{} is not there, but parts of it are: merge --name {} joins them", table, run));
+void refuse_parts(const std::filesystem::path& folder, const std::string& table) {
+  const std::string run = run_of(folder, table, ".parts");
+  if (run.empty()) return;
+  throw Error(fmt::format("{0}.csv is not there, but parts of {1} are: merge --name {1} joins them", table, run));
 }
 
-/// Throws `Error` unless a run came to its end with all its cases, and wrote the table with this content.
-void check_run(const std::filesystem::path& folder, const std::string& run, const std::string& table,
-               std::string_view content) {
-  const std::string file = run + ".json";
-  if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
-    throw Error(fmt::format("there is no {}, which tells whether the run came to its end", file));
-  }
-  const auto description = nlohmann::json::parse(content_of(folder / file), nullptr, false);
-  const auto complete = description.is_object() ? description.find("complete") : description.end();
-  if (!description.is_object() || complete == description.end() || !complete->is_boolean()) {
+/// What the metadata of a run tell, if it came to its end with all its cases. Throws `Error` otherwise.
+nlohmann::ordered_json metadata_of_whole_run(const std::filesystem::path& folder, const std::string& file) {
+  nlohmann::ordered_json metadata = nlohmann::ordered_json::parse(content_of(folder / file), nullptr, false);
+  const auto complete = metadata.is_object() ? metadata.find("complete") : metadata.end();
+  if (!metadata.is_object() || complete == metadata.end() || !complete->is_boolean()) {
     throw Error(fmt::format("{} does not tell whether the run came to its end", file));
   }
   if (!complete->get<bool>()) throw Error(fmt::format("the run was interrupted, as {} says; run it again", file));
-  if (description.contains("cases") && description["cases"] != description.value("rows", nlohmann::json())) {
-    throw Error(fmt::format("{} tells of {} cases, not all of which have a row; run it again", file,
-                            description["cases"].dump()));
+  if (metadata.contains("cases") && metadata["cases"] != metadata.value("rows", nlohmann::ordered_json())) {
+    throw Error(
+        fmt::format("{} tells of {} cases, not all of which have a row; run it again", file, metadata["cases"].dump()));
   }
+  return metadata;
+}
+
+/// Throws `Error` unless the run that wrote the table came to its end, wrote this content, and the content is as the
+/// JSON Schema beside it says.
+void check_run(const std::filesystem::path& folder, const std::string& name, const Table& table,
+               const std::string& content) {
+  const std::string run = run_of(folder, name, ".json");
+  if (run.empty()) throw Error("there is no .json beside it, which tells whether its run came to its end");
+  const std::string source = run + ".json";
+  const nlohmann::ordered_json metadata = metadata_of_whole_run(folder, source);
+  const std::string file = name + ".csv";
   try {
-    require_as_written(description, file, table, content);
+    require_as_written(metadata, source, file, content);
+    check(table, file, JsonPlace(metadata, source).at("tables").at(file).at("schema"));
   } catch (const Error& error) {
     throw Error(fmt::format("{}; run it again", error.what()));
   }
 }
 
-/// The tables of the core, and those that were declared later.
-std::vector<DeclaredTable>& all_tables() {
-  static std::vector<DeclaredTable> tables{
-      {"consistency", "consistency", columns(solve, {"tolerance"}), status},
-      {"consistency_tolerances", "consistency_tolerances", columns(solve, {"tolerance"}), status},
-      {"objective", "objective", solve, status},
-      {"convergence", "convergence", solve, status},
-      {"convergence_512", "convergence_512", solve, status},
-      {"convergence_indirect", "convergence_indirect", solve, status},
-      {"convergence_slopes", "convergence", fit},
-      {"convergence_512_slopes", "convergence_512", fit},
-      {"convergence_indirect_slopes", "convergence_indirect", fit, {"verdict"}},
-      {"equivalence", "equivalence", solve, status},
-      {"equivalence_slopes", "equivalence", fit, {"verdict"}},
-      {"convergence_stages", "convergence_stages", solve, status},
-      {"convergence_equal_accuracy", "convergence", {"problem", "method", "tableau", "stages", "quantity", "error"}},
-      {"convergence_indirect_reference", "convergence_indirect", {"problem"}},
-      {"iterations", "iterations", columns(solve, {"crash"}), status},
-      {"iterations_tolerances", "iterations_tolerances", columns(solve, {"crash", "tolerance"}), status},
-      {"iterations_limited_memory", "iterations_limited_memory", columns(solve, {"crash"}), status},
-      {"iterations_bounds", "iterations_bounds", columns(solve, {"crash"}), status},
-      {"iterations_common", "iterations_common", columns(solve, {"crash"}), status},
-      {"derivatives", "derivatives", columns(solve, {"hessian", "tolerance"}), status},
-      {"derivatives_cold", "derivatives_cold", columns(solve, {"hessian", "tolerance"}), status},
-      {"consistency_order_slopes", "consistency_order", {"problem", "tableau", "stages", "order", "quantity"}},
-      {"structure_momentum", "structure", columns(scheme, {"force", "steps", "h"})},
-      {"structure_symplecticity", "structure", columns(scheme, {"h"})},
-      {"structure_energy_behaviour", "structure", columns(scheme, {"order", "steps_per_period", "periods"})},
-      {"structure_modified_energy_slopes", "structure", fit},
-      {"structure_energy_work", "structure", columns(scheme, {"intervals"})},
-      {"structure_energy_work_slopes", "structure", fit},
-      {"structure_orthogonal_forces", "structure", columns(scheme, {"intervals"})},
-      {"structure_rotations", "structure", columns(scheme, {"axis"}), {"action"}},
-      {"consistency_order_transforms", "consistency_order", {"problem", "h"}},
-      {"smoothness_slopes", "smoothness", {"situation", "method", "tableau", "stages", "quantity"}, {"active", "end"}},
-      {"coercivity", "coercivity", columns(scheme, {"intervals"}), {"status"}},
-      {"structure_advantage_ratios", "structure_advantage",
-       columns(scheme, {"solver", "factorisation", "intervals", "quantity"})},
-      {"local_minima_minima",
-       "local_minima",
-       {"problem", "tableau", "stages", "solver", "derivatives", "intervals", "minimum"},
-       {"is_motion"}},
-      {"local_minima_shares", "local_minima", solve},
-      {"cold_start_shares", "cold_start", solve},
-      {"sequence", "sequence", columns(scheme, {"intervals", "sequence", "step"}), {"status"}},
-      {"adaptive", "adaptive", columns(scheme, {"grid"}), {"status"}},
-      {"adaptive_effectivity", "adaptive", columns(scheme, {"grid", "intervals", "quantity"}), {"status", "verdict"}},
-      {"profile", "profile", solve, {"status", "success"}},
-      {"slips", "slips", {"problem", "slip"}},
-      {"shooting", "shooting", columns(scheme, {"intervals"}), {"status"}},
-      {"convergence_shooting_slopes", "convergence_shooting", fit, {"verdict"}},
-      {"convergence_shooting_two_stages_slopes", "convergence_shooting_two_stages", fit, {"verdict"}},
-      {"cold_start_shooting_shares", "cold_start_shooting", solve},
-      {"structure_advantage_shooting", "structure_advantage_shooting", columns(solve, {"factorisation"}), status},
-  };
-  return tables;
-}
-
 }  // namespace
-
-const std::vector<DeclaredTable>& declared_tables() { return all_tables(); }
-
-void declare_table(DeclaredTable table) { all_tables().push_back(std::move(table)); }
 
 ResultTables ResultTables::read(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw Error(fmt::format("there is no folder {}", folder.string()));
   ResultTables tables;
-  for (const DeclaredTable& declared : declared_tables()) tables.read_table(folder, declared);
-  if (tables.tables_.empty() && tables.faults_.empty()) {
-    throw Error(fmt::format("there is no table that a claim reads in {0}; run an experiment with --out {0} first",
-                            folder.string()));
-  }
+  tables.folder_ = folder;
   return tables;
 }
 
-void ResultTables::read_table(const std::filesystem::path& folder, const DeclaredTable& declared) {
-  tables_.erase(declared.name);
-  faults_.erase(declared.name);
-  const std::string file = declared.name + ".csv";
+ResultTables::Sought ResultTables::sought_in(const std::filesystem::path& folder, const std::string& name) {
+  const ReadFields no_evidence;  // what is read here is read of every table
+  Sought sought;
+  const std::string file = name + ".csv";
   try {
     if (std::error_code unknown; !std::filesystem::exists(folder / file, unknown)) {
-      return refuse_parts(folder, declared.run, file);
+      refuse_parts(folder, name);
+      return sought;
     }
     const std::string content = content_of(folder / file);
-    add(declared.name, Table::from_csv(content));
-    check(tables_.at(declared.name), declared);
-    check_run(folder, declared.run, file, content);
+    sought.table = Table::from_csv(content);
+    sought.table->name_places(file);
+    check_run(folder, name, *sought.table, content);
   } catch (const Error& error) {
     const std::string sentence = error.what();
     const bool names_it = sentence.find(file) != std::string::npos;
-    faults_[declared.name] = names_it ? sentence : fmt::format("{}: {}", file, sentence);
+    sought.fault = names_it ? sentence : fmt::format("{}: {}", file, sentence);
   }
+  return sought;
+}
+
+const ResultTables::Sought& ResultTables::sought(std::string_view table) const {
+  const auto found = sought_.find(table);
+  if (found != sought_.end()) return found->second;
+  const std::string name(table);
+  return sought_.emplace(name, folder_.empty() ? Sought() : sought_in(folder_, name)).first->second;
 }
 
 void ResultTables::add(const std::string& name, Table table) {
   table.name_places(name + ".csv");
-  tables_[name] = std::move(table);
+  sought_[name] = {.table = std::move(table), .fault = ""};
+}
+
+bool ResultTables::has(std::string_view table) const {
+  const Sought& found = sought(table);
+  return found.table || !found.fault.empty();
+}
+
+bool ResultTables::has_any() const {
+  return std::ranges::any_of(sought_, [this](const auto& of_name) { return has(of_name.first); });
 }
 
 Selection ResultTables::rows(std::string_view table) const {
-  if (const auto fault = faults_.find(table); fault != faults_.end()) throw Error(fault->second);
-  const auto found = tables_.find(table);
-  if (found == tables_.end()) throw MissingTable(fmt::format("there is no {}.csv", table));
-  return found->second;
+  const Sought& found = sought(table);
+  if (!found.fault.empty()) throw Error(found.fault);
+  if (!found.table) throw Error(fmt::format("there is no {}.csv", table));
+  return *found.table;
 }
 
 Selection ResultTables::rows(std::string_view table, std::string_view problem) const {
   Selection of_problem = rows(table).where("problem", problem);
   if (of_problem.empty()) throw Error(fmt::format("{}.csv has no row of {}", table, problem));
   return of_problem;
+}
+
+void ResultTables::require_columns(const ReadFields& fields) const {
+  for (const auto& [file, columns] : read_columns(fields)) {
+    const auto& table = sought(file.substr(0, file.rfind('.'))).table;
+    for (const std::string& column : columns) {
+      if (table && std::ranges::count(table->columns(), column) == 0)
+        throw Error(fmt::format("{} has no column {}", file, column));
+    }
+  }
 }
 
 }  // namespace dmocbench

@@ -2,60 +2,53 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "bench/claims/read_rows.hpp"
 #include "bench/tables/selection.hpp"
 #include "methods/error.hpp"
 
 namespace dmocbench {
 
-/// What a table has to look like before a claim may be judged by it.
-struct DeclaredTable {
-  std::string name;        ///< without ".csv"
-  std::string run;         ///< whose .json tells whether it is whole, without ".json"
-  ColumnNames key;         ///< no two rows agree in all of them; those that count something are finite numbers
-  ColumnNames texts = {};  ///< further columns that rows are picked by
-};
-
-/// The tables that claims read; they read no other.
-[[nodiscard]] const std::vector<DeclaredTable>& declared_tables();
-
-/// Adds a table that claims read.
-void declare_table(DeclaredTable table);
-
-/// There is no such table at all; any other `Error` says what is wrong with one that is there.
-class MissingTable : public Error {
- public:
-  using Error::Error;
-};
-
-/// The tables of a results folder by their names without ".csv".
+/// The tables of a results folder by their names without ".csv", each read when it is asked for.
 ///
-/// A table that is no table, does not fit its declaration or is not whole throws when its rows are asked for, so that
-/// it stops no claim but those that need it.
+/// The run that wrote a table is the one whose name the table's begins with; its metadata have to say that it came to
+/// its end and wrote this content, and the JSON Schema of the rows there tells the key and the numbers. A table that
+/// is not so throws when its rows are asked for, so that it stops no claim but those that need it.
 class ResultTables {
  public:
   ResultTables() = default;
-  /// Reads the declared tables and the .json beside them. Throws `Error` if there is no such folder, or none
-  /// of them is in it.
+  /// The tables of a folder. Throws `Error` if there is no such folder.
   [[nodiscard]] static ResultTables read(const std::filesystem::path& folder);
 
-  /// Reads one declared table and the .json beside it as they are now.
-  void read_table(const std::filesystem::path& folder, const DeclaredTable& declared);
-
-  /// Errors in numbers name the table and the record.
+  /// Adds a table, or puts it in the place of one. Errors in numbers name the table and the record.
   void add(const std::string& name, Table table);
-  [[nodiscard]] bool has(std::string_view table) const { return tables_.contains(table) || faults_.contains(table); }
-  /// The rows of a table. Throws `MissingTable` if it is not there, and `Error` that says what is wrong with it.
+  /// Reads a table again when it is asked for the next time.
+  void forget(const std::string& name) { sought_.erase(name); }
+  /// Whether there is such a table, be it as it should or not.
+  [[nodiscard]] bool has(std::string_view table) const;
+  /// Whether there is any of the tables that were asked for.
+  [[nodiscard]] bool has_any() const;
+  /// The rows of a table. Throws `Error` that says what is wrong with it, or that it is not there.
   [[nodiscard]] Selection rows(std::string_view table) const;
   /// Those of one problem. Throws also if there is none.
   [[nodiscard]] Selection rows(std::string_view table, std::string_view problem) const;
+  /// Throws `Error` that names a column which was read, by name, of a table that does not have it.
+  void require_columns(const ReadFields& fields) const;
 
  private:
-  std::map<std::string, Table, std::less<>> tables_;
-  std::map<std::string, std::string, std::less<>> faults_;  ///< sentences by table
+  /// What was found of a table that was asked for.
+  struct Sought {
+    std::optional<Table> table;  ///< none if it is not there
+    std::string fault;           ///< what is wrong with it, in a sentence
+  };
+  [[nodiscard]] static Sought sought_in(const std::filesystem::path& folder, const std::string& name);
+  [[nodiscard]] const Sought& sought(std::string_view table) const;
+
+  std::filesystem::path folder_;
+  mutable std::map<std::string, Sought, std::less<>> sought_;  ///< by name
 };
 
 }  // namespace dmocbench

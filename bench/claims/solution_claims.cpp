@@ -72,6 +72,7 @@ struct MomentumBalance {
 Finding momentum_consistency(const ResultTables& tables, const std::string& problem) {
   Selection rows = tables.rows("consistency", problem);
   if (tables.has("consistency_tolerances")) rows.append(tables.rows("consistency_tolerances", problem));
+  for (const Row& row : rows) static_cast<void>(row.needed("tolerance"));
   const std::vector<Selection> by_tolerance = rows.where(is_midpoint).sorted_by("tolerance").group_by({"tolerance"});
   require(!by_tolerance.empty(), "consistency.csv has no row of {} by gauss 1 with a tolerance", problem);
   const auto of_grids = [](const Selection& solves) { return MomentumBalance(solves.sorted_by("intervals")); };

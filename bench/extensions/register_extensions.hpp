@@ -4,9 +4,9 @@
 
 namespace dmocbench {
 
-[[nodiscard]] ClaimTopic primitives_claims();    ///< roadmaps of DMOC primitives
-[[nodiscard]] ClaimTopic step_control_claims();  ///< step sizes tied to the motion
-[[nodiscard]] ClaimTopic low_thrust_claims();    ///< many revolutions with few steps in each
+[[nodiscard]] Claims primitives_claims();    ///< roadmaps of DMOC primitives
+[[nodiscard]] Claims step_control_claims();  ///< step sizes tied to the motion
+[[nodiscard]] Claims low_thrust_claims();    ///< many revolutions with few steps in each
 
 /// Adds the claims of all extensions to those of the core. The mains of `claims` and `dmocbench` call it, once.
 void register_extensions();

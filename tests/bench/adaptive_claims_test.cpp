@@ -5,6 +5,7 @@
 
 #include "bench/claims/claim.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
@@ -23,20 +24,21 @@ struct AdaptiveOutcome {
 };
 
 ResultTables tables_of(const AdaptiveOutcome& outcome) {
-  Table effectivity({"problem"});
-  Table grids({"problem"});
+  tests::Rows effectivities;
+  tests::Rows grids;
   for (const std::string& method : paper_families()) {
     Row row;
     row.set("problem", "hypersensitive");
     row.set("method", method);
     row.set("tableau", "gauss");
     row.set("stages", 2LL);
-    row.set("status", "solved");
-    row.set("quantity", "state");
-    row.set("effectivity", method == "dmoc" ? outcome.effectivity : 1.0);
-    row.set("relative_error", method == "dmoc" ? outcome.relative_error : 1e-4);
-    row.set("verdict", method == "dmoc" ? outcome.verdict : "measured");
-    effectivity.append(row);
+    Row effectivity = row;
+    effectivity.set("status", "solved");
+    effectivity.set("quantity", "state");
+    effectivity.set("effectivity", method == "dmoc" ? outcome.effectivity : 1.0);
+    effectivity.set("relative_error", method == "dmoc" ? outcome.relative_error : 1e-4);
+    effectivity.set("verdict", method == "dmoc" ? outcome.verdict : "measured");
+    effectivities.push_back(effectivity);
     for (const std::string grid : {"uniform", "adapted"}) {
       row.set("grid", grid);
       row.set("status", outcome.status);
@@ -46,12 +48,12 @@ ResultTables tables_of(const AdaptiveOutcome& outcome) {
       row.set("seconds", outcome.round);
       row.set("round_seconds",
               joined_numbers(std::vector<double>(static_cast<std::size_t>(outcome.rounds), outcome.round)));
-      grids.append(row);
+      grids.push_back(row);
     }
   }
   ResultTables tables;
-  tables.add("adaptive_effectivity", effectivity);
-  tables.add("adaptive", grids);
+  tables.add("adaptive_effectivity", tests::declared_table("adaptive_effectivity", effectivities));
+  tables.add("adaptive", tests::declared_table("adaptive", grids));
   return tables;
 }
 

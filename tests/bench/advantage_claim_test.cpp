@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
@@ -29,10 +30,8 @@ Row ratio(const std::string& factorisation, const std::string& quantity, int int
 }
 
 ResultTables tables_of(std::initializer_list<Row> rows) {
-  Table table({"problem"});
-  for (const Row& row : rows) table.append(row);
   ResultTables tables;
-  tables.add("structure_advantage_ratios", table);
+  tables.add("structure_advantage_ratios", tests::declared_table("structure_advantage_ratios", rows));
   return tables;
 }
 

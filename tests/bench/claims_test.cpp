@@ -38,24 +38,20 @@ TEST(Claims, TablesThatAgreeWithThePaperAreReproduced) {
 TEST(Claims, StageControlsAndAConstantMassAreJudgedOnTheirOwnProblems) {
   const auto judged = [](double slope, double difference) {
     ResultTables results;
-    Table slopes({"problem", "method", "tableau", "stages", "quantity", "slope", "verdict"});
-    Row row = solved_row("dmoc", 0);
+    Row row = tests::scheme_row("dmoc");
     row.set("problem", "two_link_manipulator");
     row.set("quantity", "control");
     row.set("stages", 2LL);
     row.set("slope", slope);
     row.set("verdict", "slope");
-    slopes.append(row);
-    results.add("convergence_indirect_slopes", slopes);
-    Table equivalence({"problem"});
+    results.add("convergence_indirect_slopes", tests::declared_table("convergence_indirect_slopes", {row}));
     Row solve = solved_row("tangent", 64);
     solve.set("problem", "forced_oscillator");
     for (const char* column : {"configuration_difference", "momentum_difference", "control_difference",
                                "costate_difference", "objective_difference"}) {
       solve.set(column, difference);
     }
-    equivalence.append(solve);
-    results.add("equivalence", equivalence);
+    results.add("equivalence", tests::declared_table("equivalence", {solve}));
     std::map<std::string, ClaimVerdict> verdicts;
     for (const JudgedClaim& claim : judge_claims(results)) verdicts[claim.id] = claim.verdict;
     return verdicts;
@@ -93,16 +89,15 @@ TEST(Claims, ASlopeAgainstAGridIsJudgedByWhatThisReferenceMakesOfIt) {
   const auto judged = [](double slope, double standard_error, long long reference) {
     std::map<std::string, tests::Rows> rows = tests::rows_of_tables();
     ResultTables results;
-    for (const std::string name : {"convergence", "convergence_slopes"}) {
-      Table table({"problem"});
-      for (Row row : rows[name]) {
-        row.set("slope", slope);
-        row.set("standard_error", standard_error);
-        if (row.text("intervals") == "1024") row.set("intervals", reference);
-        table.append(row);
-      }
-      results.add(name, table);
+    for (Row& row : rows["convergence_slopes"]) {
+      row.set("slope", slope);
+      row.set("standard_error", standard_error);
     }
+    for (Row& row : rows["convergence"]) {
+      if (row.text("intervals") == "1024") row.set("intervals", reference);
+    }
+    for (const char* name : {"convergence", "convergence_slopes"})
+      results.add(name, tests::declared_table(name, rows[name]));
     return verdict_on("state_slope", results);
   };
   EXPECT_EQ(judged(2.2, 0.01, 512), ClaimVerdict::reproduced);
@@ -261,28 +256,22 @@ TEST(Claims, AMissingFieldIsNotYetJudged) {
 
 TEST(Claims, ASlipIsConfirmedByTheValueThatMustHold) {
   ResultTables results;
-  Table slips({"problem", "slip", "where", "printed", "meant", "quantity", "value_as_printed", "value_as_meant",
-               "required_value"});
   Row row;
   row.set("problem", orbit);
   row.set("slip", "boundary_momenta");
   row.set("value_as_printed", 1.02);
   row.set("value_as_meant", 1.0);
   row.set("required_value", 1.0);
-  slips.append(row);
-  results.add("slips", slips);
-  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::differs);
+  const auto verdict = [&] {
+    results.add("slips", tests::declared_table("slips", {row}));
+    return verdict_on("boundary_momenta", results);
+  };
+  EXPECT_EQ(verdict(), ClaimVerdict::differs);
   row.set("value_as_printed", 1.0);
-  slips.clear();
-  slips.append(row);
-  results.add("slips", slips);
-  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::reproduced);
+  EXPECT_EQ(verdict(), ClaimVerdict::reproduced);
   row.set("value_as_printed", 1.02);
   row.set("value_as_meant", 1.01);
-  slips.clear();
-  slips.append(row);
-  results.add("slips", slips);
-  EXPECT_EQ(verdict_on("boundary_momenta", results), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(), ClaimVerdict::undecided);
 }
 
 TEST(Claims, ASlipTellsTheRowThatItWasJudgedBy) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
@@ -19,7 +20,7 @@ struct ColdOutcome {
 };
 
 JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "cold_starts_confirmed_as_often") {
-  Table shares({"problem"});
+  tests::Rows shares;
   for (const auto& [method, hits] : {std::tuple("dmoc", outcome.dmoc), std::tuple("hamiltonian", outcome.hamiltonian),
                                      std::tuple("tangent", outcome.tangent)}) {
     Row row;
@@ -34,10 +35,10 @@ JudgedClaim judged_cold(const ColdOutcome& outcome, const std::string& id = "col
     row.set("starts", outcome.starts);
     row.set("confirmed", hits);
     row.set("best", hits);
-    shares.append(row);
+    shares.push_back(row);
   }
   ResultTables results;
-  results.add("cold_start_shares", shares);
+  results.add("cold_start_shares", tests::declared_table("cold_start_shares", shares));
   for (const JudgedClaim& claim : judge_claims(results)) {
     if (claim.id == "orbital_transfer/" + id) return claim;
   }

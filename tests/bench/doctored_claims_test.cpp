@@ -23,61 +23,33 @@ namespace {
 
 using tests::Rows;
 
-/// Every column that a declared table, or a claim on it, may have.
-const ColumnNames& known_columns() {
-  static const ColumnNames columns = [] {
-    ColumnNames names = names_of(core_columns());
-    std::istringstream own(
-        "crash hessian predicted_minors quantity slope standard_error coarsest finest points verdict "
-        "largest_force momentum_defect_max momentum_defect_total momentum_change work "
-        "work_of_discrete_forces replay_error is_motion round_seconds round_ratios error "
-        "variables_ratio cost certified_digits rounding_in_rows_of_dmoc rounding_here adjoint_residual "
-        "adjoint_residual_by_plain_coefficients force steps h defect defect_in_long_double rounding "
-        "order steps_per_period periods oscillation range change factorisation ratio_at_equal_intervals "
-        "minimum dmoc hamiltonian tangent start_kind starts confirmed best share_lower share_upper "
-        "success evaluations situation active end axis action largest_gap momentum_deviation "
-        "smallest_curvature left_defect right_defect largest_momentum sequence iterations microseconds "
-        "eccentricity rule sigma revolutions steps_per_revolution reference_digits cost_error state_error "
-        "momentum_balance operations unknowns condition objective_error "
-        "reference_cost excess_before excess_after excess_of_starts start_motions plan_lower plan_upper rounds");
-    for (std::string name; own >> name;) names.push_back(name);
-    names.insert(names.end(), tests::differences.begin(), tests::differences.end());
-    return names;
-  }();
-  return columns;
-}
-
-/// The columns of a table: those with a text in a row, and those that are declared.
-ColumnNames columns_of_rows(const DeclaredTable& declared, const Rows& rows) {
-  ColumnNames columns;
-  for (const std::string& column : known_columns()) {
-    const bool is_declared =
-        std::ranges::count(declared.key, column) > 0 || std::ranges::count(declared.texts, column) > 0;
-    if (is_declared || std::ranges::any_of(rows, [&](const Row& row) { return !row.text(column).empty(); })) {
-      columns.push_back(column);
-    }
-  }
-  return columns;
-}
-
 using Judgements = std::map<std::string, JudgedClaim>;
 
 class DoctoredClaims : public tests::InTemporaryFolder {
  protected:
   void SetUp() override {
     InTemporaryFolder::SetUp();
-    for (const DeclaredTable& declared : declared_tables()) {
-      if (!rows_.contains(declared.name)) continue;
+    for (auto& [name, rows] : rows_) {
+      const ColumnNames& columns = columns_[name] = tests::declared_columns(name);
       // Solvers and back ends are no matter to most claims, but are part of the keys.
-      for (Row& row : rows_[declared.name]) {
-        if (row.text("solver").empty()) row.set("solver", "ipopt");
-        if (row.text("derivatives").empty()) row.set("derivatives", "tape");
+      for (Row& row : rows) {
+        const auto add = [&](const char* column, const char* text) {
+          if (std::ranges::count(columns, column) > 0 && row.text(column).empty()) row.set(column, text);
+        };
+        add("solver", "ipopt");
+        add("derivatives", "tape");
       }
-      columns_[declared.name] = columns_of_rows(declared, rows_[declared.name]);
-      write(declared.name, columns_[declared.name], rows_[declared.name]);
+      write(name, columns, rows);
     }
     tables_ = ResultTables::read(folder());
     whole_ = judgements_of(tables_);
+    std::erase_if(columns_, [&](const auto& table) { return !is_read(table.first); });  // by claims of extensions
+  }
+  /// Whether a claim reads the table.
+  [[nodiscard]] bool is_read(const std::string& name) const {
+    return std::ranges::any_of(std::views::values(whole_), [&](const JudgedClaim& claim) {
+      return std::ranges::count(claim.rows, name + ".csv", &ReadRows::table) > 0;
+    });
   }
   /// Writes a table without telling its run.
   void slip_in(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
@@ -85,27 +57,16 @@ class DoctoredClaims : public tests::InTemporaryFolder {
     for (const Row& row : rows) table.append(row);
     write_quickly(name + ".csv", table.csv());
   }
-  /// Writes a table as its run does.
+  /// Writes a table, and the metadata of a run that has come to its end with it.
   void write(const std::string& name, const ColumnNames& columns, const Rows& rows) const {
     slip_in(name, columns, rows);
-    tell_of_tables_like(name);
-  }
-  /// Writes the metadata of a run that has come to its end with the tables that are there.
-  void tell_of_tables_like(const std::string& name) const {
-    const std::string run = run_of(name);
-    std::vector<std::filesystem::path> files;
-    for (const DeclaredTable& declared : declared_tables()) {
-      if (declared.run == run) files.push_back(folder() / (declared.name + ".csv"));
-    }
-    write_quickly(run + ".json",
-                  nlohmann::json{{"complete", true}, {"tables", nlohmann::json(describe_tables(files))}}.dump());
+    nlohmann::ordered_json tables = describe_tables({folder() / (name + ".csv")});
+    tables.front()["schema"] = tests::declared_schema(name);
+    write_quickly(name + ".json", nlohmann::ordered_json{{"complete", true}, {"tables", tables}}.dump());
   }
   /// Thousands of files that nobody needs on the disk.
   void write_quickly(const std::string& name, const std::string& content) const {
     std::ofstream(folder() / name, std::ios::binary) << content;
-  }
-  static std::string run_of(const std::string& name) {
-    return std::ranges::find(declared_tables(), name, &DeclaredTable::name)->run;
   }
   /// The table with a text in a column of some rows.
   [[nodiscard]] Judgements with(
@@ -125,15 +86,14 @@ class DoctoredClaims : public tests::InTemporaryFolder {
   /// Another table in the place of one; the others are those that were read. Judges the claims that read this table,
   /// and those that do not tell what they read.
   [[nodiscard]] Judgements judge_with(const std::string& name, const ColumnNames& columns, const Rows& rows) {
-    const DeclaredTable& declared = *std::ranges::find(declared_tables(), name, &DeclaredTable::name);
     write(name, columns, rows);
-    tables_.read_table(folder(), declared);
+    tables_.forget(name);
     Judgements judged = judgements_of(tables_, [&](const std::string& id) {
       const std::vector<ReadRows>& read = whole_.at(id).rows;
       return read.empty() || std::ranges::count(read, name + ".csv", &ReadRows::table) > 0;
     });
     write(name, columns_.at(name), rows_.at(name));
-    tables_.read_table(folder(), declared);
+    tables_.forget(name);
     return judged;
   }
   /// Of all tables as they are now.
@@ -159,6 +119,7 @@ TEST_F(DoctoredClaims, AreAllReproducedByWholeTables) {
   const std::string told_otherwise = "orbital_transfer/order_theorem_with_one_power_less";
   std::size_t reproduced = 0;
   for (const auto& [id, claim] : whole_) {
+    EXPECT_EQ(claim.measured.find("has no column"), std::string::npos) << id << ": " << claim.measured;
     if (claim.verdict == ClaimVerdict::reproduced) ++reproduced;
     const bool is_judged = (id.starts_with(orbit) || id.starts_with("simulations")) && id != told_otherwise;
     if (is_judged) {
@@ -289,12 +250,15 @@ TEST_F(DoctoredClaims, SayWhatATableLacksAndStopNoOtherClaim) {
   expect("no regular file");
   std::filesystem::remove(file);
   expect("there is no local_minima_minima.csv");
-  write_file(folder() / "local_minima.json", R"({"complete": false})");
+  const std::filesystem::path metadata = folder() / (name + ".json");
+  write_file(metadata, R"({"complete": false})");
   expect("interrupted");
-  write_file(folder() / "local_minima.json", "[");
-  expect("local_minima.json does not tell");
-  std::filesystem::remove(folder() / "local_minima.json");
-  expect("there is no local_minima.json");
+  write_file(metadata, "[");
+  expect("local_minima_minima.json does not tell");
+  std::filesystem::remove(metadata);
+  expect("there is no .json beside it");
+  std::filesystem::rename(metadata, folder() / "local_minima.json");
+  EXPECT_EQ(judge()["orbital_transfer/local_minima"].verdict, ClaimVerdict::reproduced) << "its run has a shorter name";
   write_file(folder() / "own_notes.csv", "a,b\n1\n");
   EXPECT_EQ(judge()["orbital_transfer/local_minima"].verdict, ClaimVerdict::reproduced);
 }

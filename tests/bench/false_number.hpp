@@ -23,12 +23,11 @@ struct FalseNumber {
 inline ClaimVerdict verdict_with(const FalseNumber& doctored) {
   ResultTables results;
   for (const auto& [name, rows] : all_rows()) {
-    Table table;
-    for (Row row : rows) {
+    Rows changed = rows;
+    for (Row& row : changed) {
       if (name == doctored.table && doctored.where(row)) row.set(doctored.column, doctored.number);
-      table.append(std::move(row));
     }
-    results.add(name, std::move(table));
+    results.add(name, declared_table(name, changed));
   }
   for (const JudgedClaim& judged : judge_claims(results)) {
     if (judged.id == doctored.claim) return judged.verdict;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/claims/claim.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench {
 namespace {
@@ -20,7 +21,7 @@ ClaimVerdict verdict_of_claim(const ResultTables& results, const std::string& id
 
 TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
   const auto verdict = [](double second_by_tangent, const char* is_motion = "yes") {
-    Table minima({"problem"});
+    tests::Rows minima;
     for (const auto& [objective, dmoc, tangent] :
          {std::tuple(80.0, 3.0, 2.0), std::tuple(90.0, 4.0, second_by_tangent), std::tuple(100.0, 1.0, 0.0)}) {
       Row row;
@@ -30,10 +31,10 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
       row.set("hamiltonian", 0LL);
       row.set("tangent", tangent);
       row.set("is_motion", is_motion);
-      minima.append(row);
+      minima.push_back(row);
     }
     ResultTables results;
-    results.add("local_minima_minima", minima);
+    results.add("local_minima_minima", tests::declared_table("local_minima_minima", minima));
     return verdict_of_claim(results, "two_link_manipulator/local_minima");
   };
   EXPECT_EQ(verdict(1.0), ClaimVerdict::reproduced);
@@ -43,7 +44,7 @@ TEST(LibraryClaims, LocalMinimaNeedTwoThatMoreThanOneMethodFinds) {
 
 TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreApart) {
   const auto verdict = [](double lower, double upper) {
-    Table shares({"problem"});
+    tests::Rows shares;
     for (const auto& [method, low, high] : {std::tuple("dmoc", 0.2, 0.4), std::tuple("tangent", lower, upper)}) {
       Row row;
       row.set("problem", "two_link_manipulator");
@@ -52,10 +53,10 @@ TEST(LibraryClaims, OneMethodFindsTheBestMinimumMoreOftenOnlyIfTheIntervalsAreAp
       row.set("starts", 2LL);
       row.set("share_lower", low);
       row.set("share_upper", high);
-      shares.append(row);
+      shares.push_back(row);
     }
     ResultTables results;
-    results.add("local_minima_shares", shares);
+    results.add("local_minima_shares", tests::declared_table("local_minima_shares", shares));
     return verdict_of_claim(results, "two_link_manipulator/best_minimum_share");
   };
   EXPECT_EQ(verdict(0.3, 0.6), ClaimVerdict::differs);
@@ -79,18 +80,18 @@ Row solve(const std::string& problem, const char* method, const char* solver, do
 /// The claim on a library where DMOC and Hamiltonian collocation win so many instances each by Ipopt, and another
 /// solver counts a tenth; there DMOC wins one instance less.
 JudgedClaim judged_library(int dmoc_wins, int hamiltonian_wins) {
-  Table profile({"problem"});
+  tests::Rows profile;
   for (int i = 0; i < dmoc_wins + hamiltonian_wins; ++i) {
     const bool dmoc_is_better = i < dmoc_wins;
     const bool is_better_by_other_solver = i + 1 < dmoc_wins;
     const std::string problem = "problem " + std::to_string(i);
-    profile.append(solve(problem, "dmoc", "ipopt", dmoc_is_better ? 10.0 : 20.0));
-    profile.append(solve(problem, "hamiltonian", "ipopt", 15.0));
-    profile.append(solve(problem, "dmoc", "interior_point", is_better_by_other_solver ? 1.0 : 2.0));
-    profile.append(solve(problem, "hamiltonian", "interior_point", 1.5));
+    profile.push_back(solve(problem, "dmoc", "ipopt", dmoc_is_better ? 10.0 : 20.0));
+    profile.push_back(solve(problem, "hamiltonian", "ipopt", 15.0));
+    profile.push_back(solve(problem, "dmoc", "interior_point", is_better_by_other_solver ? 1.0 : 2.0));
+    profile.push_back(solve(problem, "hamiltonian", "interior_point", 1.5));
   }
   ResultTables results;
-  results.add("profile", profile);
+  results.add("profile", tests::declared_table("profile", profile));
   for (const JudgedClaim& judged : judge_claims(results)) {
     if (judged.id == "library/dmoc_best_by_evaluations") return judged;
   }

@@ -202,11 +202,7 @@ std::vector<Mistake> mistakes_about_cost() {
 
 std::map<std::string, JudgedClaim> judged(const std::map<std::string, Rows>& rows) {
   ResultTables tables;
-  for (const auto& [name, of_table] : rows) {
-    Table table({"problem"});
-    for (const Row& row : of_table) table.append(row);
-    tables.add(name, std::move(table));
-  }
+  for (const auto& [name, of_table] : rows) tables.add(name, tests::declared_table(name, of_table));
   std::map<std::string, JudgedClaim> claims;
   for (const JudgedClaim& claim : judge_claims(tables)) claims[claim.id] = claim;
   return claims;

@@ -20,12 +20,11 @@ ClaimVerdict verdict_of(const std::string& claim, const std::string& table = "",
   for (const char* name : {"shooting", "convergence_shooting_slopes", "convergence_shooting_two_stages_slopes",
                            "cold_start_shooting_shares", "structure_advantage_shooting"}) {
     static const std::map<std::string, tests::Rows> all = tests::all_rows();
-    Table rows;
-    for (Row row : all.at(name)) {
+    tests::Rows rows = all.at(name);
+    for (Row& row : rows) {
       if (name == table && row.text("method") == method) change(row);
-      rows.append(std::move(row));
     }
-    results.add(name, std::move(rows));
+    results.add(name, tests::declared_table(name, rows));
   }
   for (const JudgedClaim& judged : judge_claims(results)) {
     if (judged.id == std::string(orbit) + "/" + claim) return judged.verdict;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -8,19 +9,24 @@
 #include <vector>
 
 #include "bench/claims/claim.hpp"
-#include "bench/run/solve_case.hpp"
 #include "methods/transcription/elements/families.hpp"
+#include "tests/bench/declared_tables.hpp"
 
 namespace dmocbench::tests {
 
 inline const std::vector<std::string> methods = paper_families();
 
-inline Row solved_row(const std::string& method, long long intervals) {
+inline Row scheme_row(const std::string& method) {
   Row row;
   row.set("problem", orbit);
   row.set("method", method);
   row.set("tableau", "gauss");
   row.set("stages", 1LL);
+  return row;
+}
+
+inline Row solved_row(const std::string& method, long long intervals) {
+  Row row = scheme_row(method);
   row.set("intervals", intervals);
   row.set("status", "solved");
   row.set("branch", "same");
@@ -32,13 +38,11 @@ inline const std::vector<std::string> differences{
     "configuration_difference", "momentum_difference",       "control_difference",    "costate_difference",
     "objective_difference",     "violation_in_rows_of_dmoc", "violation_of_dmoc_here"};
 
-using Rows = std::vector<Row>;
-
 inline Rows slope_rows() {
   Rows rows;
   for (const std::string& method : methods) {
     for (const char* quantity : {"state", "control"}) {
-      Row row = solved_row(method, 0);
+      Row row = scheme_row(method);
       row.set("quantity", quantity);
       row.set("slope", 2.03);
       row.set("standard_error", 0.01);
@@ -69,13 +73,13 @@ inline long long free_variables(const std::string& method, long long intervals) 
   return method == "dmoc" ? 3 * intervals - 2 : 5 * intervals - 4;
 }
 
-/// A row for every tableau with two and three stages.
+/// A row like one for every tableau with two and three stages.
 template <class Fill>
-Rows rows_by_tableau(const std::string& method, long long intervals, const Fill& fill) {
+Rows rows_by_tableau(const Row& like, const Fill& fill) {
   Rows rows;
   for (const std::string tableau : {"gauss", "lobatto"}) {
     for (const long long stages : {2LL, 3LL}) {
-      Row row = solved_row(method, intervals);
+      Row row = like;
       row.set("tableau", tableau);
       row.set("stages", stages);
       fill(row, tableau == "gauss" ? 2.0 * static_cast<double>(stages) : 2.0 * static_cast<double>(stages) - 2.0);
@@ -98,7 +102,7 @@ inline Rows equivalence_rows() {
     if (row.text("method") != "dmoc") rows.push_back(row);
   }
   for (const std::string method : {"dmoc", "hamiltonian"}) {
-    for (Row& row : rows_by_tableau(method, 64, [&](Row& row, double /*order*/) {
+    for (Row& row : rows_by_tableau(solved_row(method, 64), [&](Row& row, double /*order*/) {
            if (method == "hamiltonian") set_differences(row, 1e-13);
            row.set("adjoint_residual", 1e-12);
            row.set("adjoint_residual_by_plain_coefficients", row.text("tableau") == "gauss" ? 1e-12 : 1e-2);
@@ -113,7 +117,7 @@ inline Rows indirect_slope_rows() {
   Rows rows;
   for (const char* method : {"dmoc", "hamiltonian"}) {
     for (const char* quantity : {"state", "momentum", "costate", "control_from_costate", "control"}) {
-      for (Row& row : rows_by_tableau(method, 0, [&](Row& row, double order) {
+      for (Row& row : rows_by_tableau(scheme_row(method), [&](Row& row, double order) {
              row.set("quantity", quantity);
              row.set("verdict", "slope");
              row.set("slope", quantity == std::string("control") ? row.needed("stages") + 1.0 : order + 0.05);
@@ -211,7 +215,7 @@ inline std::map<std::string, Rows> rows_of_tables() {
              row.set("objective", 4e-5 * (1.0 + (tangent ? 0.9 : 1.0) * h * h));
            })},
           {"equivalence", equivalence_rows()},
-          {"equivalence_slopes", rows_by_tableau("tangent", 0,
+          {"equivalence_slopes", rows_by_tableau(scheme_row("tangent"),
                                                  [](Row& row, double order) {
                                                    row.set("verdict", "slope");
                                                    row.set("slope", order);
@@ -226,12 +230,9 @@ inline std::map<std::string, Rows> rows_of_tables() {
 inline ResultTables tables(const std::string& doctored = "", const std::function<void(Row&)>& change = {}) {
   ResultTables result;
   for (const auto& [name, rows] : rows_of_tables()) {
-    Table table(names_of(core_columns()));
-    for (Row row : rows) {
-      if (name == doctored) change(row);
-      table.append(std::move(row));
-    }
-    result.add(name, std::move(table));
+    Rows changed = rows;
+    if (name == doctored) std::ranges::for_each(changed, change);
+    result.add(name, declared_table(name, changed));
   }
   return result;
 }

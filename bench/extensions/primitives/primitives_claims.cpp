@@ -73,20 +73,19 @@ Finding leads_to_global_minima(const ResultTables& tables, const std::string& /*
 
 }  // namespace
 
-ClaimTopic primitives_claims() {
-  const Claims claims{
-      {.id = "global_minima_by_primitives",
-       .problems = examples,
-       .where = "section 5, Global Minima",
-       .whose = Whose::remark,
-       .states = "the best path of a roadmap of DMOC primitives approximates the global optimum, and can be found in "
-                 "real time",
-       .judge = leads_to_global_minima,
-       .condition = "approximates: a full solve from the path ends at the best cost that is known; real time: a "
-                    "search on a roadmap that is there already takes less than 10 ms; how many starts multi-start "
-                    "gets in the same time depends on the machine",
-       .evidence = {"primitives.csv", "figures/orbital_transfer_primitives.svg"}}};
-  return {.claims = claims, .tables = {{"primitives", "primitives", {"problem"}, {"status"}}}};
+Claims primitives_claims() {
+  return {{.id = "global_minima_by_primitives",
+           .problems = examples,
+           .where = "section 5, Global Minima",
+           .whose = Whose::remark,
+           .states =
+               "the best path of a roadmap of DMOC primitives approximates the global optimum, and can be found in "
+               "real time",
+           .judge = leads_to_global_minima,
+           .condition = "approximates: a full solve from the path ends at the best cost that is known; real time: a "
+                        "search on a roadmap that is there already takes less than 10 ms; how many starts multi-start "
+                        "gets in the same time depends on the machine",
+           .evidence = {"primitives.csv", "figures/orbital_transfer_primitives.svg"}}};
 }
 
 }  // namespace dmocbench

@@ -102,9 +102,9 @@ Finding order_pays_more(const ResultTables& tables, const std::string& problem) 
 
 }  // namespace
 
-ClaimTopic low_thrust_claims() {
+Claims low_thrust_claims() {
   const std::vector<std::string> evidence{"low_thrust.csv", "low_thrust_reference.csv", "figures/{}_low_thrust.svg"};
-  const Claims claims{
+  return {
       {.id = "low_thrust_structure_pays_in_momentum_alone",
        .problems = only_orbit,
        .where = "section 4.2.1, with many revolutions",
@@ -128,11 +128,6 @@ ClaimTopic low_thrust_claims() {
        .judge = order_pays_more,
        .condition = "coordinates in which a circular orbit is a straight line",
        .evidence = evidence}};
-  return {.claims = claims,
-          .tables = {{"low_thrust",
-                      "low_thrust",
-                      {"problem", "method", "tableau", "stages", "revolutions", "steps_per_revolution"},
-                      {"status", "branch"}}}};
 }
 
 }  // namespace dmocbench

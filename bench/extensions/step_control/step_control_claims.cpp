@@ -98,11 +98,12 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
   const Selection passes = tables.rows("step_control_slopes");
   const auto by = [](const Selection& rows, const char* rule) { return rows.where("rule", rule); };
   const ColumnNames key{"eccentricity", "sigma", "stages"};
-  const ColumnNames key_on_grids{"eccentricity", "sigma", "stages", "steps_per_period", "intervals"};
-  const Quotients state = quotients(by(forward, "imposed"), by(forward, "variational"), key_on_grids, "state_error");
-  const Quotients cost = quotients(by(optimal, "imposed"), by(optimal, "variational"), key_on_grids, "cost_error");
+  const ColumnNames on_periods{"eccentricity", "sigma", "stages", "steps_per_period"};
+  const ColumnNames on_grids{"eccentricity", "sigma", "stages", "intervals"};
+  const Quotients state = quotients(by(forward, "imposed"), by(forward, "variational"), on_periods, "state_error");
+  const Quotients cost = quotients(by(optimal, "imposed"), by(optimal, "variational"), on_grids, "cost_error");
   const Quotients operations = quotients(by(passes, "variational"), by(passes, "imposed"), key, "operations");
-  const Quotients variables = quotients(by(optimal, "variational"), by(optimal, "imposed"), key_on_grids, "variables");
+  const Quotients variables = quotients(by(optimal, "variational"), by(optimal, "imposed"), on_grids, "variables");
   require(
       state.count >= 3 && cost.count >= 3 && operations.count >= 1,
       "step_control.csv has {} and step_control_transfer.csv {} solved pairs of imposed and variational steps, three "
@@ -119,8 +120,8 @@ Finding accuracy_by_principle(const ResultTables& tables, const std::string& /*p
 
 }  // namespace
 
-ClaimTopic step_control_claims() {
-  const Claims claims{
+Claims step_control_claims() {
+  return {
       {.id = "variational_steps_symplectic",
        .problems = simulated,
        .where = in_outlook,
@@ -152,18 +153,6 @@ ClaimTopic step_control_claims() {
            "of the start",
        .evidence = {"step_control.csv", "step_control_slopes.csv", "step_control_transfer.csv",
                     "figures/step_control.svg"}}};
-  const auto key = [](const char* further = nullptr) {
-    ColumnNames columns{"problem", "eccentricity", "rule", "sigma", "stages"};
-    if (further != nullptr) columns.emplace_back(further);
-    return columns;
-  };
-  return {.claims = claims,
-          .tables = {{"step_control_symplecticity", "step_control", key()},
-                     {"step_control_momentum", "step_control", key()},
-                     {"step_control_energy_behaviour", "step_control", key()},
-                     {"step_control", "step_control", key("steps_per_period"), {"status"}},
-                     {"step_control_transfer", "step_control", key("intervals"), {"status"}},
-                     {"step_control_slopes", "step_control", key()}}};
 }
 
 }  // namespace dmocbench

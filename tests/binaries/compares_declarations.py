@@ -1,0 +1,26 @@
+"""Compares what the metadata in a folder declare of its tables with a file; with --accept, writes that file."""
+import json
+import pathlib
+import sys
+
+folder, file, accept = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), "--accept" in sys.argv[3:]
+
+
+def declaration(schema):
+    """Key and types, without what is said for readers."""
+    types = {name: of.get("type", "enum") for name, of in schema["properties"].items()}
+    return {"key": schema["primaryKey"],
+            "columns": {name: of if isinstance(of, str) else "|".join(of) for name, of in types.items()}}
+
+
+found = {}
+for metadata in sorted(folder.glob("*.json")):
+    for table, told in json.loads(metadata.read_text()).get("tables", {}).items():
+        found[table.removesuffix(".csv")] = declaration(told["schema"])
+if accept:
+    file.write_text("{\n" + ",\n".join(f"{json.dumps(table)}: {json.dumps(found[table])}" for table in sorted(found)) + "\n}\n")
+declared = json.loads(file.read_text())
+for table in sorted(found.keys() | declared.keys()):
+    if found.get(table) != declared.get(table):
+        print(f"{table}: declared {declared.get(table)}, written {found.get(table)}")
+sys.exit(found != declared)
