@@ -79,6 +79,7 @@ Finding interior_point_beside_ipopt(const ResultTables& tables, const std::strin
 
 }  // namespace
 
+/// Replay, and what rounding costs.
 Claims accuracy_claims() {
   return {{.id = "replay_beside_tangent",
            .where = "section 1",

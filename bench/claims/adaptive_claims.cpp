@@ -136,6 +136,7 @@ Finding more_variables_by_collocation(const ResultTables& tables, const std::str
 
 }  // namespace
 
+/// Grids that an estimate of the error chooses.
 Claims adaptive_claims() {
   return {
       {.id = "error_estimate_is_effective",

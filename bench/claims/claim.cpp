@@ -8,13 +8,10 @@
 
 namespace dmocbench {
 
-namespace {
+/// The topics of the core, chapter by chapter: bench/CMakeLists.txt names them.
+std::vector<std::vector<Claims (*)()>> topics_by_chapter();
 
-Claims joined(std::initializer_list<Claims> topics) {
-  Claims all;
-  for (const Claims& claims : topics) all.insert(all.end(), claims.begin(), claims.end());
-  return all;
-}
+namespace {
 
 /// Chapters that `add_claims` has added.
 std::vector<Claims>& added_chapters() {
@@ -24,18 +21,11 @@ std::vector<Claims>& added_chapters() {
 
 /// The claims in the order of the table: chapter by chapter, in each of them problem by problem.
 std::vector<Claims> chapters() {
-  std::vector<Claims> all{joined({solution_claims(), grid_claims(), accuracy_claims(), iteration_claims(),
-                                  cost_claims(), derivative_claims()}),
-                          joined({energy_claims(), coercivity_claims()}),
-                          joined({consistency_order_claims(), order_theorem_claims()}),
-                          order_claims(),
-                          joined({minima_claims(), cold_start_claims(), warm_start_claims()}),
-                          shooting_claims(),
-                          joined({stage_control_claims(), coincidence_claims(), flow_claims(), modified_energy_claims(),
-                                  rotation_claims()}),
-                          joined({optimal_momentum_claims(), smoothness_claims()}),
-                          adaptive_claims(),
-                          library_claims()};
+  std::vector<Claims> all;
+  for (const auto& topics : topics_by_chapter()) {
+    Claims& chapter = all.emplace_back();
+    for (const auto& claims_of_topic : topics) std::ranges::move(claims_of_topic(), std::back_inserter(chapter));
+  }
   all.insert(all.end(), added_chapters().begin(), added_chapters().end());
   return all;
 }

@@ -134,33 +134,6 @@ using Claims = std::vector<Claim>;
 /// extensions and for experiments of your own: call it in `main`, before a program runs.
 void add_claims(Claims claims);
 
-// The claims of the core by topic, each topic's predicates and the numbers that decide in one file.
-
-[[nodiscard]] Claims solution_claims();           ///< momentum-force consistency, methods with equal solutions
-[[nodiscard]] Claims coincidence_claims();        ///< where tangent-space collocation has the solutions of DMOC
-[[nodiscard]] Claims grid_claims();               ///< section 4.2: convergence, cost and variables over the grids
-[[nodiscard]] Claims order_claims();              ///< orders of state and costate for every tableau
-[[nodiscard]] Claims stage_control_claims();      ///< and of the controls of the stages
-[[nodiscard]] Claims accuracy_claims();           ///< replay, and what rounding costs
-[[nodiscard]] Claims iteration_claims();          ///< minor iterations
-[[nodiscard]] Claims cost_claims();               ///< variables, time, also at equal accuracy
-[[nodiscard]] Claims derivative_claims();         ///< automatic differentiation
-[[nodiscard]] Claims consistency_order_claims();  ///< the order of consistency
-[[nodiscard]] Claims order_theorem_claims();      ///< the theorem on it, and the exact Legendre transforms
-[[nodiscard]] Claims energy_claims();             ///< energies against work along optimal motions
-[[nodiscard]] Claims modified_energy_claims();    ///< the modified energy without forces
-[[nodiscard]] Claims optimal_momentum_claims();   ///< momentum along optimal motions
-[[nodiscard]] Claims rotation_claims();           ///< momentum about three axes
-[[nodiscard]] Claims coercivity_claims();         ///< the assumption of coercivity
-[[nodiscard]] Claims smoothness_claims();         ///< optima that are not smooth, free final states
-[[nodiscard]] Claims flow_claims();               ///< invariants of the discrete flow
-[[nodiscard]] Claims minima_claims();             ///< local minima
-[[nodiscard]] Claims cold_start_claims();         ///< starts at the guess and near it
-[[nodiscard]] Claims shooting_claims();           ///< direct shooting beside DMOC
-[[nodiscard]] Claims warm_start_claims();         ///< sequences that start from each other's answers
-[[nodiscard]] Claims adaptive_claims();           ///< grids that an estimate of the error chooses
-[[nodiscard]] Claims library_claims();            ///< the whole library
-
 // Shared by the predicates.
 
 /// A fitted order may miss its order by this much.

@@ -64,6 +64,7 @@ ShareCount count_of_cold_starts(const Row& row, const char* column) {
   return {.hits = static_cast<std::size_t>(hits), .trials = static_cast<std::size_t>(starts)};
 }
 
+/// Starts at the guess and near it.
 Claims cold_start_claims() {
   return {{.id = "cold_starts_confirmed_as_often",
            .where = "section 4.1, SQP Method",

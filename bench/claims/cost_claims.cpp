@@ -111,6 +111,7 @@ Predicate saves_at_equal(const char* quantity) {
 
 }  // namespace
 
+/// Variables, operations, time, also at equal accuracy.
 Claims cost_claims() {
   const std::vector<std::string> advantage{"structure_advantage_ratios.csv", "figures/{}_structure_advantage.svg"};
   const std::vector<std::string> accuracy{"convergence_equal_accuracy.csv", "figures/{}_work_precision.svg"};

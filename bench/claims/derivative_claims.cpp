@@ -94,6 +94,7 @@ Finding adolc_faster(const ResultTables& tables, const std::string& problem) {
 
 }  // namespace
 
+/// Automatic differentiation.
 Claims derivative_claims() {
   const char* const section = "section 4.1, Automatic Differentiation";
   const std::vector<std::string> evidence{"derivatives.csv", "figures/{}_derivatives.svg"};

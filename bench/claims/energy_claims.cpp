@@ -77,6 +77,7 @@ Finding balances_modified_work(const ResultTables& tables, const std::string& pr
 
 }  // namespace
 
+/// Energies against work along optimal motions.
 Claims energy_claims() {
   return {
       {.id = "energy_against_work",
@@ -97,6 +98,7 @@ Claims energy_claims() {
        .evidence = {"structure_energy_work_slopes.csv", "figures/{}_energy_work.svg"}}};
 }
 
+/// The modified energy without forces.
 Claims modified_energy_claims() {
   return {{.id = "modified_energy_by_orders",
            .problems = simulated,

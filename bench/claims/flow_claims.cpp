@@ -132,6 +132,7 @@ Finding modified_energy(const ResultTables& tables, const std::string& /*problem
 
 }  // namespace
 
+/// The order of consistency.
 Claims consistency_order_claims() {
   const char* const cause =
       "at fixed end points the derivative of h^(r+1) e((q_0 + q_1)/2, (q_1 - q_0)/h) by q_1 loses one power: the exact "
@@ -159,6 +160,7 @@ Claims consistency_order_claims() {
            .evidence = evidence}};
 }
 
+/// Invariants of the discrete flow.
 Claims flow_claims() {
   return {{.id = "forced_noether_theorem",
            .problems = simulated,

@@ -172,6 +172,7 @@ Finding reference_step(const ResultTables& tables, const std::string& problem) {
 
 }  // namespace
 
+/// Section 4.2: convergence, cost and variables over the grids.
 Claims grid_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const Wording figure{"fig:kepler_error", "fig:twolink_error"};

@@ -149,6 +149,7 @@ Finding minor_iterations_with_active_bounds(const ResultTables& tables, const st
 
 }  // namespace
 
+/// Minor iterations.
 Claims iteration_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const Wording figure{"fig:kepler_iterations", "fig:twolink_iterations"};

@@ -86,6 +86,7 @@ Predicate dmoc_best_by(const std::string& measure) {
 
 }  // namespace
 
+/// Local minima.
 Claims minima_claims() {
   return {{.id = "local_minima",
            .where = "section 4.1, SQP Method; section 5, Global Minima",
@@ -100,6 +101,7 @@ Claims minima_claims() {
            .evidence = {"local_minima_shares.csv", "figures/{}_local_minima.svg"}}};
 }
 
+/// The whole library.
 Claims library_claims() {
   Claims claims;
   for (const std::string& measure : profile_measures()) {

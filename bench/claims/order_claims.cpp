@@ -149,6 +149,7 @@ Finding order_of_stage_controls(const ResultTables& tables, const std::string& p
 
 }  // namespace
 
+/// Orders of state and costate for every tableau.
 Claims order_claims() {
   return {{.id = "order_of_convergence",
            .where = "section 3.6, main_theorem",
@@ -166,6 +167,7 @@ Claims order_claims() {
            .evidence = {"equivalence.csv", "convergence_indirect_slopes.csv", "figures/{}_adjoint.svg"}}};
 }
 
+/// And of the controls of the stages.
 Claims stage_control_claims() {
   // Not the orbit: its costate is nearly constant, and so the low-order terms of its stages are too small to be seen.
   return {{.id = "order_of_stage_controls",

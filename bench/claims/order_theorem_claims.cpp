@@ -54,6 +54,7 @@ Predicate all_hold_with_one_order(std::vector<Statement> statements) {
 
 }  // namespace
 
+/// The theorem on it, and the exact Legendre transforms.
 Claims order_theorem_claims() {
   const std::vector<std::string> evidence{"consistency_order_slopes.csv", "figures/{}_consistency_order.svg"};
   const std::vector<const char*> transforms{"left_legendre", "right_legendre"};

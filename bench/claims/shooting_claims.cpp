@@ -155,6 +155,7 @@ Predicate costs_more(const char* method) {
 
 }  // namespace
 
+/// Direct shooting beside DMOC.
 Claims shooting_claims() {
   const std::vector<std::string> programs{"shooting.csv", "figures/{}_shooting.svg"};
   const std::vector<std::string> cold{"cold_start_shooting_shares.csv", "figures/{}_shooting.svg"};

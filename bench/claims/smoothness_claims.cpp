@@ -118,6 +118,7 @@ Finding not_coercive(const ResultTables& tables, const std::string& /*problem*/)
 
 }  // namespace
 
+/// The assumption of coercivity.
 Claims coercivity_claims() {
   return {{.id = "coercive",
            .where = "section 3.5, assumption of coercivity",
@@ -130,6 +131,7 @@ Claims coercivity_claims() {
            .evidence = {"coercivity.csv"}}};
 }
 
+/// Optima that are not smooth, free final states.
 Claims smoothness_claims() {
   const std::vector<std::string> evidence{"smoothness_slopes.csv", "smoothness.csv", "figures/smoothness.svg"};
   return {

@@ -164,6 +164,7 @@ Finding tangent_coincides(const ResultTables& tables, const std::string& problem
 
 }  // namespace
 
+/// Momentum-force consistency, methods with equal solutions.
 Claims solution_claims() {
   const Wording section{"section 4.2.1", "section 4.2.2"};
   const std::vector<std::string> equivalence{"equivalence.csv", "figures/{}_equivalence.svg"};
@@ -189,6 +190,7 @@ Claims solution_claims() {
            .evidence = {"equivalence.csv", "equivalence_slopes.csv", "figures/{}_equivalence.svg"}}};
 }
 
+/// Where tangent-space collocation has the solutions of DMOC.
 Claims coincidence_claims() {
   return {{.id = "tangent_coincides",
            .problems = Problems(1, oscillator),

@@ -55,6 +55,7 @@ Finding balanced_about_every_axis(const ResultTables& tables, const std::string&
 
 }  // namespace
 
+/// Momentum along optimal motions.
 Claims optimal_momentum_claims() {
   return {{.id = "momentum_of_optimal_motions",
            .problems = examples,
@@ -67,6 +68,7 @@ Claims optimal_momentum_claims() {
            .evidence = {"structure_orthogonal_forces.csv"}}};
 }
 
+/// Momentum about three axes.
 Claims rotation_claims() {
   return {{.id = "rotations_about_three_axes",
            .problems = simulated,

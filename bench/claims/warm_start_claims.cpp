@@ -97,6 +97,7 @@ Finding less_time(const ResultTables& tables, const std::string& problem) {
 
 }  // namespace
 
+/// Sequences that start from each other's answers.
 Claims warm_start_claims() {
   return {{.id = "warm_starts_in_fewer_iterations",
            .where = "section 4.1, SQP Method",
