@@ -48,9 +48,7 @@ class Sweep final : public ExperimentOf<Instance> {
   [[nodiscard]] Columns<Instance> columns() const override {
     std::vector<std::string> names;
     for (const std::string& over : over_) names.push_back(over.substr(0, over.find('=')));
-    const auto value = [](std::size_t i) {
-      return [i](const Instance& instance) { return instance.values.at(i); };
-    };
+    const auto value = [](std::size_t i) { return [i](const Instance& instance) { return instance.values.at(i); }; };
     return Columns<Instance>{{"instance", "", "number of the instance", &Instance::number, in_key}} +
            column_group<Instance>(names, "", "its value", value);
   }

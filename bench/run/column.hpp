@@ -160,7 +160,8 @@ template <class Record, class Part, class Function>
   Columns<Record> result;
   for (const Column<Part>& column : columns) {
     const auto read = [part, cell = column.cell](const Record& record) { return cell(std::invoke(part, record)); };
-    result.push_back({column.name, column.unit, column.meaning, FieldReader<Record>(read, column.cell.type()), column.is_key});
+    result.push_back(
+        {column.name, column.unit, column.meaning, FieldReader<Record>(read, column.cell.type()), column.is_key});
   }
   return result;
 }
