@@ -22,22 +22,22 @@ enum class ClaimVerdict : std::uint8_t {
   floor,       ///< only rounding was measured: nothing can be said
   not_yet,     ///< it lacks a table, a row or a number
 };
+/// All verdicts, in the order of tables.
 inline constexpr std::array all_verdicts{ClaimVerdict::reproduced, ClaimVerdict::differs, ClaimVerdict::undecided,
                                          ClaimVerdict::floor, ClaimVerdict::not_yet};
 
 /// "reproduced", "differs", "undecided", "floor" or "not yet".
 [[nodiscard]] std::string_view name_of(ClaimVerdict verdict) noexcept;
 
-/// The paper's problems, and one of ours with a constant mass matrix.
-inline constexpr const char* orbit = "orbital_transfer";
-inline constexpr const char* two_link = "two_link_manipulator";
-inline constexpr const char* oscillator = "forced_oscillator";
+inline constexpr const char* orbit = "orbital_transfer";         ///< the paper's first problem
+inline constexpr const char* two_link = "two_link_manipulator";  ///< the paper's second problem
+inline constexpr const char* oscillator = "forced_oscillator";   ///< a problem with a constant mass matrix
 
 /// The problems that a claim is about, each judged by itself.
 using Problems = std::vector<std::string>;
-inline const Problems of_paper{orbit, two_link};
-inline const Problems only_orbit{orbit};
-inline const Problems only_two_link{two_link};
+inline const Problems of_paper{orbit, two_link};  ///< both problems of the paper
+inline const Problems only_orbit{orbit};          ///< the first one
+inline const Problems only_two_link{two_link};    ///< the second one
 /// In the place of a problem where motions are simulated and nothing is optimal.
 inline const Problems simulated{"simulations"};
 /// The same where several small problems are solved for one statement.
@@ -50,6 +50,7 @@ enum class Whose : std::uint8_t {
   ours,      ///< not the paper: a sharper form of its statement, or one that it does not make
   misprint,  ///< the paper as it is printed, but not as it is meant
 };
+/// All of them, in the order of the summary.
 inline constexpr std::array all_sources{Whose::paper, Whose::remark, Whose::ours, Whose::misprint};
 
 /// "paper", "paper's remark", "ours" or "misprint".
@@ -58,8 +59,11 @@ inline constexpr std::array all_sources{Whose::paper, Whose::remark, Whose::ours
 /// A text of a claim: one for every problem, or one for each of the paper's.
 class Wording {
  public:
+  /// The same text for every problem; implicit, so that claims are written as lists.
   Wording(const char* all) : Wording(all, all) {}
+  /// A text for each of the paper's problems.
   Wording(const char* on_orbit, const char* on_two_link) : on_orbit_(on_orbit), on_two_link_(on_two_link) {}
+  /// The text for a problem.
   [[nodiscard]] std::string on(std::string_view problem) const {
     return problem == two_link ? on_two_link_ : on_orbit_;
   }
@@ -71,15 +75,17 @@ class Wording {
 
 /// The result of judging a claim by the tables.
 struct Finding {
-  std::string measured;  ///< in words and numbers
-  ClaimVerdict verdict = ClaimVerdict::not_yet;
-  std::string reason = {};     ///< what the tables tell of the cause or the condition; behind the claim's own
+  std::string measured;                          ///< in words and numbers
+  ClaimVerdict verdict = ClaimVerdict::not_yet;  ///< what follows
+  std::string reason = {};     ///< the cause or condition that the tables show; written after the claim's own
   std::string sure = "exact";  ///< "exact", or how often the verdict came out among replicates
 
+  /// The same with a reason.
   [[nodiscard]] Finding because(std::string sentence) && {
     reason = std::move(sentence);
     return std::move(*this);
   }
+  /// The same with how often the verdict came out.
   [[nodiscard]] Finding as_sure_as(std::string replicates) && {
     sure = std::move(replicates);
     return std::move(*this);
@@ -91,30 +97,30 @@ using Predicate = std::function<Finding(const ResultTables& tables, const std::s
 
 /// A row of the table of claims before it is judged. To add one, write it into an array of its topic.
 struct Claim {
-  std::string id;  ///< "state_slope"; the written table puts the problem in front
-  Problems problems = of_paper;
-  Wording where;        ///< section or label in the paper; for a statement of ours the place that it sharpens
-  Wording figure = "";  ///< label of the paper's figure that shows it; "" if none does
-  Whose whose = Whose::ours;
-  Wording states;  ///< what is stated, in the words of whoever states it
-  Predicate judge;
-  Wording condition = "";             ///< under which condition it holds; written whatever the verdict
-  Wording cause = "";                 ///< why it differs; written where it does
+  std::string id;                ///< "state_slope"; the written table puts the problem in front
+  Problems problems = of_paper;  ///< the problems that it is about
+  Wording where;                 ///< section or label in the paper; for a statement of ours the place that it sharpens
+  Wording figure = "";           ///< label of the paper's figure that shows it; "" if none does
+  Whose whose = Whose::ours;     ///< who makes the statement
+  Wording states;                ///< what is stated, in the words of the source
+  Predicate judge;               ///< what decides
+  Wording condition = "";        ///< under which condition it holds; written whatever the verdict
+  Wording cause = "";            ///< why it differs; written where it does
   std::vector<std::string> evidence;  ///< files of the results folder; "{}" stands for the problem
   std::string needs = {};  ///< left out where this table is not there: the experiment is not part of every run
 };
 
 /// A row of the written table.
 struct JudgedClaim {
-  std::string id;      ///< "orbital_transfer/state_slope"
-  std::string where;   ///< section or label in the paper
-  std::string figure;  ///< label of the paper's figure
-  Whose whose = Whose::paper;
-  std::string states;    ///< what is stated
-  std::string measured;  ///< what was found, or what is lacking
-  ClaimVerdict verdict = ClaimVerdict::not_yet;
-  std::string reason;               ///< why it differs, or under which condition it holds
-  std::string evidence;             ///< the tables and figures, with "; " between them
+  std::string id;                                ///< "orbital_transfer/state_slope"
+  std::string where;                             ///< section or label in the paper
+  std::string figure;                            ///< label of the paper's figure
+  Whose whose = Whose::paper;                    ///< who makes the statement
+  std::string states;                            ///< what is stated
+  std::string measured;                          ///< what was found, or what is lacking
+  ClaimVerdict verdict = ClaimVerdict::not_yet;  ///< what the predicate found
+  std::string reason;                            ///< why it differs, or under which condition it holds
+  std::string evidence;                          ///< the tables and figures, with "; " between them
   std::string sure;                 ///< "exact", or how often the verdict came out among replicates; "" for "not yet"
   std::vector<ReadRows> rows = {};  ///< by which it was judged
 };
@@ -139,8 +145,9 @@ void add_claims(Claims claims);
 /// A fitted order may miss its order by this much.
 inline constexpr double near_order = 0.3;
 
-/// The verdict on a statement: `reproduced` if it holds, otherwise `differs`.
+/// The verdict itself.
 [[nodiscard]] inline ClaimVerdict verdict_on(ClaimVerdict verdict) { return verdict; }
+/// `reproduced` if a statement holds, otherwise `differs`.
 [[nodiscard]] inline ClaimVerdict verdict_on(bool holds) {
   return holds ? ClaimVerdict::reproduced : ClaimVerdict::differs;
 }

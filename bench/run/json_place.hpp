@@ -23,10 +23,9 @@ class JsonPlace {
   [[nodiscard]] std::vector<std::pair<std::string, JsonPlace>> members() const;
   /// The entries of an array. Throws `Error` if this is none.
   [[nodiscard]] std::vector<JsonPlace> entries() const;
-  /// The value. Each throws `Error` if it is of another type.
-  [[nodiscard]] std::string text() const;
-  [[nodiscard]] double number() const;
-  [[nodiscard]] bool boolean() const;
+  [[nodiscard]] std::string text() const;  ///< the value; throws `Error` if it is not a text
+  [[nodiscard]] double number() const;     ///< the value; throws `Error` if it is not a number
+  [[nodiscard]] bool boolean() const;      ///< the value; throws `Error` if it is neither true nor false
   /// The entries of an array of texts.
   [[nodiscard]] std::vector<std::string> texts() const;
   /// What stands there.

@@ -25,6 +25,7 @@ struct Variant {
   std::size_t index = 0;   ///< its number among those of the experiment
   std::string label = {};  ///< its name in tables and messages; empty where there is nothing to choose
 
+  /// Equal in both.
   friend bool operator==(const Variant&, const Variant&) = default;
 };
 

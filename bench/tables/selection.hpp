@@ -17,6 +17,7 @@
 
 namespace dmocbench {
 
+/// Names of columns, in their order.
 using ColumnNames = std::vector<std::string>;
 
 /// Rows of a table in its order: picked, grouped, joined and summarised.
@@ -29,15 +30,16 @@ class Selection {
   /// All rows; implicit, so that whatever reads rows takes a table as well.
   Selection(const Table& table) : rows_(table.rows().begin(), table.rows().end()) {}
 
-  [[nodiscard]] auto begin() const noexcept { return rows_.begin(); }
-  [[nodiscard]] auto end() const noexcept { return rows_.end(); }
-  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
-  [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
-  /// The first and the last row; a row without fields if there is none.
-  [[nodiscard]] const Row& front() const;
-  [[nodiscard]] const Row& back() const;
+  [[nodiscard]] auto begin() const noexcept { return rows_.begin(); }       ///< the first row
+  [[nodiscard]] auto end() const noexcept { return rows_.end(); }           ///< behind the last row
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }  ///< number of rows
+  [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }       ///< whether there is no row
+  [[nodiscard]] const Row& front() const;  ///< the first row; one without fields if there is none
+  [[nodiscard]] const Row& back() const;   ///< the last row; one without fields if there is none
 
+  /// Adds a row at the end.
   void append(const Row& row) { rows_.emplace_back(row); }
+  /// Adds rows at the end.
   void append(const Selection& rows) { rows_.insert(rows_.end(), rows.begin(), rows.end()); }
 
   /// The rows that a predicate keeps.
@@ -55,6 +57,7 @@ class Selection {
   [[nodiscard]] Selection with_number(const std::string& column) const;
   /// The rows that were solved on the wanted branch.
   [[nodiscard]] Selection usable() const;
+  /// Whether all rows were.
   [[nodiscard]] bool are_usable() const { return usable().size() == size(); }
   /// The rows with a number in a column, by that number.
   [[nodiscard]] Selection sorted_by(const std::string& column) const;
@@ -71,8 +74,9 @@ class Selection {
     for (const Row& row : rows_) largest = std::max(largest, value(row));
     return largest;
   }
-  /// The largest and the smallest number of a column; -∞ and ∞ without rows. Throws `Error` if a row has none.
+  /// The largest number of a column; -∞ without rows. Throws `Error` if a row has none.
   [[nodiscard]] double max(const std::string& column) const;
+  /// The smallest number of a column; ∞ without rows. Throws `Error` if a row has none.
   [[nodiscard]] double min(const std::string& column) const;
 
   /// The rows in words, with a separator between them.
