@@ -8,7 +8,6 @@ eval require("derivatives",\
 
 # One style per back end; filled and joined where solved, open and alone where not.
 names = "tape adolc finite_differences forward_differences"
-sky = "#56B4E9"
 colour(i) = i == 1 ? blue : i == 2 ? vermilion : i == 3 ? green : i == 4 ? purple : i == 5 ? orange : sky
 filled(i) = word("7 5 9 11 13 15", i) + 0
 open(i) = filled(i) - 1

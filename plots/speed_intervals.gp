@@ -9,7 +9,6 @@ eval require("speed", "way,quantity,problem,links,method,stages,instruction_set,
 operations_per_second,roof_share")
 eval require("speed_machine", "instruction_set,limit,rate")
 
-orange = "#E69F00"; sky = "#56B4E9"
 programs = distinct("speed", "instruction_set", "way=program", "nanoseconds")
 # The set of the program's tapes, and otherwise the last of those that ran.
 sets = strlen(programs) > 0 ? programs : distinct("speed", "instruction_set", "way=tape", "nanoseconds")

@@ -123,17 +123,21 @@ curve_label(name, where) = method_label(entry(where, "method"))\
 # --- Style -----------------------------------------------------------------------------------------------------------
 # Colours of Okabe and Ito. DMOC and Hamiltonian collocation often coincide: filled discs on a broad line below,
 # large open circles on a dashed line above, so that both stay visible.
-blue = "#0072B2"; vermilion = "#D55E00"; green = "#009E73"; purple = "#CC79A7"; orange = "#E69F00"; grey = "#707070"
+blue = "#0072B2"; vermilion = "#D55E00"; green = "#009E73"; purple = "#CC79A7"; orange = "#E69F00"; sky = "#56B4E9"
+black = "#202020"; grey = "#707070"
 set linetype 1 linecolor rgb blue linewidth 3.0 dashtype 1 pointtype 7 pointsize 0.6
 set linetype 2 linecolor rgb vermilion linewidth 1.5 dashtype (6, 5) pointtype 6 pointsize 1.15
 set linetype 3 linecolor rgb green linewidth 1.5 dashtype (10, 4, 2, 4) pointtype 9 pointsize 0.85
 set linetype 4 linecolor rgb purple linewidth 1.5 dashtype (2, 3) pointtype 5 pointsize 0.7
 set linetype 5 linecolor rgb orange linewidth 1.5 dashtype 1 pointtype 13 pointsize 0.8
+set linetype 6 linecolor rgb sky linewidth 1.5 dashtype 1 pointtype 11 pointsize 0.8
+set linetype 7 linecolor rgb black linewidth 1.5 dashtype (4, 3) pointtype 4 pointsize 0.8
 set linetype 8 linecolor rgb grey linewidth 1.2 dashtype (8, 5)
 set linetype 9 linecolor rgb grey linewidth 1.2 dashtype (2, 4)
-# Colours and points of the line types 1 to 5, for figures that draw methods otherwise.
-method_colour(method) = word(blue." ".vermilion." ".green." ".purple." ".orange, method_style(method))
-method_points(method) = int(word("7 6 9 5 13", method_style(method)))
+# Families have the line types 1 to 7; their colours and points for figures that draw methods otherwise.
+style_colours = blue." ".vermilion." ".green." ".purple." ".orange." ".sky." ".black
+method_colour(method) = word(style_colours, method_style(method))
+method_points(method) = int(word("7 6 9 5 13 11 4", method_style(method)))
 
 set border 3 linecolor rgb "#404040" linewidth 1
 set tics nomirror out scale 0.8, 0.4 textcolor rgb "#202020"

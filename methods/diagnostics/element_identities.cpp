@@ -1,9 +1,7 @@
 #include "methods/diagnostics/element_identities.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -47,7 +45,7 @@ class ExactMotion {
  public:
   struct Point {
     NumberVector q, v, p, u;
-    Number running_cost;
+    Number running_cost = 0;
   };
 
   explicit ExactMotion(const TracedProblem& problem) {
@@ -156,44 +154,46 @@ std::vector<std::string> broken_counts(const TracedInterval& interval, const Ele
   return broken;
 }
 
-/// The largest error of q, p and cost after a step of length h; nothing if the step is too long to be solved.
-std::optional<Number> error_of_step(const IdentityMap& map, const Schedule& cost, const ExactMotion& motion,
-                                    const Tableau& tableau, Number h) {
-  Number largest = 0;
+/// The largest error of q, p and cost after a step of length h; not a number if the step is too long to be solved.
+Number error_of_step(const IdentityMap& map, const Schedule& cost, const ExactMotion& motion, const Tableau& tableau,
+                     Number h) {
+  NumberVector largest = NumberVector::Zero(2 * degrees + 1);
   for (const Number t : {Number(0.1), Number(0.9), Number(1.7)}) {
     const ExactMotion::Point left = motion.at(t);
     const ExactMotion::Point right = motion.at(t + h);
+    NumberVector misses(largest.size());
     try {
       const auto step = map.advance(left.q, left.p, left.v, motion.controls(tableau, t, h), h, t);
-      const Number of_cost = OutputBlocks<Number>(cost, step.inputs).take(1)(0) - motion.cost(t, h);
-      largest = std::max({largest, (step.q - right.q).lpNorm<Eigen::Infinity>(),
-                          (step.p - right.p).lpNorm<Eigen::Infinity>(), std::abs(of_cost)});
+      misses << step.q - right.q, step.p - right.p,
+          OutputBlocks<Number>(cost, step.inputs).take(1)(0) - motion.cost(t, h);
     } catch (const Error&) {
-      return std::nullopt;
+      return std::numeric_limits<Number>::quiet_NaN();
     }
+    if (!misses.allFinite()) return std::numeric_limits<Number>::quiet_NaN();
+    largest = largest.cwiseMax(misses.cwiseAbs());
   }
-  return largest;
+  return largest.maxCoeff();
 }
 
 std::vector<std::string> broken_consistency(const IdentityMap& map, const Schedule& cost, const ExactMotion& motion,
                                             const Tableau& tableau, int order) {
   constexpr Number rounding = 1e-14;
   constexpr Number margin = 0.35;  // of a measured order
-  std::optional<Number> coarse;
-  std::optional<Number> measured;
+  Number error = std::numeric_limits<Number>::quiet_NaN();
+  Number measured = error;  // by the last two steps
   Number h = 0.4;
   for (int halvings = 0; halvings <= 5; ++halvings, h /= 2) {
-    const std::optional<Number> fine = error_of_step(map, cost, motion, tableau, h);
-    if (fine && *fine < rounding) return {};
-    if (fine && coarse) measured = std::log2(*coarse / *fine);
-    coarse = fine;
+    const Number finer = error_of_step(map, cost, motion, tableau, h);
+    if (finer < rounding) return {};
+    measured = std::log2(error / finer);
+    error = finer;
   }
-  if (!measured) return {"consistency: the equations of an interval cannot be solved for its right node"};
-  if (*measured > Number(order + 1) - margin) return {};
+  if (std::isnan(measured)) return {"consistency: the equations of an interval cannot be solved for its right node"};
+  if (measured > Number(order + 1) - margin) return {};
   return {
       fmt::format("consistency: the error of a step of length h behaves like h^{:.2f}, not like h^{}; it is {:.1e} "
                   "with h = 0.0125",
-                  static_cast<double>(*measured), order + 1, static_cast<double>(*coarse))};
+                  static_cast<double>(measured), order + 1, static_cast<double>(error))};
 }
 
 std::vector<std::string> broken_momenta(const TracedInterval& interval, const TracedProblem& problem, NodeState state) {

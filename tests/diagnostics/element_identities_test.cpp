@@ -93,6 +93,11 @@ TEST_P(SpoiltElement, IsToldOfAStageAtAnotherTime) {
               [](IntervalTrace& trace, const IntervalUnknowns& unknowns) { trace.stages[1].t += 0.1 * unknowns.h; });
 }
 
+TEST_P(SpoiltElement, IsToldOfEquationsWithoutASolution) {
+  expect_only("consistency: the equations of an interval cannot be solved",
+              [](IntervalTrace& trace, const IntervalUnknowns&) { trace.stage_equations[1] = Expression(1.0); });
+}
+
 TEST_P(SpoiltElement, IsToldOfAnEquationOfLowerOrder) {
   expect_only("consistency: ", [](IntervalTrace& trace, const IntervalUnknowns& unknowns) {
     trace.stage_equations[0] += 0.01 * unknowns.h;

@@ -19,6 +19,7 @@ TEST(Families, HaveNamesLabelsAndStylesOfTheirOwn) {
     EXPECT_TRUE(labels.insert(family.label).second) << family.label;
     EXPECT_TRUE(styles.insert(family.style).second) << family.style;
     EXPECT_GE(family.style, 1) << family.name;
+    EXPECT_LE(family.style, 7) << family.name << ": plots/style.gp defines no more";
   }
 }
 
