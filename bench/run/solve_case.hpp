@@ -24,8 +24,7 @@ namespace dmocbench {
 struct Variant {
   std::size_t index = 0;   ///< its number among those of the experiment
   std::string label = {};  ///< its name in tables and messages; empty where there is nothing to choose
-
-  /// Equal in both.
+  /// Equal in number and name.
   friend bool operator==(const Variant&, const Variant&) = default;
 };
 

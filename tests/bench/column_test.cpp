@@ -38,12 +38,12 @@ TEST(Column, HeaderAndFieldsComeFromOneDeclaration) {
 
 TEST(Column, OfNothingIsAnEmptyField) { EXPECT_EQ(row_of(columns, Cart{}).csv(names_of(columns)), ",0,0,,,\n"); }
 
-TEST(Column, ReadsAnObjectWhenTheRowIsMade) {
-  std::optional<Wheel> wheel;
-  const Columns<Cart> late{{"radius", "m", "of a wheel elsewhere", of(wheel, &Wheel::radius)}};
-  EXPECT_EQ(row_of(late, Cart{}).text("radius"), "");
-  wheel = Wheel{.radius = 2.0, .spokes = {}};
-  EXPECT_EQ(row_of(late, Cart{}).text("radius"), "2");
+TEST(Column, ReadsPartsOfARecord) {
+  const Columns<Wheel> of_wheel{{"radius", "m", "of a wheel", &Wheel::radius}};
+  const Columns<Cart> of_cart = columns_through<Cart>(&Cart::front, of_wheel);
+  EXPECT_EQ(row_of(of_cart, Cart{.name = {}, .front = {2.0, {}}, .spare = {}, .drawn = {}}).text("radius"), "2");
+  EXPECT_EQ(describe(of_cart), describe(of_wheel));
+  EXPECT_EQ(of_cart.front().cell.type().kind, FieldKind::number);
 }
 
 TEST(Column, KnowsWhatItHoldsByTheTypeThatItsGetterReturns) {
