@@ -26,16 +26,14 @@ class BoundFormulas {
   [[nodiscard]] Eigen::Index count() const noexcept { return count_; }
 
   /// z = max(μ/d, ±gradient): multipliers that balance the gradient where they can.
-  template <class Mu, class Point, class Gradient, class Multipliers>
-  void balance(const Mu& mu, const Point& at, const Gradient& gradient, Multipliers&& z) const {
+  void balance(const auto& mu, const auto& at, const auto& gradient, auto&& z) const {
     for (const Stretch& some : stretches_) {
       some.multipliers(z) = (mu / some.distances(at)).max(some.side * some.entries(gradient));
     }
   }
 
   /// The derivative of -Σ ln d along a step.
-  template <class Point, class Step>
-  [[nodiscard]] Number barrier_derivative(const Point& at, const Step& step) const {
+  [[nodiscard]] Number barrier_derivative(const auto& at, const auto& step) const {
     Sums sums;
     for (const Stretch& some : stretches_) {
       Number& sum = sums.of[some.set];
@@ -45,8 +43,7 @@ class BoundFormulas {
   }
 
   /// sigma += z/d, and gradient ∓= μ/d, the derivative of μ times the barrier.
-  template <class Point, class Multipliers, class Gradient>
-  void add_barrier(const Point& at, const Multipliers& z, const Number& mu, Gradient& sigma, Gradient& gradient) const {
+  void add_barrier(const auto& at, const auto& z, const Number& mu, auto& sigma, auto& gradient) const {
     for (const Stretch& some : stretches_) {
       const auto distances = some.distances(at);
       some.entries(sigma) += some.multipliers(z) / distances;
@@ -55,20 +52,17 @@ class BoundFormulas {
   }
 
   /// diagonal += μ/d², so that a step near a bound costs more.
-  template <class Point, class Diagonal>
-  void add_nearness(const Point& at, const Number& mu, Diagonal& diagonal) const {
+  void add_nearness(const auto& at, const Number& mu, auto& diagonal) const {
     for (const Stretch& some : stretches_) some.entries(diagonal) += mu / some.distances(at).square();
   }
 
   /// gradient ∓= z
-  template <class Multipliers, class Gradient>
-  void subtract_multipliers(const Multipliers& z, Gradient&& gradient) const {
+  void subtract_multipliers(const auto& z, auto&& gradient) const {
     for (const Stretch& some : stretches_) some.entries(gradient) -= some.side * some.multipliers(z);
   }
 
   /// The smallest and the largest d z; 0 where there are no bounds.
-  template <class Point, class Multipliers>
-  void find_products(const Point& at, const Multipliers& z, Number& smallest, Number& largest) const {
+  void find_products(const auto& at, const auto& z, Number& smallest, Number& largest) const {
     smallest = Stretch::all(count_ > 0 ? unbounded : 0.0);
     largest = Stretch::all(0.0);
     for (const Stretch& some : stretches_) {
@@ -80,9 +74,7 @@ class BoundFormulas {
   }
 
   /// The step of the multipliers that belongs to one of the entries: dz = μ/d - z ∓ (z/d) dx, (12).
-  template <class Point, class Multipliers, class Step>
-  void set_multiplier_step(const Point& at, const Multipliers& z, const Number& mu, const Step& step,
-                           Multipliers& z_step) const {
+  void set_multiplier_step(const auto& at, const auto& z, const Number& mu, const auto& step, auto& z_step) const {
     for (const Stretch& some : stretches_) {
       const auto of_bounds = some.multipliers(z);
       some.multipliers(z_step) = (mu - some.side * of_bounds * some.entries(step)) / some.distances(at) - of_bounds;
@@ -90,8 +82,7 @@ class BoundFormulas {
   }
 
   /// The longest step, at most 1, that leaves the share 1 - τ of every d, (15a).
-  template <class Point, class Step>
-  [[nodiscard]] Number fraction_to_boundary(const Point& at, const Step& step, const Number& tau) const {
+  [[nodiscard]] Number fraction_to_boundary(const auto& at, const auto& step, const Number& tau) const {
     Number loss = Stretch::all(0.0);
     for (const Stretch& some : stretches_) {
       loss = Stretch::larger(loss, -(some.side * some.entries(step)) / some.distances(at));
@@ -100,9 +91,7 @@ class BoundFormulas {
   }
 
   /// The same for z, (15b).
-  template <class Multipliers>
-  [[nodiscard]] Number multiplier_fraction_to_boundary(const Multipliers& z, const Multipliers& z_step,
-                                                       const Number& tau) const {
+  [[nodiscard]] Number multiplier_fraction_to_boundary(const auto& z, const auto& z_step, const Number& tau) const {
     Number loss = Stretch::all(0.0);
     for (const Stretch& some : stretches_) {
       loss = Stretch::larger(loss, -some.multipliers(z_step) / some.multipliers(z));
@@ -111,9 +100,7 @@ class BoundFormulas {
   }
 
   /// z += length dz, then kept within a factor κ_Σ of μ/d, (14c) and (16). Instances whose length is 0 keep theirs.
-  template <class Point, class Multipliers>
-  void update_multipliers(const Point& at, const Multipliers& z_step, const Number& length, const Number& mu,
-                          Multipliers& z) const {
+  void update_multipliers(const auto& at, const auto& z_step, const Number& length, const Number& mu, auto& z) const {
     const Number least = mu / constants::kappa_sigma;
     const Number most = mu * constants::kappa_sigma;
     for (const Stretch& some : stretches_) {
